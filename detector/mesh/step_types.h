@@ -1,0 +1,71 @@
+// Plain data of one step: features, contacts, view primitives, answers. No arithmetic.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+
+#include "detector/mesh/types.h"
+
+namespace assay::detector {
+
+// Vertex against closed triangle; the two share no mesh vertex.
+struct VertexFace {
+  MovingPoint vertex;
+  std::array<MovingPoint, 3> face;
+};
+
+// Closed segment against closed segment; the two share no mesh vertex.
+struct EdgeEdge {
+  std::array<MovingPoint, 2> a;
+  std::array<MovingPoint, 2> b;
+};
+
+// Whether a caller wants the first contact time or only the answer.
+enum class Want { yes_no, first_time };
+
+// A time in [0,1]: lo == hi when it is a double, otherwise lo and hi are the adjacent doubles with
+// lo < time < hi. The enclosure of a time is unique, so two exact methods must agree in every bit,
+// and the enclosure of the lesser of two times is the lesser enclosure.
+struct TimeEnclosure {
+  double lo = 0, hi = 0;
+  friend auto operator<=>(const TimeEnclosure&, const TimeEnclosure&) = default;
+};
+
+// Triangle indices, a < b.
+struct TrianglePair {
+  std::int32_t a = 0, b = 0;
+  friend auto operator<=>(const TrianglePair&, const TrianglePair&) = default;
+};
+
+enum class FeatureKind : std::uint8_t { vertex_face, edge_edge, piercing, same_vertices };
+
+// Mesh vertices of two features that meet. vertex_face: v, f0 f1 f2. edge_edge: a0 a1, b0 b1.
+// piercing (an edge through a triangle at t=0): e0 e1, f0 f1 f2. Unused places hold -1.
+struct Feature {
+  FeatureKind kind = FeatureKind::vertex_face;
+  std::array<std::int32_t, 5> vertices = {-1, -1, -1, -1, -1};
+};
+
+// A triangle pair in contact, with the first time of that contact and a feature pair that has it.
+struct PairContact {
+  TrianglePair pair;
+  TimeEnclosure time;
+  Feature feature;
+};
+
+enum class Answer : std::uint8_t { free, collision, undecided, error };
+
+// Sign of a triangle over the whole step, seen from the view primitive (L1, L2).
+enum class ViewSign : std::int8_t { negative = -1, zero = 0, positive = 1 };
+
+// A point (q0 and q1 equal at both ends) or a segment; each end moves linearly over the step.
+struct ViewPrimitive {
+  MovingPoint q0, q1;
+  bool is_point() const { return q0.t0 == q1.t0 && q0.t1 == q1.t1; }
+};
+
+// Asked now and then during long work; true means: stop, and answer `undecided`. May be empty.
+using StopFunction = std::function<bool()>;
+
+}  // namespace assay::detector

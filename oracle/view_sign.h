@@ -1,0 +1,24 @@
+// Exact view signs of triangles over a step, for view-point and view-line (THEORY: L1, L2).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+
+namespace assay::oracle {
+
+// positive: (x - n(x)).N > 0 at every point x of the triangle and every t in [0,1]; negative: < 0;
+// zero: neither. The primitive may be a point, a fixed segment, or have ends that move apart
+// (the middle piece is then a quintic).
+detector::ViewSign view_sign(const std::array<detector::MovingPoint, 3>& triangle,
+                             const detector::ViewPrimitive& primitive);
+
+// primitives: one for all triangles, or one for each.
+std::vector<detector::ViewSign> view_signs(const detector::PositionsView& x_t0,
+                                           const detector::PositionsView& x_t1,
+                                           const detector::TrianglesView& triangles,
+                                           std::span<const detector::ViewPrimitive> primitives,
+                                           int jobs);
+
+}  // namespace assay::oracle
