@@ -1,0 +1,57 @@
+// The production detector: view-based continuous self-collision detection of a deforming mesh.
+//
+//   auto detector = Detector::create(triangles, positions, {});   // Expected<Detector>
+//   StepResult result = detector.value().step(x_t0, x_t1);
+//   if (result.answer == Answer::collision) use(result.first, result.pairs);
+//
+// Every vertex moves linearly from x_t0 to x_t1 over t in [0,1]. Answers are those of exact
+// arithmetic on the doubles given. Touching counts; triangles that share a vertex or an edge are in
+// contact when they meet beyond what they share. The primitive may be anywhere, inside or not.
+//
+// State is per triangle, clean or dirty (L8, L9), and belongs to exact positions: evaluate() leaves
+// it alone, commit() advances it to the end of the step evaluated last, step() is both. A step that
+// starts elsewhere than the committed positions is treated as a new start. Each call completes or
+// changes nothing. One instance a thread; no globals.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "detector/options.h"
+
+namespace assay::detector {
+
+class Detector {
+ public:
+  // Errors: those of check_triangles and check_positions. `positions` shape the tree and the view
+  // anchors (preprocessing, O(M log M)); any positions of the mesh will do, the first frame is best.
+  static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
+                                   const Options& options);
+  Detector(Detector&&) noexcept;
+  Detector& operator=(Detector&&) noexcept;
+  ~Detector();
+
+  // primitives: none (the detector's own), one for all components, or one for each component.
+  // `stop` ends long work with the answer undecided.
+  StepResult evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
+                      std::span<const ViewPrimitive> primitives = {}, const StopFunction& stop = {});
+
+  // Advances the state to the end of the last evaluated step; nothing_to_commit without one.
+  std::optional<Problem> commit();
+
+  // evaluate, and commit where there is an answer.
+  StepResult step(const PositionsView& x_t0, const PositionsView& x_t1,
+                  std::span<const ViewPrimitive> primitives = {}, const StopFunction& stop = {});
+
+  // Forgets the state: the next step is a new start.
+  void reset();
+
+  const Topology& topology() const;
+
+ private:
+  struct Parts;
+  explicit Detector(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace assay::detector

@@ -1,0 +1,66 @@
+// Error bound, u = 2^-53, M_k the largest |coordinate k| of the three differences: as for one
+// coefficient of the coplanarity cubic (contact_filter.cpp) without its middle terms: minors 8u,
+// each of three terms 8u + 2u + 2u = 12u, sums 10u: 46u MxMyMz.
+#include "detector/exact/orientation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "detector/exact/integer.h"
+
+namespace assay::detector {
+namespace {
+
+constexpr double orientation_error = 48 * 0x1p-53;
+constexpr double least_magnitude = 0x1p-300, greatest_magnitude = 0x1p300;
+
+int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const std::array<double, 12> values = {a[0], a[1], a[2], b[0], b[1], b[2],
+                                         c[0], c[1], c[2], d[0], d[1], d[2]};
+  std::array<Integer, 12> x;
+  to_common_integers(values, x);
+  std::array<std::array<Integer, 3>, 3> u;
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t k = 0; k < 3; ++k) u[j][k] = x[3 * (j + 1) + k] - x[k];
+  }
+  const Integer det = u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) +
+                      u[0][1] * (u[1][2] * u[2][0] - u[1][0] * u[2][2]) +
+                      u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
+  return det.sign();
+}
+
+}  // namespace
+
+int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const std::array<const Point*, 3> ends = {&b, &c, &d};
+  double u[3][3], magnitude[3] = {0, 0, 0};
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      u[j][k] = (*ends[j])[k] - a[k];
+      magnitude[k] = std::max(magnitude[k], std::abs(u[j][k]));
+    }
+  }
+  const bool in_range = std::all_of(magnitude, magnitude + 3, [](double m) {
+    return m > least_magnitude && m < greatest_magnitude;
+  });
+  if (in_range) {
+    const double det = u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) +
+                       u[0][1] * (u[1][2] * u[2][0] - u[1][0] * u[2][2]) +
+                       u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
+    const double bound = orientation_error * (magnitude[0] * magnitude[1] * magnitude[2]);
+    if (det > bound) return 1;
+    if (det < -bound) return -1;
+  }
+  return exact_orientation(a, b, c, d);
+}
+
+bool segment_pierces_triangle(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
+  const int side0 = orientation(face[0], face[1], face[2], e0);
+  if (side0 == 0) return false;
+  if (orientation(face[0], face[1], face[2], e1) != -side0) return false;
+  const int turn = orientation(e0, e1, face[0], face[1]);
+  return turn != 0 && orientation(e0, e1, face[1], face[2]) == turn &&
+         orientation(e0, e1, face[2], face[0]) == turn;
+}
+
+}  // namespace assay::detector

@@ -1,0 +1,150 @@
+#include "detector/exact/polynomial.h"
+
+#include <cassert>
+
+namespace assay::detector {
+
+Dyadic Dyadic::of(double time) {
+  const Binary b = binary_of(time);
+  if (b.exponent > 0) return {Integer(b.mantissa) << static_cast<unsigned>(b.exponent), 0};
+  return {b.mantissa, b.exponent};
+}
+
+Dyadic Dyadic::midpoint_with(const Dyadic& other) const {
+  const int least = std::min(exponent, other.exponent);
+  return {(mantissa << static_cast<unsigned>(exponent - least)) +
+              (other.mantissa << static_cast<unsigned>(other.exponent - least)),
+          least - 1};
+}
+
+Polynomial Polynomial::constant(const Integer& value) {
+  Polynomial p;
+  p.coefficients_.push_back(value);
+  p.trim();
+  return p;
+}
+
+Polynomial Polynomial::linear(const Integer& value_t0, const Integer& value_t1) {
+  Polynomial p;
+  p.coefficients_.push_back(value_t0);
+  p.coefficients_.push_back(value_t1 - value_t0);
+  p.trim();
+  return p;
+}
+
+void Polynomial::trim() {
+  while (!coefficients_.empty() && coefficients_.back().is_zero()) coefficients_.pop_back();
+}
+
+Polynomial operator+(const Polynomial& a, const Polynomial& b) {
+  const bool a_longer = a.coefficients_.size() >= b.coefficients_.size();
+  Polynomial sum = a_longer ? a : b;
+  const Polynomial& other = a_longer ? b : a;
+  for (std::size_t i = 0; i < other.coefficients_.size(); ++i) {
+    sum.coefficients_[i] += other.coefficients_[i];
+  }
+  sum.trim();
+  return sum;
+}
+
+Polynomial Polynomial::operator-() const {
+  Polynomial negated = *this;
+  for (auto& c : negated.coefficients_) c.backend().negate();
+  return negated;
+}
+
+Polynomial operator-(const Polynomial& a, const Polynomial& b) { return a + (-b); }
+
+Polynomial operator*(const Polynomial& a, const Polynomial& b) {
+  Polynomial product;
+  if (a.is_zero() || b.is_zero()) return product;
+  product.coefficients_.resize(a.coefficients_.size() + b.coefficients_.size() - 1);
+  Integer term;
+  for (std::size_t i = 0; i < a.coefficients_.size(); ++i) {
+    for (std::size_t j = 0; j < b.coefficients_.size(); ++j) {
+      multiply(term, a.coefficients_[i], b.coefficients_[j]);
+      product.coefficients_[i + j] += term;
+    }
+  }
+  return product;
+}
+
+Polynomial Polynomial::derivative() const {
+  Polynomial d;
+  for (std::size_t i = 1; i < coefficients_.size(); ++i) {
+    d.coefficients_.push_back(coefficients_[i] * static_cast<unsigned>(i));
+  }
+  return d;
+}
+
+int Polynomial::sign_at(const Dyadic& time) const {
+  if (is_zero()) return 0;
+  assert(time.exponent <= 0);
+  // Horner on sum c_i m^i 2^(e i), multiplied by 2^(-e degree) to stay in integers.
+  const auto shift = static_cast<unsigned>(-time.exponent);
+  Integer value = coefficients_.back();
+  unsigned total = 0;
+  for (std::size_t i = coefficients_.size() - 1; i-- > 0;) {
+    total += shift;
+    value = value * time.mantissa + (coefficients_[i] << total);
+  }
+  return value.sign();
+}
+
+int Polynomial::sign_at_zero() const { return is_zero() ? 0 : coefficients_.front().sign(); }
+
+int Polynomial::sign_at_one() const {
+  Integer sum = 0;
+  for (const auto& c : coefficients_) sum += c;
+  return sum.sign();
+}
+
+Polynomial Polynomial::primitive_part() const {
+  Integer content = 0;
+  for (const auto& c : coefficients_) {
+    content = gcd(content, c);
+    if (content == 1) return *this;
+  }
+  Polynomial p = *this;
+  for (auto& c : p.coefficients_) c /= content;
+  return p;
+}
+
+Polynomial Polynomial::remainder(const Polynomial& divisor) const {
+  assert(!divisor.is_zero());
+  Polynomial rest = *this;
+  const Integer scale = abs(divisor.leading());
+  const bool negative = divisor.leading().sign() < 0;
+  while (rest.degree() >= divisor.degree()) {
+    Integer factor = rest.leading();
+    if (negative) factor.backend().negate();
+    const auto offset = static_cast<std::size_t>(rest.degree() - divisor.degree());
+    for (auto& c : rest.coefficients_) c *= scale;
+    for (std::size_t i = 0; i < divisor.coefficients_.size(); ++i) {
+      rest.coefficients_[offset + i] -= factor * divisor.coefficients_[i];
+    }
+    rest.trim();
+  }
+  return rest;
+}
+
+Polynomial Polynomial::quotient(const Polynomial& divisor) const {
+  assert(!divisor.is_zero());
+  Polynomial rest = *this, result;
+  if (degree() < divisor.degree()) return result;
+  result.coefficients_.resize(static_cast<std::size_t>(degree() - divisor.degree()) + 1);
+  while (rest.degree() >= divisor.degree()) {
+    const Integer factor = rest.leading();
+    const auto offset = static_cast<std::size_t>(rest.degree() - divisor.degree());
+    for (auto& c : rest.coefficients_) c *= divisor.leading();
+    for (auto& c : result.coefficients_) c *= divisor.leading();
+    result.coefficients_[offset] += factor;
+    for (std::size_t i = 0; i < divisor.coefficients_.size(); ++i) {
+      rest.coefficients_[offset + i] -= factor * divisor.coefficients_[i];
+    }
+    rest.trim();
+  }
+  return result.primitive_part();
+}
+
+}  // namespace assay::detector

@@ -1,0 +1,57 @@
+// Polynomials in the step's time with exact integer coefficients, degree at most 9 (the
+// quintic of the view-line times the derivative that a sign at its root needs).
+#pragma once
+
+#include <boost/container/small_vector.hpp>
+
+#include "detector/exact/integer.h"
+
+namespace assay::detector {
+
+// A time m * 2^e, exact.
+struct Dyadic {
+  Integer mantissa = 0;
+  int exponent = 0;  // at most 0 for every time in [0,1]
+  static Dyadic of(double time);
+  Dyadic midpoint_with(const Dyadic& other) const;
+};
+
+class Polynomial {
+ public:
+  Polynomial() = default;  // zero
+  static Polynomial constant(const Integer& value);
+  // value_t0 + t (value_t1 - value_t0)
+  static Polynomial linear(const Integer& value_t0, const Integer& value_t1);
+
+  bool is_zero() const { return coefficients_.empty(); }
+  int degree() const { return static_cast<int>(coefficients_.size()) - 1; }  // -1 for zero
+  const Integer& operator[](int power) const { return coefficients_[static_cast<std::size_t>(power)]; }
+  const Integer& leading() const { return coefficients_.back(); }
+
+  friend Polynomial operator+(const Polynomial& a, const Polynomial& b);
+  friend Polynomial operator-(const Polynomial& a, const Polynomial& b);
+  friend Polynomial operator*(const Polynomial& a, const Polynomial& b);
+  Polynomial operator-() const;
+
+  Polynomial derivative() const;
+  // Sign (-1, 0, 1) at a time; exact.
+  int sign_at(const Dyadic& time) const;
+  // Signs at t = 0 and t = 1 without a Dyadic.
+  int sign_at_zero() const;
+  int sign_at_one() const;
+
+  // Divided by the positive greatest common divisor of the coefficients.
+  Polynomial primitive_part() const;
+  // A positive multiple of the remainder of this by `divisor` (not zero).
+  Polynomial remainder(const Polynomial& divisor) const;
+  // This divided by a polynomial that divides it up to a constant; up to a non-zero constant.
+  Polynomial quotient(const Polynomial& divisor) const;
+
+ private:
+  static constexpr std::size_t inline_coefficients = 6;
+  void trim();
+  // Ascending powers, the last one not zero.
+  boost::container::small_vector<Integer, inline_coefficients> coefficients_;
+};
+
+}  // namespace assay::detector

@@ -1,0 +1,252 @@
+#include "detector/exact/real_root.h"
+
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+#include "detector/exact/sturm.h"
+
+namespace assay::detector {
+namespace {
+
+// Doubles in [0,1] in order are consecutive integers.
+std::uint64_t ordinal(double time) { return std::bit_cast<std::uint64_t>(time); }
+double from_ordinal(std::uint64_t n) { return std::bit_cast<double>(n); }
+bool adjacent(double lo, double hi) { return ordinal(hi) == ordinal(lo) + 1; }
+
+// The factor (t - time) to the power in which f has it, taken out; time must be a root.
+Polynomial deflate(const Polynomial& f, const Dyadic& time) {
+  // 2^-e t - m vanishes at t = m 2^e.
+  const Integer scale = Integer(1) << static_cast<unsigned>(-time.exponent);
+  const Polynomial factor = Polynomial::linear(-time.mantissa, scale - time.mantissa);
+  Polynomial rest = f;
+  while (!rest.is_zero() && rest.sign_at(time) == 0) rest = rest.quotient(factor);
+  return rest;
+}
+
+Polynomial square_free_part(const Polynomial& f) {
+  if (f.degree() <= 1) return f;
+  const SignedRemainders sequence(f, f.derivative());
+  return sequence.last().degree() > 0 ? f.quotient(sequence.last()) : f;
+}
+
+// Where f changes sign between lo and hi, in plain double arithmetic: a guess that saves exact
+// evaluations and decides nothing.
+double approximate_root(const Polynomial& f, double lo, double hi) {
+  constexpr unsigned kept_bits = 900;  // far inside the range of double
+  unsigned most_bits = 0;
+  for (int i = 0; i <= f.degree(); ++i) {
+    if (!f[i].is_zero()) most_bits = std::max(most_bits, static_cast<unsigned>(msb(abs(f[i]))));
+  }
+  const unsigned dropped = most_bits > kept_bits ? most_bits - kept_bits : 0;
+  std::array<double, 8> c{};
+  if (f.degree() >= static_cast<int>(c.size())) return (lo + hi) / 2;
+  for (int i = 0; i <= f.degree(); ++i) {
+    c[static_cast<std::size_t>(i)] = Integer(f[i] >> dropped).convert_to<double>();
+  }
+  const auto value_at = [&](double t) {
+    double value = 0;
+    for (int i = f.degree(); i >= 0; --i) value = value * t + c[static_cast<std::size_t>(i)];
+    return value;
+  };
+  const bool rising = value_at(lo) < value_at(hi);
+  constexpr int halvings = 56;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = lo + (hi - lo) / 2;
+    ((value_at(middle) < 0) == rising ? lo : hi) = middle;
+  }
+  return lo;
+}
+
+// An interval of times whose ends are doubles as long as a double lies inside.
+struct Interval {
+  Dyadic lo, hi;
+  TimeEnclosure doubles;
+  bool inside_gap() const { return adjacent(doubles.lo, doubles.hi); }
+};
+
+class Isolation {
+ public:
+  // f square-free, without roots at the ends of [0,1].
+  explicit Isolation(const Polynomial& f) : f_(f), sequence_(f, f.derivative()) {}
+
+  void run(std::vector<RealRoot>& out) {
+    const Interval unit{Dyadic::of(0), Dyadic::of(1), {0, 1}};
+    isolate(unit, sequence_.variations_at(unit.lo), sequence_.variations_at(unit.hi), out);
+  }
+
+ private:
+  void isolate(const Interval& interval, int variations_lo, int variations_hi,
+               std::vector<RealRoot>& out) {
+    const int count = variations_lo - variations_hi;
+    if (count == 0) return;
+    if (count == 1) {
+      out.push_back(enclose(interval));
+      return;
+    }
+    // count >= 2: split at a time that is no root; a root there is one of the roots to report.
+    Interval left = interval, right = interval;
+    if (interval.inside_gap()) {
+      left.hi = right.lo = interval.lo.midpoint_with(interval.hi);
+    } else {
+      const double middle = from_ordinal((ordinal(interval.doubles.lo) + ordinal(interval.doubles.hi)) / 2);
+      left.hi = right.lo = Dyadic::of(middle);
+      left.doubles.hi = right.doubles.lo = middle;
+    }
+    if (f_.sign_at(left.hi) == 0) {
+      Isolation rest(deflate(f_, left.hi));
+      rest.isolate_in(left, out);
+      out.emplace_back(left.hi);
+      rest.isolate_in(right, out);
+      return;
+    }
+    const int variations_middle = sequence_.variations_at(left.hi);
+    isolate(left, variations_lo, variations_middle, out);
+    isolate(right, variations_middle, variations_hi, out);
+  }
+
+  void isolate_in(const Interval& interval, std::vector<RealRoot>& out) {
+    isolate(interval, sequence_.variations_at(interval.lo), sequence_.variations_at(interval.hi), out);
+  }
+
+  RealRoot enclose(const Interval& interval) const {
+    if (interval.inside_gap()) return {f_, interval.lo, interval.hi, interval.doubles};
+    const double guess = approximate_root(f_, interval.doubles.lo, interval.doubles.hi);
+    const auto doubles =
+        enclose_single_root(f_, interval.doubles.lo, interval.doubles.hi, guess);
+    if (doubles.lo == doubles.hi) return RealRoot(Dyadic::of(doubles.lo));
+    return {f_, Dyadic::of(doubles.lo), Dyadic::of(doubles.hi), doubles};
+  }
+
+  Polynomial f_;
+  SignedRemainders sequence_;
+};
+
+// The double in which a dyadic time lies, or the two around it.
+TimeEnclosure doubles_around(const Dyadic& time) {
+  const Integer scale = Integer(1) << static_cast<unsigned>(-time.exponent);
+  const Polynomial f = Polynomial::linear(-time.mantissa, scale - time.mantissa);
+  if (f.sign_at_zero() == 0) return {0, 0};
+  if (f.sign_at_one() == 0) return {1, 1};
+  return enclose_single_root(f, 0, 1, -1);
+}
+
+// Signs of the Bernstein coefficients of f over [0,1]; the number of sign changes bounds the number
+// of roots in (0,1) from above and has its parity.
+int bernstein_variations(const Polynomial& f) {
+  // Coefficient j, times a positive constant: sum over i <= j of c_i C(n-i, j-i).
+  const int n = f.degree();
+  int variations = 0, previous = 0;
+  for (int j = 0; j <= n; ++j) {
+    Integer sum = 0;
+    // C(n-i, j-i) for i = j, j-1, ..., 0.
+    std::uint64_t binomial = 1;
+    for (int i = j; i >= 0; --i) {
+      sum += f[i] * binomial;
+      binomial = binomial * static_cast<std::uint64_t>(n - i + 1) / static_cast<std::uint64_t>(j - i + 1);
+    }
+    const int sign = sum.sign();
+    if (sign == 0) continue;
+    if (previous != 0 && sign != previous) ++variations;
+    previous = sign;
+  }
+  return variations;
+}
+
+}  // namespace
+
+RealRoot::RealRoot(const Dyadic& exact_time)
+    : is_exact_(true), lo_(exact_time), hi_(exact_time), enclosure_(doubles_around(exact_time)) {}
+
+RealRoot::RealRoot(const Polynomial& f, const Dyadic& lo, const Dyadic& hi, TimeEnclosure doubles)
+    : lo_(lo), hi_(hi), f_(f), enclosure_(doubles) {}
+
+int RealRoot::sign_of(const Polynomial& q) const {
+  if (is_exact_ || q.degree() <= 0) return q.sign_at(lo_);
+  const int at_lo = q.sign_at(lo_);
+  if (q.degree() == 1) {
+    const int at_hi = q.sign_at(hi_);
+    if (at_lo == at_hi) return at_lo;
+    if (at_lo == 0) return at_hi;
+    if (at_hi == 0) return at_lo;
+  } else if (at_lo != 0 && q.sign_at(hi_) == at_lo) {
+    // q keeps its sign unless its derivative changes sign in between.
+    const Polynomial slope = q.derivative();
+    if (q.degree() == 2 && slope.sign_at(lo_) * slope.sign_at(hi_) > 0) return at_lo;
+  }
+  const SignedRemainders sequence(f_, f_.derivative() * q);
+  return sequence.variations_at(lo_) - sequence.variations_at(hi_);
+}
+
+TimeEnclosure enclose_single_root(const Polynomial& f, double lo, double hi, double guess) {
+  const int sign_lo = f.sign_at(Dyadic::of(lo));
+  assert(sign_lo != 0 && f.sign_at(Dyadic::of(hi)) == -sign_lo);
+  // From the guess outward in growing strides of doubles until the root is between, then halve.
+  if (guess > lo && guess < hi) {
+    std::uint64_t stride = 1;
+    double from = guess;
+    const int sign = f.sign_at(Dyadic::of(from));
+    if (sign == 0) return {from, from};
+    const bool upward = sign == sign_lo;
+    while (true) {
+      (upward ? lo : hi) = from;
+      const std::uint64_t room = upward ? ordinal(hi) - ordinal(from) : ordinal(from) - ordinal(lo);
+      if (stride >= room) break;
+      const double next = from_ordinal(upward ? ordinal(from) + stride : ordinal(from) - stride);
+      const int sign_next = f.sign_at(Dyadic::of(next));
+      if (sign_next == 0) return {next, next};
+      if (sign_next != sign) {
+        (upward ? hi : lo) = next;
+        break;
+      }
+      from = next;
+      stride *= 8;
+    }
+  }
+  while (!adjacent(lo, hi)) {
+    const double middle = from_ordinal((ordinal(lo) + ordinal(hi)) / 2);
+    const int sign = f.sign_at(Dyadic::of(middle));
+    if (sign == 0) return {middle, middle};
+    (sign == sign_lo ? lo : hi) = middle;
+  }
+  return {lo, hi};
+}
+
+bool has_root_in_unit_interval(const Polynomial& f) {
+  assert(!f.is_zero());
+  if (f.sign_at_zero() == 0 || f.sign_at_one() == 0) return true;
+  if (f.sign_at_zero() != f.sign_at_one()) return true;
+  if (bernstein_variations(f) == 0) return false;
+  const SignedRemainders sequence(f, f.derivative());
+  return sequence.variations_at(Dyadic::of(0)) != sequence.variations_at(Dyadic::of(1));
+}
+
+std::vector<RealRoot> roots_in_unit_interval(const Polynomial& f) {
+  assert(!f.is_zero());
+  std::vector<RealRoot> roots;
+  const Dyadic zero = Dyadic::of(0), one = Dyadic::of(1);
+  Polynomial inside = f;
+  if (inside.sign_at_zero() == 0) {
+    roots.emplace_back(zero);
+    inside = deflate(inside, zero);
+  }
+  const bool root_at_one = inside.sign_at_one() == 0;
+  if (root_at_one) inside = deflate(inside, one);
+  const int variations = inside.degree() > 0 ? bernstein_variations(inside) : 0;
+  if (variations == 1) {
+    // Exactly one root, and a simple one: no sequence is needed to find it.
+    const auto doubles = enclose_single_root(inside, 0, 1, approximate_root(inside, 0, 1));
+    if (doubles.lo == doubles.hi) {
+      roots.emplace_back(Dyadic::of(doubles.lo));
+    } else {
+      roots.emplace_back(inside, Dyadic::of(doubles.lo), Dyadic::of(doubles.hi), doubles);
+    }
+  } else if (variations > 1) {
+    Isolation(square_free_part(inside)).run(roots);
+  }
+  if (root_at_one) roots.emplace_back(one);
+  return roots;
+}
+
+}  // namespace assay::detector

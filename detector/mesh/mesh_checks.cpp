@@ -1,0 +1,76 @@
+#include "detector/mesh/mesh_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace assay::detector {
+namespace {
+
+std::string at_triangle(Eigen::Index t) { return "triangle " + std::to_string(t); }
+
+struct SortedTriangle {
+  std::array<std::int32_t, 3> vertices;
+  Eigen::Index triangle;
+  friend auto operator<=>(const SortedTriangle&, const SortedTriangle&) = default;
+};
+
+std::optional<Problem> find_same_vertices(const TrianglesView& triangles) {
+  std::vector<SortedTriangle> sorted(static_cast<std::size_t>(triangles.rows()));
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    auto& entry = sorted[static_cast<std::size_t>(t)];
+    entry = {{triangles(t, 0), triangles(t, 1), triangles(t, 2)}, t};
+    std::sort(entry.vertices.begin(), entry.vertices.end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i].vertices == sorted[i - 1].vertices) {
+      return Problem{InputError::same_vertices_twice,
+                     "triangles " + std::to_string(sorted[i - 1].triangle) + " and " +
+                         std::to_string(sorted[i].triangle) + " have the same three vertices"};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count) {
+  if (triangles.rows() == 0) return Problem{InputError::no_triangles, "the mesh has no triangles"};
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const std::int32_t v = triangles(t, corner);
+      if (v < 0 || v >= vertex_count) {
+        return Problem{InputError::index_out_of_range,
+                       at_triangle(t) + " names vertex " + std::to_string(v) + " of " +
+                           std::to_string(vertex_count)};
+      }
+    }
+  }
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const auto a = triangles(t, 0), b = triangles(t, 1), c = triangles(t, 2);
+    if (a == b || b == c || c == a) {
+      return Problem{InputError::repeated_index, at_triangle(t) + " names a vertex twice"};
+    }
+  }
+  return find_same_vertices(triangles);
+}
+
+std::optional<Problem> check_positions(const PositionsView& positions, Eigen::Index vertex_count) {
+  if (positions.rows() != vertex_count) {
+    return Problem{InputError::wrong_frame_size,
+                   "positions have " + std::to_string(positions.rows()) + " rows, the mesh has " +
+                       std::to_string(vertex_count) + " vertices"};
+  }
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!std::isfinite(positions(v, axis))) {
+        return Problem{InputError::non_finite_coordinate,
+                       "vertex " + std::to_string(v) + " has a coordinate that is not finite"};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace assay::detector

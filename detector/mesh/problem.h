@@ -1,0 +1,33 @@
+// Named errors at the detector's border. They are values: nothing in detector/ throws on bad input.
+#pragma once
+
+#include <boost/outcome/basic_result.hpp>
+#include <boost/outcome/policy/terminate.hpp>
+#include <cstdint>
+#include <string>
+
+namespace assay::detector {
+
+enum class InputError : std::uint8_t {
+  no_triangles = 1,           // an empty mesh has no self-collision to detect
+  index_out_of_range = 2,     // a triangle names a vertex that does not exist
+  repeated_index = 3,         // a triangle names one vertex twice
+  same_vertices_twice = 4,    // two triangles have the same three vertices
+  wrong_frame_size = 5,       // positions do not have the mesh's number of vertices
+  non_finite_coordinate = 6,  // NaN or infinity
+  wrong_primitive_count = 7,  // view primitives: none, one, or one for each component
+  nothing_to_commit = 8,      // commit() without a completed evaluate()
+};
+
+const char* name_of(InputError error);
+
+struct Problem {
+  InputError error;
+  std::string message;  // one line, for a user
+};
+
+template <class T>
+using Expected =
+    BOOST_OUTCOME_V2_NAMESPACE::basic_result<T, Problem, BOOST_OUTCOME_V2_NAMESPACE::policy::terminate>;
+
+}  // namespace assay::detector

@@ -1,0 +1,44 @@
+// Adjacency of a triangle mesh: edges, incidences, components, and which components are cycles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "detector/mesh/types.h"
+
+namespace assay::detector {
+
+// Rows of varying length in one array; row i is items[starts[i], starts[i+1]).
+struct Incidence {
+  std::vector<std::int32_t> starts, items;
+  std::span<const std::int32_t> row(std::int32_t i) const {
+    const auto begin = static_cast<std::size_t>(starts[static_cast<std::size_t>(i)]);
+    const auto end = static_cast<std::size_t>(starts[static_cast<std::size_t>(i) + 1]);
+    return {items.data() + begin, end - begin};
+  }
+};
+
+// A component: triangles connected through shared vertices.
+struct Component {
+  std::vector<std::int32_t> triangles;  // ascending
+  std::vector<std::int32_t> vertices;   // ascending
+  // A cycle: every directed edge (u,v) occurs as often as (v,u). Only then do L3 to L5 hold as
+  // they stand; 4 or 6 triangles at an edge are fine when matched.
+  bool is_cycle = false;
+};
+
+struct Topology {
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::array<std::int32_t, 2>> edges;           // (u,v), u < v, ascending
+  std::vector<std::array<std::int32_t, 3>> triangle_edges;  // edge opposite to corner i at place i
+  Incidence vertex_triangles, edge_triangles;
+  std::vector<Component> components;  // by lowest vertex
+  std::vector<std::int32_t> component_of_triangle;
+};
+
+// triangles have passed check_triangles. O(M log M).
+Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count);
+
+}  // namespace assay::detector

@@ -1,0 +1,75 @@
+// What a user of the detector chooses, and what a step reports.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "detector/contact/elementary_test.h"
+#include "detector/mesh/problem.h"
+#include "detector/mesh/step_types.h"
+#include "detector/search/feature_contacts.h"
+#include "detector/search/pair_search.h"
+#include "detector/view/view_test.h"
+
+namespace assay::detector {
+
+enum class Culling : std::uint8_t {
+  view_point,  // each closed component seen from a point
+  view_line,   // each closed component seen from a segment
+  bvh,         // the tree alone
+  none,        // every pair, no boxes: for small meshes and for comparison
+};
+
+enum class Start : std::uint8_t {
+  verified,  // at the first step: static contacts and layers by piece (L9); L5 where it applies
+  clean,     // the caller vouches that nothing is in contact and layers are common
+  unknown,   // everything is dirty
+};
+
+enum class Pairs : std::uint8_t {
+  all,    // the complete pair set of the step (K with closure, L7)
+  first,  // contacts found through K: the first contact time is right, the set is not complete (L6)
+};
+
+struct Options {
+  Culling culling = Culling::view_point;
+  Start start = Start::verified;
+  Pairs pairs = Pairs::all;
+};
+
+// Wall-clock milliseconds; not part of the deterministic result.
+struct StepTimes {
+  double view_test = 0, start = 0, broad_phase = 0, narrow_phase = 0, closure = 0, total = 0;
+};
+
+struct StepCounts {
+  SearchCounts search;
+  NarrowCounts narrow;
+  ViewCounts view;
+  std::uint64_t closure_rounds = 0;
+  std::uint64_t winding_numbers = 0;   // of view primitives (L5)
+  std::uint64_t free_components = 0;   // by L5, without any pair
+};
+
+struct StepResult {
+  Answer answer = Answer::error;
+  std::optional<Problem> problem;  // when answer is error
+  TimeEnclosure first;             // when answer is collision
+  std::vector<PairContact> pairs;  // ascending by pair, each with its first time
+
+  // Sizes of V+, V-, V0 without Vv, and of Vv: disjoint, together all triangles. With culling bvh
+  // and none there are no view sets and all four are 0.
+  std::size_t view_positive = 0, view_negative = 0, view_zero = 0;
+  std::size_t violated = 0;  // triangles touched by a ghost: 0 as long as unclosed means dirty
+  std::size_t dirty = 0;     // triangles that carry doubt into this step
+
+  // Sign of each triangle over the step (zero where none was tested: unclosed components).
+  std::vector<ViewSign> signs;
+  std::vector<ViewPrimitive> primitives;  // one for each component
+
+  StepCounts counts;
+  StepTimes times;
+};
+
+}  // namespace assay::detector

@@ -1,0 +1,22 @@
+// L9: which triangles of a closed component are clean at an instant, without history.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "detector/mesh/topology.h"
+
+namespace assay::detector {
+
+// Marks clean[t] for the triangles of `component`, a cycle. `touched[t]` (indexed by mesh triangle)
+// says that t meets another triangle of the component, beyond what they share, at x.
+//
+// Two untouched triangles are linked when they alone share an edge (oppositely directed, as the
+// component is a cycle); layers continue across links, so one exact winding number serves a whole
+// piece. Clean are the pieces of the common layer: the layer with most untouched triangles (tie:
+// the one that holds the lowest triangle index). "Connected" would not be enough: two tetrahedra,
+// one inside the other, may share an edge (case L9_shared_edge_two_layers).
+void mark_clean_by_layers(const Topology& mesh, const Component& component, const PositionsView& x,
+                          const std::vector<std::uint8_t>& touched, std::vector<std::uint8_t>& clean);
+
+}  // namespace assay::detector

@@ -1,0 +1,24 @@
+// What the detector knows of its mesh between steps (L8).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+#include "detector/mesh/topology.h"
+
+namespace assay::detector {
+
+struct StepState {
+  Positions positions;                // at which the rest holds, in every bit
+  std::vector<std::uint8_t> clean;    // by triangle
+  // By component: its view primitive at these positions, when that is known to have winding number
+  // 1 there. It keeps it while all triangles stay positive, so L5 need not count again.
+  std::vector<std::optional<std::array<Point, 2>>> inside;
+
+  bool holds_at(const PositionsView& x) const {
+    return positions.rows() == x.rows() && positions == x;
+  }
+};
+
+}  // namespace assay::detector

@@ -1,0 +1,311 @@
+// Algorithm 3 of the thesis with what THEORY adds to it. The steps stand in this order below.
+//
+//   view test of every closed component from its primitive        classify_components
+//   component all positive and winding number 1: free, clean      (L5)
+//   all components free and only one of them: done, no tree is touched
+//   state at the start: last commit, or static contacts and layers find_start (L8, L9)
+//   mark, and traverse (V+,V-), (U,V0), (U,Vv) and pairs of two components
+//   elementary tests, each feature pair once                       search (L3, L10)
+//   closure: (U,H) until H is stable                               close (L7)
+//   what is clean at the end                                       make_next_state (L8)
+//
+// Unclosed components have no view test: all their triangles are dirty, so in (U,Vv).
+#include "detector/step.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "detector/mesh/mesh_checks.h"
+#include "detector/search/feature_contacts.h"
+#include "detector/state/winding.h"
+
+namespace assay::detector {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& milliseconds) : total_(milliseconds) {}
+  ~Stopwatch() {
+    total_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& total_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+class Step {
+ public:
+  Step(StepContext& context, const std::optional<StepState>& known, const PositionsView& x_t0,
+       const PositionsView& x_t1, std::span<const ViewPrimitive> primitives,
+       const StopFunction& stop)
+      : context_(context), mesh_(context.mesh), x_t0_(x_t0), x_t1_(x_t1), stop_(stop),
+        known_(known && known->holds_at(x_t0) ? &*known : nullptr) {
+    place_primitives(primitives);
+  }
+
+  StepResult run(std::optional<StepState>& next) {
+    const bool completed = run_stages();
+    if (!completed) {
+      result_.answer = Answer::undecided;
+    } else {
+      result_.answer = result_.pairs.empty() ? Answer::free : Answer::collision;
+      make_next_state(next);
+    }
+    for (const auto& contact : result_.pairs) {
+      if (&contact == &result_.pairs.front() || contact.time < result_.first) result_.first = contact.time;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  bool uses_views() const {
+    return context_.options.culling == Culling::view_point ||
+           context_.options.culling == Culling::view_line;
+  }
+
+  void place_primitives(std::span<const ViewPrimitive> given) {
+    if (!uses_views()) return;
+    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
+      result_.primitives.push_back(given.empty()       ? place_view(context_.anchors[c], x_t0_, x_t1_)
+                                   : given.size() == 1 ? given[0]
+                                                       : given[c]);
+    }
+  }
+
+  bool run_stages() {
+    clean_.assign(mesh_.triangles.size(), 0);
+    free_.assign(mesh_.components.size(), 0);
+    if (uses_views()) {
+      classify_components();
+      if (!find_start()) return false;
+      count_sets();
+      const bool all_free = std::find(free_.begin(), free_.end(), 0) == free_.end();
+      if (all_free && mesh_.components.size() == 1) return true;
+    }
+    return search();
+  }
+
+  void classify_components() {
+    Stopwatch watch(result_.times.view_test);
+    result_.signs.assign(mesh_.triangles.size(), ViewSign::zero);
+    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
+      const Component& component = mesh_.components[c];
+      if (!component.is_cycle) continue;
+      const ViewPrimitive& primitive = result_.primitives[c];
+      classify(mesh_, component.triangles, x_t0_, x_t1_, primitive, result_.signs, result_.counts.view);
+      const bool all_positive =
+          std::all_of(component.triangles.begin(), component.triangles.end(),
+                      [&](std::int32_t t) { return result_.signs[at(t)] == ViewSign::positive; });
+      if (all_positive && winding_is_one(c, component, primitive)) {
+        free_[c] = 1;
+        ++result_.counts.free_components;
+      }
+    }
+  }
+
+  bool winding_is_one(std::size_t c, const Component& component, const ViewPrimitive& primitive) {
+    const std::array<Point, 2> start = {primitive.q0.t0, primitive.q1.t0};
+    if (known_ && known_->inside[c] == start) return true;
+    ++result_.counts.winding_numbers;
+    return winding_number(mesh_, component.triangles, x_t0_, primitive.q0.t0) == 1;
+  }
+
+  // clean_ at t=0 for all triangles.
+  bool find_start() {
+    Stopwatch watch(result_.times.start);
+    std::vector<std::int32_t> to_verify;
+    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
+      const Component& component = mesh_.components[c];
+      if (!component.is_cycle) continue;
+      bool all_clean = free_[c] != 0;
+      if (!all_clean && known_) {
+        all_clean = true;
+        for (const auto t : component.triangles) {
+          clean_[at(t)] = known_->clean[at(t)];
+          all_clean &= clean_[at(t)] != 0;
+        }
+        if (!all_clean) all_clean = released_at_start(c);
+      } else if (!all_clean && context_.options.start == Start::clean) {
+        all_clean = true;
+      } else if (!all_clean && context_.options.start == Start::verified) {
+        all_clean = released_at_start(c);
+        if (!all_clean) to_verify.push_back(static_cast<std::int32_t>(c));
+      }
+      if (all_clean) {
+        for (const auto t : component.triangles) clean_[at(t)] = 1;
+      }
+    }
+    return to_verify.empty() ||
+           verify_start(mesh_, context_.tree, x_t0_, to_verify, stop_, clean_);
+  }
+
+  bool released_at_start(std::size_t c) const {
+    const ViewPrimitive& primitive = result_.primitives[c];
+    return released_by_view(mesh_, mesh_.components[c], x_t0_, primitive.q0.t0, primitive.q1.t0);
+  }
+
+  void count_sets() {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!clean_[t]) {
+        ++result_.dirty;
+      } else if (result_.signs[t] == ViewSign::positive) {
+        ++result_.view_positive;
+      } else if (result_.signs[t] == ViewSign::negative) {
+        ++result_.view_negative;
+      } else {
+        ++result_.view_zero;
+      }
+    }
+  }
+
+  std::uint8_t flags_of(std::size_t t) const {
+    if (!uses_views()) return 0;
+    if (!clean_[t]) return flag::full;
+    return result_.signs[t] == ViewSign::positive   ? flag::positive
+           : result_.signs[t] == ViewSign::negative ? flag::negative
+                                                    : flag::full;
+  }
+
+  bool search() {
+    FeatureContacts contacts(mesh_, x_t0_, x_t1_, Want::first_time);
+    Marks marks;
+    {
+      Stopwatch watch(result_.times.broad_phase);
+      marks.triangle_flags.resize(mesh_.triangles.size());
+      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) marks.triangle_flags[t] = flags_of(t);
+      if (context_.options.culling != Culling::none) context_.tree.refit(mesh_, x_t0_, x_t1_);
+    }
+    const PairRule rule = uses_views() ? PairRule::candidates : PairRule::every_pair;
+    bool completed = collect(rule, marks, contacts, result_.times.broad_phase);
+    if (completed) {
+      Stopwatch watch(result_.times.narrow_phase);
+      completed = contacts.run(stop_);
+    }
+    if (completed && uses_views() && context_.options.pairs == Pairs::all) {
+      completed = close(marks, contacts);
+    }
+    result_.pairs = contacts.pair_contacts();
+    result_.counts.narrow = contacts.counts();
+    return completed;
+  }
+
+  bool collect(PairRule rule, Marks& marks, FeatureContacts& contacts, double& time) {
+    Stopwatch watch(time);
+    SearchCounts& counts = result_.counts.search;
+    const auto sink = [&](std::int32_t a, std::int32_t b) {
+      constexpr std::uint64_t pairs_between_stops = 4096;
+      if (counts.candidate_pairs % pairs_between_stops == 0 && stop_ && stop_()) return false;
+      // A clean triangle is in no contact with its own component at t=0.
+      const bool may_pierce = mesh_.component_of_triangle[at(a)] != mesh_.component_of_triangle[at(b)] ||
+                              (!clean_[at(a)] && !clean_[at(b)]);
+      contacts.add_candidate(a, b, may_pierce);
+      return true;
+    };
+    if (context_.options.culling == Culling::none) {
+      return enumerate_pairs(mesh_, marks, rule, counts, sink);
+    }
+    mark_nodes(context_.tree, mesh_, marks);
+    return search_pairs(context_.tree, marks, rule, counts, sink);
+  }
+
+  // L7. V0 and Vv were already looked at against everything.
+  bool close(Marks& marks, FeatureContacts& contacts) {
+    Stopwatch watch(result_.times.closure);
+    std::vector<std::uint8_t> in_h(mesh_.triangles.size(), 0);
+    std::size_t seen = 0;
+    while (true) {
+      bool grew = false;
+      for (auto& flags : marks.triangle_flags) flags &= static_cast<std::uint8_t>(~flag::grown);
+      for (; seen < contacts.contacts().size(); ++seen) {
+        for (const auto& pair : contacts.contacts()[seen].pairs) {
+          for (const auto t : {pair.a, pair.b}) {
+            if (in_h[at(t)]) continue;
+            in_h[at(t)] = 1;
+            if (marks.triangle_flags[at(t)] & flag::full) continue;
+            marks.triangle_flags[at(t)] |= flag::grown;
+            grew = true;
+          }
+        }
+      }
+      if (!grew) return true;
+      ++result_.counts.closure_rounds;
+      double unused = 0;
+      if (!collect(PairRule::grown, marks, contacts, unused) || !contacts.run(stop_)) return false;
+    }
+  }
+
+  void make_next_state(std::optional<StepState>& next) const {
+    next.emplace();
+    next->positions = x_t1_;
+    next->clean = clean_;
+    next->inside.resize(mesh_.components.size());
+    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
+      if (free_[c]) next->inside[c] = {result_.primitives[c].q0.t1, result_.primitives[c].q1.t1};
+    }
+    // Without the complete contact set nothing is known after a collision.
+    const bool complete = !uses_views() || context_.options.pairs == Pairs::all;
+    for (const auto& contact : result_.pairs) {
+      const auto c = mesh_.component_of_triangle[at(contact.pair.a)];
+      if (!complete) {
+        std::fill(next->clean.begin(), next->clean.end(), 0);
+      } else if (c == mesh_.component_of_triangle[at(contact.pair.b)]) {
+        next->clean[at(contact.pair.a)] = next->clean[at(contact.pair.b)] = 0;
+      }
+    }
+  }
+
+  StepContext& context_;
+  const Topology& mesh_;
+  const PositionsView x_t0_, x_t1_;
+  const StopFunction& stop_;
+  const StepState* known_;
+  std::vector<std::uint8_t> clean_;  // by triangle, at t=0
+  std::vector<std::uint8_t> free_;   // by component, by L5
+  StepResult result_;
+};
+
+StepResult refused(Problem problem) {
+  StepResult result;
+  result.answer = Answer::error;
+  result.problem = std::move(problem);
+  return result;
+}
+
+}  // namespace
+
+StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
+                         const PositionsView& x_t0, const PositionsView& x_t1,
+                         std::span<const ViewPrimitive> primitives, const StopFunction& stop,
+                         std::optional<StepState>& next) {
+  for (const auto* x : {&x_t0, &x_t1}) {
+    if (auto problem = check_positions(*x, context.vertex_count)) return refused(std::move(*problem));
+  }
+  if (primitives.size() > 1 && primitives.size() != context.mesh.components.size()) {
+    return refused({InputError::wrong_primitive_count,
+                    std::to_string(primitives.size()) + " view primitives for " +
+                        std::to_string(context.mesh.components.size()) + " components"});
+  }
+  for (const auto& primitive : primitives) {
+    for (const auto* point : {&primitive.q0.t0, &primitive.q0.t1, &primitive.q1.t0, &primitive.q1.t1}) {
+      if (!std::all_of(point->begin(), point->end(), [](double c) { return std::isfinite(c); })) {
+        return refused({InputError::non_finite_coordinate, "a view primitive is not finite"});
+      }
+    }
+  }
+  double total = 0;
+  StepResult result;
+  {
+    Stopwatch watch(total);
+    result = Step(context, known, x_t0, x_t1, primitives, stop).run(next);
+  }
+  result.times.total = total;
+  return result;
+}
+
+}  // namespace assay::detector

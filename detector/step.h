@@ -1,0 +1,26 @@
+// One step through the stages of the detector.
+#pragma once
+
+#include "detector/options.h"
+#include "detector/state/start.h"
+#include "detector/view/view_anchor.h"
+
+namespace assay::detector {
+
+// What preprocessing made of a mesh.
+struct StepContext {
+  Options options;
+  Eigen::Index vertex_count = 0;
+  Topology mesh;
+  BoundingVolumeTree tree;
+  std::vector<ViewAnchor> anchors;  // one for each component
+};
+
+// Answers the step from `known`, the state of the last commit if any. `next` is set to the state
+// at the end of the step when there is an answer (free or collision), else left empty.
+StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
+                         const PositionsView& x_t0, const PositionsView& x_t1,
+                         std::span<const ViewPrimitive> primitives, const StopFunction& stop,
+                         std::optional<StepState>& next);
+
+}  // namespace assay::detector

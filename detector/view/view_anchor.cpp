@@ -1,0 +1,66 @@
+#include "detector/view/view_anchor.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace assay::detector {
+namespace {
+
+Point mean(const std::vector<std::int32_t>& vertices, const PositionsView& x) {
+  // Scaled before the sum, so that it cannot overflow.
+  const double weight = 1.0 / static_cast<double>(vertices.size());
+  Point sum = {0, 0, 0};
+  for (const auto v : vertices) {
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += weight * x(v, static_cast<Eigen::Index>(k));
+  }
+  return sum;
+}
+
+Eigen::Vector3d longest_axis(const std::vector<std::int32_t>& vertices, const PositionsView& x) {
+  const Point centre = mean(vertices, x);
+  // Divided by the extent, so that squares neither overflow nor vanish.
+  double extent = 0;
+  for (const auto v : vertices) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      extent = std::max(extent, std::abs(x(v, static_cast<Eigen::Index>(k)) - centre[k]));
+    }
+  }
+  if (!(extent > 0)) return Eigen::Vector3d::UnitX();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const auto v : vertices) {
+    const Eigen::Vector3d offset = (x.row(v).transpose() - Eigen::Vector3d(centre[0], centre[1], centre[2])) / extent;
+    covariance += offset * offset.transpose();
+  }
+  if (!covariance.allFinite()) return Eigen::Vector3d::UnitX();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(2);
+}
+
+}  // namespace
+
+ViewAnchor make_view_anchor(ViewKind kind, const Component& component, const PositionsView& x) {
+  if (kind == ViewKind::point) return {component.vertices, component.vertices};
+  const Eigen::Vector3d axis = longest_axis(component.vertices, x);
+  std::vector<std::pair<double, std::int32_t>> along;
+  along.reserve(component.vertices.size());
+  // A quarter of each, so that the sum cannot overflow.
+  for (const auto v : component.vertices) along.emplace_back((0.25 * x.row(v)).dot(axis), v);
+  std::sort(along.begin(), along.end());
+  const std::size_t third = std::max<std::size_t>(1, along.size() / 3);
+  ViewAnchor anchor;
+  for (std::size_t i = 0; i < third; ++i) {
+    anchor.q0_vertices.push_back(along[i].second);
+    anchor.q1_vertices.push_back(along[along.size() - 1 - i].second);
+  }
+  std::sort(anchor.q0_vertices.begin(), anchor.q0_vertices.end());
+  std::sort(anchor.q1_vertices.begin(), anchor.q1_vertices.end());
+  return anchor;
+}
+
+ViewPrimitive place_view(const ViewAnchor& anchor, const PositionsView& x_t0,
+                         const PositionsView& x_t1) {
+  const MovingPoint q0 = {mean(anchor.q0_vertices, x_t0), mean(anchor.q0_vertices, x_t1)};
+  if (anchor.q0_vertices == anchor.q1_vertices) return {q0, q0};
+  return {q0, {mean(anchor.q1_vertices, x_t0), mean(anchor.q1_vertices, x_t1)}};
+}
+
+}  // namespace assay::detector

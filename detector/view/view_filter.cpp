@@ -1,0 +1,249 @@
+// L1: with N = (p1-p0) x (p2-p0), h0 = (p-q0).N and h1 = (p-q1).N (the same for every point p of
+// the triangle's plane), d = q1 - q0 and s = clamp((p-q0).d / d.d, 0, 1), the view value at p is
+//   (p - n(p)).N = (1-s) h0 + s h1.
+// Affine in s, and s is monotone along the triangle: its extremes over the triangle are at the
+// three vertices, each with its own s. So the triangle is positive when the value is positive at
+// the three vertices; h0, h1 > 0 together suffice.
+// L2: h0 and h1 are cubics in t. Over a piece of time this file bounds them by their Bernstein
+// coefficients, bounds each vertex's s likewise, and bounds the value from these; pieces that stay
+// open are halved. Moving ends need no other treatment.
+//
+// Error bounds, first order in u = 2^-53; E_k, W_k, D_k bound coordinate k of the edges p1-p0,
+// p2-p0, of p0-q, and of d, over both ends of the step:
+//   N          minor: 8u EE; middle coefficient: 10u EE (see contact_filter.cpp)
+//   w . N      each term 14u W E E, partial sums at most 2 S, twice, rounded: 18u S,
+//              S = W_x E_y E_z + W_y E_z E_x + W_z E_x E_y
+//   (2x+y)/3   18u S; the sum at most 6 S rounded: 2u; the quotient at most 2 S rounded: 2u; 22u S
+//   halving    three levels of averages of values at most 2 S: 6u S
+//   (p-q0).d   each term 3u W D, two sums: 5u G, middle coefficient 6u G, halving 2u G,
+//              G = sum of W_k D_k with W over all three vertices; d.d likewise with W = D
+#include "detector/view/view_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "detector/contact/contact_filter.h"
+
+namespace assay::detector {
+namespace {
+
+using Vector = std::array<double, 3>;
+using Cubic = std::array<double, 4>;
+using Quadratic = std::array<double, 3>;
+
+struct MovingVector {
+  Vector t0, t1;
+};
+
+MovingVector difference(const MovingPoint& p, const MovingPoint& q) {
+  return {{p.t0[0] - q.t0[0], p.t0[1] - q.t0[1], p.t0[2] - q.t0[2]},
+          {p.t1[0] - q.t1[0], p.t1[1] - q.t1[1], p.t1[2] - q.t1[2]}};
+}
+
+double dot(const Vector& x, const Vector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
+
+Vector cross(const Vector& x, const Vector& y) {
+  return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+}
+
+void grow(Vector& magnitude, const MovingVector& v) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    magnitude[k] = std::max({magnitude[k], std::abs(v.t0[k]), std::abs(v.t1[k])});
+  }
+}
+
+bool in_range(const Vector& magnitude) {
+  return std::all_of(magnitude.begin(), magnitude.end(), [](double m) {
+    return m == 0 || (m > least_magnitude && m < greatest_magnitude);
+  });
+}
+
+template <std::size_t n>
+void halve(const std::array<double, n>& b, std::array<double, n>& left, std::array<double, n>& right) {
+  std::array<double, n> row = b;
+  for (std::size_t level = 0; level < n; ++level) {
+    left[level] = row[0];
+    right[n - 1 - level] = row[n - 1 - level];
+    for (std::size_t i = 0; i + 1 + level < n; ++i) row[i] = (row[i] + row[i + 1]) / 2;
+  }
+}
+
+struct Range {
+  double lo, hi;
+};
+
+template <std::size_t n>
+Range range_of(const std::array<double, n>& b, double error) {
+  const auto [least, greatest] = std::minmax_element(b.begin(), b.end());
+  return {*least - error, *greatest + error};
+}
+
+Range around(double value, double error) { return {value - error, value + error}; }
+
+// Sign of (1-s) h0 + s h1 for all values in the ranges, 0 when it is not sure. The sums of ranges
+// above were rounded once more and these are rounded four times: `slack` covers that.
+int sure_value_sign(const Range& h0, const Range& h1, const Range& s) {
+  constexpr double slack = 16 * unit_roundoff;
+  const double margin = slack * (std::max(std::abs(h0.lo), std::abs(h0.hi)) +
+                                 std::max(std::abs(h1.lo), std::abs(h1.hi)));
+  const auto value = [](double a, double b, double s_) { return a + s_ * (b - a); };
+  if (std::min(value(h0.lo, h1.lo, s.lo), value(h0.lo, h1.lo, s.hi)) > margin) return 1;
+  if (std::max(value(h0.hi, h1.hi, s.lo), value(h0.hi, h1.hi, s.hi)) < -margin) return -1;
+  return 0;
+}
+
+Range clamped_axial(const Range& along, const Range& length2) {
+  constexpr double slack = 8 * unit_roundoff;
+  if (!(length2.lo > 0)) return {0, 1};
+  const double lo = along.lo > 0 ? along.lo / length2.hi * (1 - slack) : 0;
+  const double hi = along.hi > 0 ? along.hi / length2.lo * (1 + slack) : 0;
+  return {std::min(lo, 1.0), std::min(hi, 1.0)};
+}
+
+class ViewFilter {
+ public:
+  ViewFilter(const MovingTriangle& triangle, const ViewPrimitive& primitive)
+      : is_point_(primitive.is_point()) {
+    const MovingVector e1 = difference(triangle[1], triangle[0]);
+    const MovingVector e2 = difference(triangle[2], triangle[0]);
+    Vector edge = {0, 0, 0};
+    grow(edge, e1);
+    grow(edge, e2);
+    make_normal(e1, e2);
+    usable_ = in_range(edge) && make_cubic(difference(triangle[0], primitive.q0), edge, h0_, scale0_);
+    if (is_point_ || !usable_) return;
+    usable_ = make_cubic(difference(triangle[0], primitive.q1), edge, h1_, scale1_) &&
+              make_axial(triangle, primitive);
+  }
+
+  std::optional<ViewSign> run() {
+    if (!usable_) return std::nullopt;
+    Piece piece{h0_, h1_, along_, length2_};
+    visit(piece, 0);
+    if (seen_positive_ && seen_negative_) return ViewSign::zero;
+    if (open_) return std::nullopt;
+    return seen_positive_ ? ViewSign::positive : ViewSign::negative;
+  }
+
+ private:
+  struct Piece {
+    Cubic h0, h1;
+    std::array<Quadratic, 3> along;  // (p_i - q0).d
+    Quadratic length2;               // d.d
+  };
+
+  void make_normal(const MovingVector& e1, const MovingVector& e2) {
+    const Vector a = cross(e1.t0, e2.t1), b = cross(e1.t1, e2.t0);
+    n0_ = cross(e1.t0, e2.t0);
+    n1_ = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+    n2_ = cross(e1.t1, e2.t1);
+  }
+
+  bool make_cubic(const MovingVector& w, const Vector& edge, Cubic& h, double& scale) {
+    Vector reach = {0, 0, 0};
+    grow(reach, w);
+    if (!in_range(reach)) return false;
+    h = {dot(w.t0, n0_), (2 * dot(w.t0, n1_) + dot(w.t1, n0_)) / 3,
+         (dot(w.t0, n2_) + 2 * dot(w.t1, n1_)) / 3, dot(w.t1, n2_)};
+    scale = reach[0] * edge[1] * edge[2] + reach[1] * edge[2] * edge[0] + reach[2] * edge[0] * edge[1];
+    return true;
+  }
+
+  bool make_axial(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
+    const MovingVector d = difference(primitive.q1, primitive.q0);
+    Vector reach = {0, 0, 0}, line = {0, 0, 0};
+    grow(line, d);
+    length2_ = product(d, d);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const MovingVector w = difference(triangle[i], primitive.q0);
+      grow(reach, w);
+      along_[i] = product(w, d);
+    }
+    along_scale_ = dot(reach, line);
+    length2_scale_ = dot(line, line);
+    return in_range(reach) && in_range(line);
+  }
+
+  static Quadratic product(const MovingVector& x, const MovingVector& y) {
+    return {dot(x.t0, y.t0), (dot(x.t0, y.t1) + dot(x.t1, y.t0)) / 2, dot(x.t1, y.t1)};
+  }
+
+  // Marks what is sure of the piece; true: two signs were seen, nothing more to learn.
+  bool visit(const Piece& piece, int depth) {
+    if (settle(piece, depth)) return seen_positive_ && seen_negative_;
+    note_end_values(piece, depth);
+    if (seen_positive_ && seen_negative_) return true;
+    if (depth == max_view_depth) {
+      open_ = true;
+      return false;
+    }
+    Piece left{}, right{};
+    halve(piece.h0, left.h0, right.h0);
+    if (!is_point_) {
+      halve(piece.h1, left.h1, right.h1);
+      halve(piece.length2, left.length2, right.length2);
+      for (std::size_t i = 0; i < 3; ++i) halve(piece.along[i], left.along[i], right.along[i]);
+    }
+    return visit(left, depth + 1) || visit(right, depth + 1);
+  }
+
+  bool settle(const Piece& piece, int depth) {
+    const Range h0 = range_of(piece.h0, view_cubic_error(depth) * scale0_);
+    if (is_point_) return note(h0.lo > 0 ? 1 : h0.hi < 0 ? -1 : 0);
+    const Range h1 = range_of(piece.h1, view_cubic_error(depth) * scale1_);
+    const int whole_line = sure_value_sign(h0, h1, {0, 1});
+    if (whole_line != 0) return note(whole_line);
+    const Range length2 = range_of(piece.length2, view_axial_error(depth) * length2_scale_);
+    int common = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Range along = range_of(piece.along[i], view_axial_error(depth) * along_scale_);
+      const int sign = sure_value_sign(h0, h1, clamped_axial(along, length2));
+      if (sign == 0) return false;
+      note(sign);
+      if (i > 0 && sign != common) return true;
+      common = sign;
+    }
+    return true;
+  }
+
+  void note_end_values(const Piece& piece, int depth) {
+    for (const bool at_end : {false, true}) {
+      const double error0 = view_cubic_error(depth) * scale0_;
+      const Range h0 = around(at_end ? piece.h0[3] : piece.h0[0], error0);
+      if (is_point_) {
+        note(h0.lo > 0 ? 1 : h0.hi < 0 ? -1 : 0);
+        continue;
+      }
+      const Range h1 = around(at_end ? piece.h1[3] : piece.h1[0], view_cubic_error(depth) * scale1_);
+      const double axial = view_axial_error(depth);
+      const Range length2 = around(at_end ? piece.length2[2] : piece.length2[0], axial * length2_scale_);
+      for (const auto& a : piece.along) {
+        const Range along = around(at_end ? a[2] : a[0], axial * along_scale_);
+        note(sure_value_sign(h0, h1, clamped_axial(along, length2)));
+      }
+    }
+  }
+
+  bool note(int sign) {
+    seen_positive_ |= sign > 0;
+    seen_negative_ |= sign < 0;
+    return sign != 0;
+  }
+
+  bool is_point_, usable_ = false;
+  Vector n0_, n1_, n2_;
+  Cubic h0_{}, h1_{};
+  std::array<Quadratic, 3> along_{};
+  Quadratic length2_{};
+  double scale0_ = 0, scale1_ = 0, along_scale_ = 0, length2_scale_ = 0;
+  bool seen_positive_ = false, seen_negative_ = false, open_ = false;
+};
+
+}  // namespace
+
+std::optional<ViewSign> filter_view_sign(const MovingTriangle& triangle,
+                                         const ViewPrimitive& primitive) {
+  return ViewFilter(triangle, primitive).run();
+}
+
+}  // namespace assay::detector
