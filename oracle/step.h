@@ -21,9 +21,9 @@ struct StepJudgement {
   // free, collision, or undecided (stopped: `pairs` holds what was found until then).
   detector::Answer answer = detector::Answer::undecided;
   bool complete = false;
-  detector::TimeEnclosure first;                // when answer is collision and complete
-  std::vector<detector::PairContact> pairs;     // ascending by pair; least time of each
-  std::uint64_t feature_candidates = 0;         // feature pairs whose boxes meet
+  detector::TimeEnclosure first;             // when answer is collision and complete
+  std::vector<detector::PairContact> pairs;  // ascending by pair; least time of each
+  std::uint64_t feature_candidates = 0;      // feature pairs whose boxes meet
   RungCounts rungs;
 };
 

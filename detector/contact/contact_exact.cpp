@@ -156,4 +156,8 @@ TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi
   return enclose_single_root(ExactContact(query).coplanarity(), lo, hi, guess);
 }
 
+bool coplanar_throughout(const FourPoints& query) {
+  return ExactContact(query).coplanarity().is_zero();
+}
+
 }  // namespace assay::detector

@@ -16,4 +16,7 @@ std::optional<TimeEnclosure> exact_first_contact(const FourPoints& query);
 // in (lo, hi), where the cubic changes sign. About 5 us.
 TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
+// Whether the four points are coplanar at all times: the coplanarity cubic vanishes identically.
+bool coplanar_throughout(const FourPoints& query);
+
 }  // namespace assay::detector

@@ -32,7 +32,7 @@ bool contains(const std::array<std::int32_t, 3>& triangle, std::int32_t vertex) 
 bool apart_at_start(const PositionsView& x, const std::array<std::int32_t, 2>& e,
                     const std::array<std::int32_t, 3>& f) {
   for (Eigen::Index k = 0; k < 3; ++k) {
-    const auto [e_lo, e_hi] = std::minmax(x(e[0], k), x(e[1], k));
+    const auto [e_lo, e_hi] = std::minmax({x(e[0], k), x(e[1], k)});
     const auto [f_lo, f_hi] = std::minmax({x(f[0], k), x(f[1], k), x(f[2], k)});
     if (e_hi < f_lo || f_hi < e_lo) return true;
   }

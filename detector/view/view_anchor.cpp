@@ -38,7 +38,8 @@ Eigen::Vector3d longest_axis(const std::vector<std::int32_t>& vertices, const Po
 }  // namespace
 
 ViewAnchor make_view_anchor(ViewKind kind, const Component& component, const PositionsView& x) {
-  if (kind == ViewKind::point) return {component.vertices, component.vertices};
+  ViewAnchor anchor{kind, component.vertices, {}};
+  if (kind == ViewKind::point) return anchor;
   const Eigen::Vector3d axis = longest_axis(component.vertices, x);
   std::vector<std::pair<double, std::int32_t>> along;
   along.reserve(component.vertices.size());
@@ -46,21 +47,34 @@ ViewAnchor make_view_anchor(ViewKind kind, const Component& component, const Pos
   for (const auto v : component.vertices) along.emplace_back((0.25 * x.row(v)).dot(axis), v);
   std::sort(along.begin(), along.end());
   const std::size_t third = std::max<std::size_t>(1, along.size() / 3);
-  ViewAnchor anchor;
   for (std::size_t i = 0; i < third; ++i) {
-    anchor.q0_vertices.push_back(along[i].second);
-    anchor.q1_vertices.push_back(along[along.size() - 1 - i].second);
+    anchor.outer_vertices[0].push_back(along[i].second);
+    anchor.outer_vertices[1].push_back(along[along.size() - 1 - i].second);
   }
-  std::sort(anchor.q0_vertices.begin(), anchor.q0_vertices.end());
-  std::sort(anchor.q1_vertices.begin(), anchor.q1_vertices.end());
+  for (auto& outer : anchor.outer_vertices) std::sort(outer.begin(), outer.end());
   return anchor;
 }
 
+namespace {
+
+Point end_of_line(const ViewAnchor& anchor, int end, const PositionsView& x) {
+  constexpr double outer_weight = 0.75;
+  const Point outer = mean(anchor.outer_vertices[end], x), all = mean(anchor.vertices, x);
+  Point q;
+  for (std::size_t k = 0; k < 3; ++k) q[k] = outer_weight * outer[k] + (1 - outer_weight) * all[k];
+  return q;
+}
+
+}  // namespace
+
 ViewPrimitive place_view(const ViewAnchor& anchor, const PositionsView& x_t0,
                          const PositionsView& x_t1) {
-  const MovingPoint q0 = {mean(anchor.q0_vertices, x_t0), mean(anchor.q0_vertices, x_t1)};
-  if (anchor.q0_vertices == anchor.q1_vertices) return {q0, q0};
-  return {q0, {mean(anchor.q1_vertices, x_t0), mean(anchor.q1_vertices, x_t1)}};
+  if (anchor.kind == ViewKind::point) {
+    const MovingPoint q = {mean(anchor.vertices, x_t0), mean(anchor.vertices, x_t1)};
+    return {q, q};
+  }
+  return {{end_of_line(anchor, 0, x_t0), end_of_line(anchor, 0, x_t1)},
+          {end_of_line(anchor, 1, x_t0), end_of_line(anchor, 1, x_t1)}};
 }
 
 }  // namespace assay::detector

@@ -14,11 +14,15 @@ namespace assay::detector {
 enum class ViewKind : std::uint8_t { point, line };
 
 struct ViewAnchor {
-  std::vector<std::int32_t> q0_vertices, q1_vertices;  // an end is the mean of its vertices
+  ViewKind kind = ViewKind::point;
+  std::vector<std::int32_t> vertices;                      // of the component
+  std::vector<std::int32_t> outer_vertices[2];             // line: of its two ends
 };
 
 // point: the mean of all vertices. line: the means of the two outer thirds of the vertices in the
-// order along the longest principal axis at these positions. O(n log n).
+// order along the longest principal axis at these positions, each pulled a quarter of the way to
+// the mean of all (on small convex meshes the mean of a few vertices lies on the surface).
+// O(n log n).
 ViewAnchor make_view_anchor(ViewKind kind, const Component& component, const PositionsView& x);
 
 // Means in double, summed in ascending order of vertices: the same bytes on every machine.

@@ -1,0 +1,29 @@
+// Words of the case schema that its reader and its writer share.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "detector/mesh/step_types.h"
+
+namespace assay::corpus {
+
+inline constexpr std::string_view case_schema = "assay-case/1";
+
+// In the order of detector::Answer.
+inline constexpr std::array<std::string_view, 4> answer_names = {"free", "collision", "undecided",
+                                                                 "error"};
+
+constexpr std::string_view name_of(detector::Answer answer) {
+  return answer_names[static_cast<std::size_t>(answer)];
+}
+
+constexpr std::optional<detector::Answer> answer_named(std::string_view name) {
+  for (std::size_t i = 0; i < answer_names.size(); ++i) {
+    if (answer_names[i] == name) return static_cast<detector::Answer>(i);
+  }
+  return std::nullopt;
+}
+
+}  // namespace assay::corpus

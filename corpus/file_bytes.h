@@ -1,0 +1,21 @@
+// The bytes of a file, decompressed when they are a gzip stream.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "corpus/problem.h"
+
+namespace assay::corpus {
+
+// A file that grows beyond this (decompressed) is refused: a few hundred bytes of gzip can ask for
+// any amount of memory. Bytes; 2^32 holds a mesh of some 30 million vertices in text.
+inline constexpr std::size_t largest_file = std::size_t{1} << 32;
+
+// Problems: cannot_open, is_directory, permission_denied, empty_file, corrupt_gzip, too_large.
+// An empty gzip stream is an empty_file too.
+Expected<std::string> read_bytes(const std::filesystem::path& path,
+                                 std::size_t limit = largest_file);
+
+}  // namespace assay::corpus

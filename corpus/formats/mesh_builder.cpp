@@ -1,0 +1,82 @@
+#include "corpus/formats/mesh_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/outcome/try.hpp>
+#include <cmath>
+#include <limits>
+
+namespace assay::corpus {
+namespace {
+
+constexpr std::int64_t most_vertices = std::numeric_limits<std::int32_t>::max();
+
+}  // namespace
+
+std::string shown(const Place& place) { return fmt::format("{} {}", place.unit, place.number); }
+
+Problem MeshBuilder::problem(FileProblem what, const Place& place, std::string_view detail) const {
+  return problem_in(what, file_, fmt::format("{}: {}", shown(place), detail));
+}
+
+Expected<void> MeshBuilder::add_vertex(double x, double y, double z, const Place& place) {
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+    return problem(FileProblem::non_finite_coordinate, place,
+                   fmt::format("vertex {} ({}, {}, {}) is not finite", vertex_count(), x, y, z));
+  }
+  if (static_cast<std::int64_t>(vertex_count()) >= most_vertices) {
+    return problem(FileProblem::too_large, place, "more vertices than 32-bit indices can name");
+  }
+  coordinates_.insert(coordinates_.end(), {x, y, z});
+  return boost::outcome_v2::success();
+}
+
+Expected<void> MeshBuilder::add_polygon(std::span<const std::int64_t> vertices,
+                                        const Place& place) {
+  if (vertices.size() < 3) {
+    return problem(FileProblem::malformed, place,
+                   fmt::format("a face of {} vertices", vertices.size()));
+  }
+  for (const std::int64_t vertex : vertices) {
+    if (vertex < 0 || vertex >= most_vertices) {
+      return problem(FileProblem::index_out_of_range, place,
+                     fmt::format("vertex index {} (counted from 0) is out of range", vertex));
+    }
+    if (vertex > highest_) {
+      highest_ = vertex;
+      highest_place_ = place;
+    }
+  }
+  for (std::size_t i = 1; i + 1 < vertices.size(); ++i) {
+    const std::int64_t a = vertices[0], b = vertices[i], c = vertices[i + 1];
+    if (a == b || b == c || a == c) {
+      return problem(
+          FileProblem::repeated_index, place,
+          fmt::format("triangle ({}, {}, {}) (counted from 0) names a vertex twice", a, b, c));
+    }
+    corners_.insert(corners_.end(), {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
+                                     static_cast<std::int32_t>(c)});
+  }
+  return boost::outcome_v2::success();
+}
+
+Expected<Mesh> MeshBuilder::finish() const {
+  if (corners_.empty()) {
+    return problem_in(FileProblem::no_triangles, file_,
+                      fmt::format("{} vertices and no triangle", vertex_count()));
+  }
+  if (highest_ >= static_cast<std::int64_t>(vertex_count())) {
+    return problem(FileProblem::index_out_of_range, highest_place_,
+                   fmt::format("vertex index {} (counted from 0), but there are {} vertices",
+                               highest_, vertex_count()));
+  }
+  Mesh mesh;
+  mesh.positions.resize(static_cast<Eigen::Index>(vertex_count()), 3);
+  std::copy(coordinates_.begin(), coordinates_.end(), mesh.positions.data());
+  mesh.triangles.resize(static_cast<Eigen::Index>(corners_.size() / 3), 3);
+  std::copy(corners_.begin(), corners_.end(), mesh.triangles.data());
+  return mesh;
+}
+
+}  // namespace assay::corpus

@@ -1,0 +1,51 @@
+// Collects the vertices and polygons of one mesh file and refuses what no mesh may hold.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "corpus/mesh_reader.h"
+#include "corpus/problem.h"
+
+namespace assay::corpus {
+
+// A place in a file, for messages: `line 12`, `byte 345`.
+struct Place {
+  const char* unit;
+  std::size_t number;
+};
+
+std::string shown(const Place& place);
+
+// REQUIRES: every call gets the place that a reader of the message should look at.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(const std::filesystem::path& file) : file_(file) {}
+
+  // non_finite_coordinate, too_large.
+  Expected<void> add_vertex(double x, double y, double z, const Place& place);
+
+  // Vertices counted from 0; fanned from the first one. They may still be to come: their range is
+  // checked by finish(). malformed (fewer than three), index_out_of_range, repeated_index.
+  Expected<void> add_polygon(std::span<const std::int64_t> vertices, const Place& place);
+
+  std::size_t vertex_count() const { return coordinates_.size() / 3; }
+
+  Problem problem(FileProblem what, const Place& place, std::string_view detail) const;
+
+  // no_triangles, index_out_of_range.
+  Expected<Mesh> finish() const;
+
+ private:
+  std::filesystem::path file_;
+  std::vector<double> coordinates_;
+  std::vector<std::int32_t> corners_;
+  // The highest index so far and its place: all that is needed to name an index without a vertex.
+  std::int64_t highest_ = -1;
+  Place highest_place_ = {"line", 0};
+};
+
+}  // namespace assay::corpus

@@ -1,0 +1,18 @@
+// Numbers in text, independent of the locale.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace assay::corpus {
+
+// The double nearest to a decimal number, ties to even, denormals included; infinity when it lies
+// beyond the largest double, zero below half the least denormal. A leading + is allowed; "nan" and
+// "inf" are read as such. Nothing when `word` is not a number from its first to its last character.
+std::optional<double> parse_double(std::string_view word);
+
+// A decimal integer that fits into 64 bits, the whole of `word`; a leading + is allowed.
+std::optional<std::int64_t> parse_integer(std::string_view word);
+
+}  // namespace assay::corpus

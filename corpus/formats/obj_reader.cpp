@@ -1,0 +1,100 @@
+#include "corpus/formats/obj_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/outcome/try.hpp>
+
+#include "corpus/formats/mesh_builder.h"
+#include "corpus/formats/numbers.h"
+#include "corpus/formats/text_lines.h"
+
+namespace assay::corpus {
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+// Statements of the format that do not bear on vertices and faces.
+constexpr std::array<std::string_view, 38> passed_over = {
+    "vt",        "vn",     "vp",     "g",    "o",     "s",        "mg",       "usemtl",
+    "mtllib",    "usemap", "maplib", "l",    "p",     "cstype",   "deg",      "bmat",
+    "step",      "curv",   "curv2",  "surf", "parm",  "trim",     "hole",     "scrv",
+    "sp",        "end",    "con",    "lod",  "bevel", "c_interp", "d_interp", "shadow_obj",
+    "trace_obj", "ctech",  "stech",  "cdc",  "cdp",   "res"};
+
+Expected<void> read_vertex(const Words& words, const Place& place, MeshBuilder& builder) {
+  std::array<double, 3> x{};
+  if (words.size() < 4) {
+    return builder.problem(FileProblem::malformed, place, "a vertex of fewer than 3 coordinates");
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto value = parse_double(words[k + 1]);
+    if (!value) {
+      return builder.problem(FileProblem::malformed, place,
+                             excerpt(words[k + 1]) + " is no number");
+    }
+    x[k] = *value;
+  }
+  return builder.add_vertex(x[0], x[1], x[2], place);
+}
+
+// The vertex of a corner v, v/vt, v//vn or v/vt/vn; nothing when it is none of these.
+std::optional<std::int64_t> corner_vertex(std::string_view corner) {
+  std::array<std::string_view, 3> parts;
+  std::size_t count = 0;
+  while (true) {
+    const std::size_t slash = std::min(corner.find('/'), corner.size());
+    if (count == 3) return std::nullopt;
+    parts[count++] = corner.substr(0, slash);
+    if (slash == corner.size()) break;
+    corner.remove_prefix(slash + 1);
+  }
+  for (std::size_t i = 1; i < count; ++i) {
+    if (!parts[i].empty() && !parse_integer(parts[i])) return std::nullopt;
+  }
+  return parse_integer(parts[0]);
+}
+
+Expected<void> read_face(const Words& words, const Place& place, MeshBuilder& builder,
+                         std::vector<std::int64_t>& vertices) {
+  vertices.clear();
+  const auto count = static_cast<std::int64_t>(builder.vertex_count());
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const auto vertex = corner_vertex(words[i]);
+    if (!vertex) {
+      return builder.problem(FileProblem::malformed, place, excerpt(words[i]) + " is no corner");
+    }
+    if (*vertex == 0 || *vertex < -count) {
+      return builder.problem(
+          FileProblem::index_out_of_range, place,
+          fmt::format("vertex index {} is out of range ({} vertices so far)", *vertex, count));
+    }
+    vertices.push_back(*vertex > 0 ? *vertex - 1 : count + *vertex);
+  }
+  return builder.add_polygon(vertices, place);
+}
+
+}  // namespace
+
+Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file) {
+  MeshBuilder builder(file);
+  Lines lines(text, '#', true);
+  Words words;
+  std::vector<std::int64_t> vertices;
+  while (const auto line = lines.next()) {
+    split_words(*line, words);
+    const Place place = {"line", lines.number()};
+    if (words[0] == "v") {
+      BOOST_OUTCOME_TRY(read_vertex(words, place, builder));
+    } else if (words[0] == "f") {
+      BOOST_OUTCOME_TRY(read_face(words, place, builder, vertices));
+    } else if (std::find(passed_over.begin(), passed_over.end(), words[0]) == passed_over.end()) {
+      return builder.problem(FileProblem::malformed, place,
+                             excerpt(words[0]) + " is no statement of an OBJ file");
+    }
+  }
+  return builder.finish();
+}
+
+}  // namespace assay::corpus

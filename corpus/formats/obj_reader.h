@@ -1,0 +1,16 @@
+// Wavefront OBJ, its polygonal part.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "corpus/mesh_reader.h"
+
+namespace assay::corpus {
+
+// `v` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices, polygons) make the mesh; texture
+// coordinates, normals, groups, materials, lines, points and curves are passed over. A line with
+// any other keyword is malformed, so that noise is not taken for a mesh.
+Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file);
+
+}  // namespace assay::corpus

@@ -1,0 +1,149 @@
+#include "corpus/formats/off_reader.h"
+
+#include <fmt/format.h>
+
+#include <boost/outcome/try.hpp>
+
+#include "corpus/formats/mesh_builder.h"
+#include "corpus/formats/numbers.h"
+#include "corpus/formats/text_lines.h"
+
+namespace assay::corpus {
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+// The header word without OFF: which optional letters it has; nothing when it is not a header.
+std::optional<std::string_view> header_letters(std::string_view word) {
+  if (!word.ends_with("OFF")) return std::nullopt;
+  const std::string_view letters = word.substr(0, word.size() - 3);
+  std::string_view rest = letters;
+  for (const std::string_view letter : {"ST", "C", "N", "4", "n"}) {
+    if (rest.starts_with(letter)) rest.remove_prefix(letter.size());
+  }
+  if (!rest.empty()) return std::nullopt;
+  return letters;
+}
+
+class OffReader {
+ public:
+  OffReader(std::string_view text, const std::filesystem::path& file)
+      : lines_(text, '#', false), builder_(file), size_(text.size()) {}
+
+  Expected<Mesh> read() {
+    BOOST_OUTCOME_TRY(read_header());
+    for (std::int64_t i = 0; i < vertices_; ++i) {
+      BOOST_OUTCOME_TRY(read_vertex());
+    }
+    for (std::int64_t i = 0; i < faces_; ++i) {
+      BOOST_OUTCOME_TRY(read_face());
+    }
+    if (lines_.next()) return wrong("text after the last face");
+    return builder_.finish();
+  }
+
+ private:
+  Problem wrong(std::string_view detail, FileProblem what = FileProblem::malformed) const {
+    return builder_.problem(what, {"line", lines_.number()}, detail);
+  }
+
+  // The words of the next line; `what` names what was expected there.
+  Expected<void> next_line(std::string_view what) {
+    const auto line = lines_.next();
+    if (!line) {
+      return wrong(fmt::format("the file ends where {} should follow", what),
+                   FileProblem::truncated);
+    }
+    split_words(*line, words_);
+    return boost::outcome_v2::success();
+  }
+
+  Expected<std::int64_t> integer(std::size_t i, std::string_view what) const {
+    const auto value = i < words_.size() ? parse_integer(words_[i]) : std::nullopt;
+    if (value) return *value;
+    return wrong(
+        fmt::format("{} expected{}", what, i < words_.size() ? ", not " + excerpt(words_[i]) : ""));
+  }
+
+  Expected<void> read_header() {
+    BOOST_OUTCOME_TRY(next_line("the header word OFF"));
+    const auto letters = header_letters(words_[0]);
+    if (!letters) return wrong("the header word OFF expected, not " + excerpt(words_[0]));
+    if (letters->find_first_of("4n") != std::string_view::npos) {
+      return wrong("vertices of more than three dimensions are not read");
+    }
+    // Some writers put the counts behind the header word.
+    if (words_.size() == 1) {
+      BOOST_OUTCOME_TRY(next_line("the counts"));
+    } else if (words_[1] == "BINARY") {
+      return wrong("binary OFF files are not read");
+    } else {
+      words_.erase(words_.begin());
+    }
+    BOOST_OUTCOME_TRY(vertices, integer(0, "the number of vertices"));
+    BOOST_OUTCOME_TRY(faces, integer(1, "the number of faces"));
+    // Each takes a line, so a count beyond the file's size is a lie; nothing is reserved for it.
+    const auto most = static_cast<std::int64_t>(size_);
+    if (vertices < 0 || faces < 0) return wrong("a negative count");
+    if (vertices > most || faces > most) {
+      return wrong(
+          fmt::format("{} vertices and {} faces in a file of {} bytes", vertices, faces, size_),
+          FileProblem::truncated);
+    }
+    vertices_ = vertices;
+    faces_ = faces;
+    return boost::outcome_v2::success();
+  }
+
+  Expected<void> read_vertex() {
+    BOOST_OUTCOME_TRY(next_line(fmt::format("vertex {}", builder_.vertex_count())));
+    std::array<double, 3> x{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto value = k < words_.size() ? parse_double(words_[k]) : std::nullopt;
+      if (!value) {
+        return wrong(k < words_.size() ? excerpt(words_[k]) + " is no number"
+                                       : "a vertex of fewer than 3 coordinates");
+      }
+      x[k] = *value;
+    }
+    return builder_.add_vertex(x[0], x[1], x[2], {"line", lines_.number()});
+  }
+
+  Expected<void> read_face() {
+    BOOST_OUTCOME_TRY(next_line("a face"));
+    BOOST_OUTCOME_TRY(count, integer(0, "the number of corners"));
+    // The line may go on with a colour.
+    if (count < 0 || static_cast<std::size_t>(count) > words_.size() - 1) {
+      return wrong(fmt::format("a face of {} corners lists {}", count, words_.size() - 1));
+    }
+    corners_.clear();
+    for (std::size_t i = 1; i <= static_cast<std::size_t>(count); ++i) {
+      BOOST_OUTCOME_TRY(vertex, integer(i, "a vertex index"));
+      corners_.push_back(vertex);
+    }
+    return builder_.add_polygon(corners_, {"line", lines_.number()});
+  }
+
+  Lines lines_;
+  MeshBuilder builder_;
+  std::size_t size_;
+  std::int64_t vertices_ = 0, faces_ = 0;
+  Words words_;
+  std::vector<std::int64_t> corners_;
+};
+
+}  // namespace
+
+bool looks_like_off(std::string_view text) {
+  Lines lines(text.substr(0, 4096), '#', false);
+  const auto line = lines.next();
+  Words words;
+  if (line) split_words(*line, words);
+  return !words.empty() && header_letters(words[0]).has_value();
+}
+
+Expected<Mesh> read_off(std::string_view text, const std::filesystem::path& file) {
+  return OffReader(text, file).read();
+}
+
+}  // namespace assay::corpus

@@ -1,0 +1,18 @@
+// OFF, text form.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "corpus/mesh_reader.h"
+
+namespace assay::corpus {
+
+// Whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n.
+bool looks_like_off(std::string_view text);
+
+// Header word (normals, colours and texture coordinates are passed over; 4-dimensional and binary
+// files are malformed), counts, one vertex a line, one polygon a line, `#` comments.
+Expected<Mesh> read_off(std::string_view text, const std::filesystem::path& file);
+
+}  // namespace assay::corpus

@@ -1,0 +1,15 @@
+// PLY: ascii, binary little-endian and big-endian.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "corpus/mesh_reader.h"
+
+namespace assay::corpus {
+
+// Element `vertex` with x, y, z of any type; element `face` with a list vertex_indices or
+// vertex_index of an integer type. All other elements and properties are skipped.
+Expected<Mesh> read_ply(std::string_view bytes, const std::filesystem::path& file);
+
+}  // namespace assay::corpus

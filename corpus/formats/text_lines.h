@@ -1,0 +1,44 @@
+// Splits text into lines and words.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace assay::corpus {
+
+// Lines of a text that end in \n, \r\n or at the end of the text. Blanks and \r at either end of a
+// line are dropped.
+class Lines {
+ public:
+  // A `comment` character starts a comment that runs to the end of its line; '\0': none. With
+  // `continued`, a backslash at the end of a line joins the next one to it.
+  Lines(std::string_view text, char comment, bool continued)
+      : text_(text), comment_(comment), continued_(continued) {}
+
+  // The next line that is not blank; nothing at the end. Valid until the next call.
+  std::optional<std::string_view> next();
+
+  // Number of the line that next() gave, counted from 1 (of its first line, when joined).
+  std::size_t number() const { return number_; }
+
+ private:
+  std::string_view physical_line();
+
+  std::string_view text_;
+  char comment_;
+  bool continued_;
+  std::size_t read_ = 0;  // lines taken from the text
+  std::size_t number_ = 0;
+  std::string joined_;
+};
+
+// Splits at blanks; `words` is cleared first (passed in to be used again without allocation).
+void split_words(std::string_view line, std::vector<std::string_view>& words);
+
+// A word as it may be shown in a message: short.
+std::string excerpt(std::string_view word);
+
+}  // namespace assay::corpus

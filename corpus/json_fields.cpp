@@ -1,0 +1,62 @@
+#include "corpus/json_fields.h"
+
+#include <fmt/format.h>
+
+#include <boost/outcome/try.hpp>
+#include <cmath>
+
+namespace assay::corpus {
+
+bool JsonField::has(std::string_view key) const {
+  return value_->is_object() && value_->contains(key);
+}
+
+Expected<JsonField> JsonField::at(std::string_view key) const {
+  if (!value_->is_object()) return problem("an object expected");
+  const auto found = value_->find(key);
+  const std::string place = place_.empty() ? std::string(key) : fmt::format("{}.{}", place_, key);
+  if (found == value_->end()) {
+    return problem_in(FileProblem::missing_field, *file_, fmt::format("{} is missing", place));
+  }
+  return JsonField(*found, *file_, place);
+}
+
+Expected<std::size_t> JsonField::size() const {
+  if (!value_->is_array()) return problem("an array expected");
+  return value_->size();
+}
+
+JsonField JsonField::item(std::size_t i) const {
+  return JsonField((*value_)[i], *file_, fmt::format("{}[{}]", place_, i));
+}
+
+Expected<std::string> JsonField::text() const {
+  if (!value_->is_string()) return problem("a text expected");
+  return value_->get<std::string>();
+}
+
+Expected<double> JsonField::number() const {
+  if (!value_->is_number()) return problem("a number expected");
+  const auto value = value_->get<double>();
+  if (!std::isfinite(value)) return problem("not finite", FileProblem::non_finite_coordinate);
+  return value;
+}
+
+Expected<std::int32_t> JsonField::integer(std::int64_t least, std::int64_t end) const {
+  if (!value_->is_number_integer()) return problem("a whole number expected");
+  // An unsigned number beyond the signed ones would wrap round.
+  const bool huge = value_->is_number_unsigned() && value_->get<std::uint64_t>() > INT64_MAX;
+  const auto value = huge ? INT64_MAX : value_->get<std::int64_t>();
+  if (value < least || value >= end) {
+    return problem(fmt::format("{} is not in [{}, {})", value, least, end),
+                   FileProblem::index_out_of_range);
+  }
+  return static_cast<std::int32_t>(value);
+}
+
+Problem JsonField::problem(std::string_view detail, FileProblem what) const {
+  return problem_in(what, *file_,
+                    fmt::format("{}: {}", place_.empty() ? "top level" : place_, detail));
+}
+
+}  // namespace assay::corpus

@@ -1,0 +1,192 @@
+#include "corpus/scenes.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "corpus/scenes/box_with_arm.h"
+#include "corpus/scenes/deformations.h"
+#include "corpus/scenes/shapes.h"
+#include "corpus/scenes/trigonometry.h"
+
+namespace assay::corpus {
+namespace {
+
+constexpr int most_triangles = 20'000'000;
+constexpr int most_frames = 100'000;
+
+using Frames = Sequence (*)(const SceneOptions& options);
+
+Sequence deform(Mesh mesh, const Extent& extent, Field field, int frames) {
+  Sequence sequence{std::move(mesh.triangles), {}};
+  for (int f = 0; f < frames; ++f) {
+    const double s = frames > 1 ? static_cast<double>(f) / (frames - 1) : 0;
+    detector::Positions x = mesh.positions;
+    for (std::int32_t v = 0; v < x.rows(); ++v) {
+      const detector::Point moved = field(detector::point_of(mesh.positions, v), s, extent);
+      x.row(v) << moved[0], moved[1], moved[2];
+    }
+    sequence.frames.push_back(std::move(x));
+  }
+  return sequence;
+}
+
+// The user's mesh, or the scene's own shape.
+template <class Shape>
+Sequence deform_any(const SceneOptions& options, Field field, Shape shape) {
+  Mesh mesh = options.mesh ? *options.mesh : shape(options.size);
+  const Extent extent = extent_of(mesh.positions);
+  return deform(std::move(mesh), extent, field, options.frames);
+}
+
+Sequence breathing_sphere(const SceneOptions& options) {
+  if (options.mesh) return deform_any(options, breathe, sphere_shape);
+  // The sphere's centre itself, not that of the box around its vertices.
+  return deform(sphere_shape(options.size), Extent{}, breathe, options.frames);
+}
+
+Sequence two_spheres(const SceneOptions& options) {
+  constexpr double distance = 2.7;
+  const Mesh sphere = sphere_shape(options.size / 2);
+  const auto half = static_cast<std::int32_t>(sphere.positions.rows());
+  Mesh both = side_by_side(sphere, sphere, distance);
+  Sequence sequence{both.triangles, {}};
+  for (int f = 0; f < options.frames; ++f) {
+    const double s = options.frames > 1 ? static_cast<double>(f) / (options.frames - 1) : 0;
+    const double breath = 0.25 * sin_turn(0.75 * s);
+    detector::Positions x = both.positions;
+    for (std::int32_t v = 0; v < x.rows(); ++v) {
+      const double centre = v < half ? 0 : distance;
+      const double factor = v < half ? 1 + breath : 1 - breath;
+      x.row(v) << centre + factor * (x(v, 0) - centre), factor * x(v, 1), factor * x(v, 2);
+    }
+    sequence.frames.push_back(std::move(x));
+  }
+  return sequence;
+}
+
+Sequence arm_in_box(const SceneOptions& options) {
+  const BoxWithArm box(options.size);
+  Sequence sequence{box.mesh.triangles, {}};
+  constexpr double way = BoxWithArm::tip_outside - BoxWithArm::deepest_tip;
+  for (int f = 0; f < options.frames; ++f) {
+    const double s = options.frames > 1 ? static_cast<double>(f) / (options.frames - 1) : 0;
+    sequence.frames.push_back(box.with_tip(BoxWithArm::tip_outside - way * sin_turn(s / 2)));
+  }
+  return sequence;
+}
+
+Sequence bend_scene(const SceneOptions& options) {
+  return deform_any(options, bend, [](int size) { return tube_shape(size, true); });
+}
+
+Sequence twist_scene(const SceneOptions& options) {
+  return deform_any(options, twist, [](int size) { return tube_shape(size, true); });
+}
+
+Sequence crumpling_sphere(const SceneOptions& options) {
+  return deform_any(options, crumple, sphere_shape);
+}
+
+Sequence dented_sphere(const SceneOptions& options) {
+  return deform(sphere_shape(options.size), Extent{}, dent, options.frames);
+}
+
+Sequence open_tube(const SceneOptions& options) {
+  return deform(tube_shape(options.size, false), Extent{}, narrow, options.frames);
+}
+
+Sequence pinching_torus(const SceneOptions& options) {
+  return deform(torus_shape(options.size), Extent{}, pinch, options.frames);
+}
+
+Sequence folding_sheet(const SceneOptions& options) {
+  return deform(sheet_shape(options.size), Extent{}, fold, options.frames);
+}
+
+constexpr std::array<SceneInfo, 10> infos = {{
+    {"breathing-sphere", "a sphere that swells and shrinks unevenly; positive from its centre",
+     1280, 11, true, true},
+    {"two-spheres", "two separate spheres, one swells while the other shrinks; no contact", 1280,
+     11, true, false},
+    {"dented-sphere", "a dent is pushed through a sphere until it meets the other side", 1280, 11,
+     true, false},
+    {"bend", "a closed tube is bent into a ring until its ends meet", 1640, 21, true, true},
+    {"twist", "a closed tube is twisted by one turn; no contact of its own shape", 1640, 21, true,
+     true},
+    {"open-tube", "a tube open at both ends gets a waist; no contact", 1600, 11, false, false},
+    {"pinching-torus", "the hole of a torus is pressed shut at one place", 1600, 11, true, false},
+    {"folding-sheet", "a sheet rolls over until its free edge comes down on it", 800, 21, false,
+     false},
+    {"crumpling-sphere", "a sphere is folded over itself at many places", 1280, 11, true, true},
+    {"arm-in-box", "an arm of an open box enters through its hole and leaves again; no contact",
+     808, 11, false, false},
+}};
+// In the order of `infos`.
+constexpr std::array<Frames, 10> makers = {
+    breathing_sphere, two_spheres,    dented_sphere, bend_scene,       twist_scene,
+    open_tube,        pinching_torus, folding_sheet, crumpling_sphere, arm_in_box};
+
+Problem wrong_option(std::string_view scene, std::string_view detail) {
+  return problem_in(FileProblem::wrong_scene_option, {},
+                    fmt::format("scene {}: {}", scene, detail));
+}
+
+bool is_valid(const Mesh& mesh) {
+  return mesh.positions.rows() > 0 && mesh.triangles.rows() > 0 && mesh.positions.allFinite() &&
+         mesh.triangles.minCoeff() >= 0 && mesh.triangles.maxCoeff() < mesh.positions.rows();
+}
+
+Problem unknown_scene(std::string_view name) {
+  std::string names;
+  for (const SceneInfo& info : infos) {
+    names += names.empty() ? "" : ", ";
+    names += info.name;
+  }
+  return problem_in(FileProblem::unknown_scene, {},
+                    fmt::format("no scene is named {}; there are {}", name, names));
+}
+
+Expected<Sequence> make(std::size_t i, SceneOptions options) {
+  const SceneInfo& info = infos[i];
+  if (options.size == 0) options.size = info.default_size;
+  if (options.frames == 0) options.frames = info.default_frames;
+  if (options.size < 0 || options.size > most_triangles) {
+    return wrong_option(info.name,
+                        fmt::format("1 to {} triangles, not {}", most_triangles, options.size));
+  }
+  if (options.frames < 0 || options.frames > most_frames) {
+    return wrong_option(info.name,
+                        fmt::format("1 to {} frames, not {}", most_frames, options.frames));
+  }
+  if (options.mesh && !info.takes_mesh) return wrong_option(info.name, "it takes no mesh");
+  if (options.mesh && !is_valid(*options.mesh)) {
+    return wrong_option(info.name,
+                        "the mesh has no triangle, an index out of range or a "
+                        "coordinate that is not finite");
+  }
+  Sequence sequence = makers[i](options);
+  for (const detector::Positions& frame : sequence.frames) {
+    if (!frame.allFinite()) return wrong_option(info.name, "the mesh is too large to be deformed");
+  }
+  return sequence;
+}
+
+}  // namespace
+
+std::span<const SceneInfo> scenes() { return infos; }
+
+Expected<Sequence> make_scene(std::string_view name, const SceneOptions& options) try {
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    if (infos[i].name == name) return make(i, options);
+  }
+  return unknown_scene(name);
+} catch (const std::bad_alloc&) {
+  return problem_in(FileProblem::too_large, {},
+                    fmt::format("scene {}: larger than the memory at hand", name));
+}
+
+}  // namespace assay::corpus

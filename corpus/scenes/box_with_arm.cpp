@@ -1,0 +1,176 @@
+#include "corpus/scenes/box_with_arm.h"
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "corpus/scenes/mesh_maker.h"
+#include "corpus/scenes/shapes.h"
+#include "corpus/scenes/trigonometry.h"
+
+namespace assay::corpus {
+namespace {
+
+using detector::Point;
+
+constexpr double half_width = 0.1;                 // of the arm
+constexpr double bend = 0.3;                       // radius of the arm's three bends
+constexpr double out = 0.4, up = 1.4, over = 1.1;  // lengths of its straight parts
+constexpr double arc = bend * pi / 2;
+constexpr double fixed_length = out + up + over + 3 * arc;
+constexpr double shoulder = 1.7;  // height from which the arm goes straight down
+
+// A place on the arm's middle line in the plane y = 0: its point, its direction, and the direction
+// that continues the wall's +z, all as (x, z).
+struct Station {
+  double x, z, direction_x, direction_z, side_x, side_z;
+};
+
+// s in [0, fixed_length]: out of the wall at (-1, 0), up, over the lid, down to the shoulder.
+Station station_at(double s) {
+  double x = -1, z = 0, turn = 0;  // turn: how far the direction has gone from -x over +z to +x
+  const std::array<double, 3> straight = {out, up, over};
+  for (const double length : straight) {
+    const double c = cos_turn(turn), d = sin_turn(turn);
+    const double along = s < length ? s : length;
+    x -= along * c;
+    z += along * d;
+    s -= along;
+    if (s <= 0) break;
+    const double part = (s < arc ? s : arc) / arc / 4;
+    // The bend's centre lies a quarter turn on from the direction.
+    const double centre_x = x + bend * d, centre_z = z + bend * c;
+    turn += part;
+    x = centre_x - bend * sin_turn(turn);
+    z = centre_z - bend * cos_turn(turn);
+    s -= s < arc ? s : arc;
+  }
+  const double c = cos_turn(turn), d = sin_turn(turn);
+  return {x, z, -c, d, d, c};
+}
+
+// The perimeter of the square [-1,1]^2 in 4 b steps, clockwise from (-1,-1): right-handed about
+// the arm's direction.
+std::vector<std::array<int, 2>> perimeter(int b) {
+  std::vector<std::array<int, 2>> points;
+  for (int i = 0; i < b; ++i) points.push_back({0, i});
+  for (int i = 0; i < b; ++i) points.push_back({i, b});
+  for (int i = 0; i < b; ++i) points.push_back({b, b - i});
+  for (int i = 0; i < b; ++i) points.push_back({b - i, 0});
+  return points;
+}
+
+// Vertices of the box by lattice place, 0 ... 3 b on each axis.
+class BoxSurface {
+ public:
+  BoxSurface(MeshMaker& maker, int b) : maker_(maker), b_(b) {}
+
+  std::int32_t vertex(const std::array<int, 3>& place) {
+    const auto [known, is_new] = known_.try_emplace(place, 0);
+    if (is_new) {
+      const auto coordinate = [&](int i) { return 2.0 * i / (3 * b_) - 1; };
+      known->second =
+          maker_.vertex({coordinate(place[0]), coordinate(place[1]), coordinate(place[2])});
+    }
+    return known->second;
+  }
+
+  // One side, without its middle block if `open`.
+  void side(std::size_t axis, bool high, bool open) {
+    for (int i = 0; i < 3 * b_; ++i) {
+      for (int j = 0; j < 3 * b_; ++j) {
+        if (open && i >= b_ && i < 2 * b_ && j >= b_ && j < 2 * b_) continue;
+        const auto corner = [&](int di, int dj) {
+          std::array<int, 3> place{};
+          place[axis] = high ? 3 * b_ : 0;
+          place[(axis + 1) % 3] = i + di;
+          place[(axis + 2) % 3] = j + dj;
+          return vertex(place);
+        };
+        if (high) {
+          maker_.quad(corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1));
+        } else {
+          maker_.quad(corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0));
+        }
+      }
+    }
+  }
+
+ private:
+  MeshMaker& maker_;
+  int b_;
+  std::map<std::array<int, 3>, std::int32_t> known_;
+};
+
+// A ring of the arm around a station.
+std::vector<std::int32_t> add_ring(MeshMaker& maker, const Station& at, int b) {
+  std::vector<std::int32_t> ring;
+  for (const auto& [i, j] : perimeter(b)) {
+    const double u = half_width * (2.0 * i / b - 1), v = half_width * (2.0 * j / b - 1);
+    ring.push_back(maker.vertex({at.x + v * at.side_x, u, at.z + v * at.side_z}));
+  }
+  return ring;
+}
+
+void join(MeshMaker& maker, const std::vector<std::int32_t>& a,
+          const std::vector<std::int32_t>& b) {
+  for (std::size_t j = 0; j < a.size(); ++j) {
+    const std::size_t next = (j + 1) % a.size();
+    maker.quad(a[j], a[next], b[next], b[j]);
+  }
+}
+
+constexpr int fixed_rings(int b) { return 8 * b; }
+constexpr int sliding_rings(int b) { return 4 * b; }
+
+// Height of sliding ring i = 1 ... n; the tip is a point, half a width below the last ring.
+double ring_height(int i, int n, double tip) {
+  return shoulder + (tip + half_width - shoulder) * i / n;
+}
+
+}  // namespace
+
+BoxWithArm::BoxWithArm(int size)
+    : resolution_(nearest_resolution(size, 1, [](int n) { return 200 * n * n + 4 * n; })) {
+  const int b = resolution_;
+  MeshMaker maker;
+  BoxSurface box(maker, b);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.side(axis, false, axis == 0);
+    box.side(axis, true, axis == 2);
+  }
+  std::vector<std::int32_t> ring;
+  for (const auto& [i, j] : perimeter(b)) ring.push_back(box.vertex({0, b + i, b + j}));
+  for (int i = 1; i <= fixed_rings(b); ++i) {
+    auto next = add_ring(maker, station_at(fixed_length * i / fixed_rings(b)), b);
+    join(maker, ring, next);
+    ring = std::move(next);
+  }
+  for (int i = 1; i <= sliding_rings(b); ++i) {
+    const double z = ring_height(i, sliding_rings(b), tip_outside);
+    auto next = add_ring(maker, {0, z, 0, -1, -1, 0}, b);
+    if (i == 1) first_sliding_ = next.front();
+    join(maker, ring, next);
+    ring = std::move(next);
+  }
+  const std::int32_t tip = maker.vertex({0, 0, tip_outside});
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    maker.triangle(tip, ring[j], ring[(j + 1) % ring.size()]);
+  }
+  mesh = maker.mesh();
+}
+
+detector::Positions BoxWithArm::with_tip(double z) const {
+  detector::Positions x = mesh.positions;
+  const int rings = sliding_rings(resolution_), around = 4 * resolution_;
+  for (int i = 1; i <= rings; ++i) {
+    x.middleRows(first_sliding_ + (i - 1) * around, around)
+        .col(2)
+        .setConstant(ring_height(i, rings, z));
+  }
+  x(x.rows() - 1, 2) = z;
+  return x;
+}
+
+}  // namespace assay::corpus

@@ -1,0 +1,150 @@
+#include "corpus/scenes/shapes.h"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "corpus/scenes/mesh_maker.h"
+#include "corpus/scenes/trigonometry.h"
+
+namespace assay::corpus {
+namespace {
+
+using detector::Point;
+
+// Vertices of an icosahedron and its outward faces.
+const double golden = (1 + std::sqrt(5.0)) / 2;
+const std::array<Point, 12> ico_vertices = {{{-1, golden, 0},
+                                             {1, golden, 0},
+                                             {-1, -golden, 0},
+                                             {1, -golden, 0},
+                                             {0, -1, golden},
+                                             {0, 1, golden},
+                                             {0, -1, -golden},
+                                             {0, 1, -golden},
+                                             {golden, 0, -1},
+                                             {golden, 0, 1},
+                                             {-golden, 0, -1},
+                                             {-golden, 0, 1}}};
+constexpr std::array<std::array<int, 3>, 20> ico_faces = {
+    {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+     {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+     {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+
+// A vertex of a split face: weights of icosahedron corners, by rising corner, zero weights left
+// out. Neighbouring faces make the same key for a vertex on their common edge.
+using Weights = std::map<int, int>;
+
+Point on_sphere(const Weights& weights) {
+  Point x{};
+  for (const auto& [corner, weight] : weights) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[k] += weight * ico_vertices[static_cast<std::size_t>(corner)][k];
+    }
+  }
+  const double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+  return {x[0] / length, x[1] / length, x[2] / length};
+}
+
+}  // namespace
+
+Mesh sphere_shape(int size) {
+  const int f = nearest_resolution(size, 1, [](int n) { return 20 * n * n; });
+  MeshMaker maker;
+  std::map<Weights, std::int32_t> known;
+  for (const auto& [a, b, c] : ico_faces) {
+    const auto vertex = [&, a = a, b = b, c = c](int i, int j) {
+      Weights weights;
+      if (i > 0) weights[b] = i;
+      if (j > 0) weights[c] = j;
+      if (f - i - j > 0) weights[a] = f - i - j;
+      const auto [place, is_new] = known.try_emplace(weights, 0);
+      if (is_new) place->second = maker.vertex(on_sphere(weights));
+      return place->second;
+    };
+    for (int i = 0; i < f; ++i) {
+      for (int j = 0; i + j < f; ++j) {
+        maker.triangle(vertex(i, j), vertex(i + 1, j), vertex(i, j + 1));
+        if (i + j + 1 < f) {
+          maker.triangle(vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1));
+        }
+      }
+    }
+  }
+  return maker.mesh();
+}
+
+Mesh tube_shape(int size, bool capped) {
+  constexpr double radius = 0.5, length = 6;
+  const int m =
+      nearest_resolution(size, 3, [&](int n) { return 4 * n * n + (capped ? 2 * n : 0); });
+  const int rows = 2 * m;
+  MeshMaker maker;
+  for (int i = 0; i <= rows; ++i) {
+    const double z = length * i / rows - length / 2;
+    for (int j = 0; j < m; ++j) {
+      const double turn = static_cast<double>(j) / m;
+      maker.vertex({radius * cos_turn(turn), radius * sin_turn(turn), z});
+    }
+  }
+  const auto at = [m](int i, int j) { return i * m + j % m; };
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < m; ++j) maker.quad(at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
+  }
+  if (capped) {
+    const auto bottom = maker.vertex({0, 0, -length / 2});
+    const auto top = maker.vertex({0, 0, length / 2});
+    for (int j = 0; j < m; ++j) {
+      maker.triangle(bottom, at(0, j + 1), at(0, j));
+      maker.triangle(top, at(rows, j), at(rows, j + 1));
+    }
+  }
+  return maker.mesh();
+}
+
+Mesh torus_shape(int size) {
+  constexpr double wide = 1, thin = 0.4;
+  const int m = nearest_resolution(size, 3, [](int n) { return 4 * n * n; });
+  const int rows = 2 * m;
+  MeshMaker maker;
+  for (int i = 0; i < rows; ++i) {
+    const double around = static_cast<double>(i) / rows;
+    for (int j = 0; j < m; ++j) {
+      const double turn = static_cast<double>(j) / m;
+      const double r = wide + thin * cos_turn(turn);
+      maker.vertex({r * cos_turn(around), r * sin_turn(around), thin * sin_turn(turn)});
+    }
+  }
+  const auto at = [m, rows](int i, int j) { return i % rows * m + j % m; };
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < m; ++j) maker.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+  }
+  return maker.mesh();
+}
+
+Mesh sheet_shape(int size) {
+  const int k = nearest_resolution(size, 1, [](int n) { return 2 * n * n; });
+  MeshMaker maker;
+  for (int i = 0; i <= k; ++i) {
+    for (int j = 0; j <= k; ++j) maker.vertex({2.0 * i / k - 1, 2.0 * j / k - 1, 0});
+  }
+  const auto at = [k](int i, int j) { return i * (k + 1) + j; };
+  for (int i = 0; i < k; ++i) {
+    for (int j = 0; j < k; ++j) maker.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+  }
+  return maker.mesh();
+}
+
+Mesh side_by_side(const Mesh& a, const Mesh& b, double offset) {
+  Mesh both;
+  both.positions.resize(a.positions.rows() + b.positions.rows(), 3);
+  both.positions << a.positions, b.positions;
+  both.positions.bottomRows(b.positions.rows()).col(0).array() += offset;
+  both.triangles.resize(a.triangles.rows() + b.triangles.rows(), 3);
+  both.triangles << a.triangles, b.triangles;
+  both.triangles.bottomRows(b.triangles.rows()).array() +=
+      static_cast<std::int32_t>(a.positions.rows());
+  return both;
+}
+
+}  // namespace assay::corpus

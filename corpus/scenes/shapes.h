@@ -1,0 +1,33 @@
+// Rest shapes of the scenes. `size` is the wanted number of triangles: each shape takes the nearest
+// number that it can have. Closed shapes are cycles with outward normals.
+#pragma once
+
+#include "corpus/mesh_reader.h"
+
+namespace assay::corpus {
+
+// Unit sphere: an icosahedron with each face split into f x f triangles, 20 f^2.
+Mesh sphere_shape(int size);
+
+// Along z, radius 0.5, length 6, centre at the origin; with m vertices around: 4 m^2 triangles and,
+// with flat caps, 2 m more.
+Mesh tube_shape(int size, bool capped);
+
+// Around the z axis, radii 1 and 0.4: 4 m^2 triangles with m vertices around the thin way.
+Mesh torus_shape(int size);
+
+// The square [-1,1]^2 in the plane z = 0, normal +z: 2 k^2 triangles.
+Mesh sheet_shape(int size);
+
+// Both meshes as one; b is moved by `offset` along x. Triangles of a come first.
+Mesh side_by_side(const Mesh& a, const Mesh& b, double offset);
+
+// The n >= least whose count(n) is nearest to size; count rises with n.
+template <class Count>
+int nearest_resolution(int size, int least, Count count) {
+  int n = least;
+  while (count(n + 1) <= size) ++n;
+  return size - count(n) <= count(n + 1) - size ? n : n + 1;
+}
+
+}  // namespace assay::corpus

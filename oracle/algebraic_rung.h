@@ -1,0 +1,21 @@
+// Rung "algebraic": the complete exact test. 50 us to 3 ms.
+#pragma once
+
+#include <optional>
+
+#include "oracle/contact_polynomials.h"
+
+namespace assay::oracle {
+
+struct AlgebraicVerdict {
+  bool contact = false;
+  detector::TimeEnclosure first;  // when contact, and a time was wanted
+};
+
+// Tests the contact condition at each time where it can begin: the zeros of F; when F is
+// identically zero, t=0 and the zeros of the L of one axis where they are not all zero; when all L
+// are, t=0 and the zeros of the D of such an axis; else t=0. Between these times nothing changes,
+// and the set of contact times is closed, so the first of them with a contact is the answer.
+AlgebraicVerdict algebraic_verdict(ContactPolynomials& polynomials, detector::Want want);
+
+}  // namespace assay::oracle

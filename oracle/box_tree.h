@@ -1,0 +1,49 @@
+// Exact box cull: which of many closed boxes meet a given one.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "detector/mesh/types.h"
+
+namespace assay::oracle {
+
+struct Box {
+  detector::Point min, max;
+};
+
+// The box of points over the whole step: their paths are segments between the two ends.
+template <class Vertices>
+Box swept_box(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+              const Vertices& vertices) {
+  Box box{detector::point_of(x_t0, vertices[0]), detector::point_of(x_t0, vertices[0])};
+  for (const std::int32_t v : vertices) {
+    for (int k = 0; k < 3; ++k) {
+      for (const double x : {x_t0(v, k), x_t1(v, k)}) {
+        if (x < box.min[k]) box.min[k] = x;
+        if (x > box.max[k]) box.max[k] = x;
+      }
+    }
+  }
+  return box;
+}
+
+// A packed R-tree (Boost.Geometry). Its only verdicts are comparisons of doubles; sums decide the
+// layout, never an answer. Many threads may ask at once.
+class BoxTree {
+ public:
+  explicit BoxTree(const std::vector<Box>& boxes);
+  ~BoxTree();
+  BoxTree(const BoxTree&) = delete;
+  BoxTree& operator=(const BoxTree&) = delete;
+
+  // Replaces `found` by the indices of all boxes that meet `box`, touching included, in any order.
+  void meeting(const Box& box, std::vector<std::int32_t>& found) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace assay::oracle

@@ -1,0 +1,34 @@
+// Polynomials in time with integer coefficients of any size.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <vector>
+
+namespace assay::oracle {
+
+using Integer = mpz_class;
+
+// c[0] + c[1] t + ...; no trailing zero coefficients, so the zero polynomial is empty.
+struct IntegerPolynomial {
+  std::vector<Integer> c;
+
+  bool is_zero() const { return c.empty(); }
+  int degree() const { return static_cast<int>(c.size()) - 1; }
+};
+
+IntegerPolynomial operator+(const IntegerPolynomial& a, const IntegerPolynomial& b);
+IntegerPolynomial operator-(const IntegerPolynomial& a, const IntegerPolynomial& b);
+IntegerPolynomial operator-(const IntegerPolynomial& a);
+IntegerPolynomial operator*(const IntegerPolynomial& a, const IntegerPolynomial& b);
+
+// The linear polynomial with these values at t=0 and t=1.
+IntegerPolynomial linear(const Integer& at_t0, const Integer& at_t1);
+
+// Exact sign at a finite double t >= 0. About 0.5 us for a cubic.
+int sign_at(const IntegerPolynomial& p, double t);
+
+// True only if p has no zero in [0,1] (Descartes' rule in Bernstein form); false says nothing.
+bool surely_no_zero_in_unit(const IntegerPolynomial& p);
+
+}  // namespace assay::oracle

@@ -1,0 +1,37 @@
+// Runs a case of the corpus through detector and oracle and compares both with its expected facts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corpus/case_file.h"
+#include "properties/agreement.h"
+
+namespace assay::properties {
+
+struct CaseStepReport {
+  detector::StepResult result;
+  oracle::StepJudgement judgement;
+  StepDiff diff;
+};
+
+struct CaseReport {
+  Outcome outcome = Outcome::holds;
+  std::vector<std::string> failed;  // one line for each fact that does not hold
+  std::vector<CaseStepReport> steps;
+};
+
+// Detector options from the case's own (culling, start, pairs), with `culling` in place of the
+// case's when given. The case's view primitive is used where the culling is one of views.
+// Facts compared: refusal or answer, first time, pair set (detector and oracle), view signs
+// (detector where it tested the triangle, oracle always), agreement of detector and oracle.
+CaseReport check_case(const corpus::Case& c, std::optional<detector::Culling> culling = {},
+                      int jobs = 1);
+
+// Command-line words for options: nothing for an unknown word.
+std::optional<detector::Culling> culling_named(std::string_view word);
+std::optional<detector::Start> start_named(std::string_view word);
+std::optional<detector::Pairs> pairs_named(std::string_view word);
+const char* name_of(detector::Culling culling);
+
+}  // namespace assay::properties

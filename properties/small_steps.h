@@ -1,0 +1,24 @@
+// Random small steps with small-integer coordinates, where degenerate contacts are frequent:
+// coplanar and collinear motion, zero-area triangles, contacts at t=0 and t=1, ties.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "detector/mesh/step_types.h"
+
+namespace assay::properties {
+
+struct SmallStep {
+  std::string family;  // of the mesh
+  detector::Triangles triangles;
+  detector::Positions x_t0, x_t1;
+  detector::ViewPrimitive point, line;  // small integers too; the line's ends may move apart
+};
+
+// Case `index` of `seed`: a hash of both is the only source of randomness, so that any case can be
+// made alone, on any machine.
+SmallStep make_small_step(std::uint64_t seed, std::uint64_t index);
+
+}  // namespace assay::properties

@@ -1,0 +1,257 @@
+// `assay check`: consecutive frames are the steps of one mesh; each goes through the detector and,
+// unless left out, the oracle, and the two are compared.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iterator>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "corpus/case_file.h"
+#include "corpus/mesh_reader.h"
+#include "detector/detector.h"
+#include "properties/case_check.h"
+#include "reports/commands.h"
+#include "reports/exit_code.h"
+#include "reports/json_output.h"
+#include "reports/limits.h"
+#include "reports/progress.h"
+#include "reports/step_text.h"
+
+namespace assay::reports {
+namespace {
+
+using detector::Answer;
+using properties::Outcome;
+
+int refuse(const std::string& message) {
+  fmt::print(stderr, "assay: {}\n", message);
+  return exit_usage;
+}
+
+struct Input {
+  corpus::Sequence sequence;
+  std::optional<corpus::Case> as_case;  // when the input was a case file
+};
+
+corpus::Expected<Input> read_input(const std::vector<std::string>& files) {
+  if (files.size() == 1 && std::filesystem::path(files[0]).extension() == ".json") {
+    auto c = corpus::read_case(files[0]);
+    if (!c) return c.error();
+    return Input{{c.value().triangles, c.value().frames}, c.value()};
+  }
+  const std::vector<std::filesystem::path> paths(files.begin(), files.end());
+  auto sequence = corpus::read_sequence(paths);
+  if (!sequence) return sequence.error();
+  return Input{std::move(sequence.value()), std::nullopt};
+}
+
+detector::Options options_of(const CheckRequest& request, const Input& input) {
+  detector::Options options;
+  if (input.as_case) {
+    const auto& words = input.as_case->options;
+    const auto word = [&](const char* name) {
+      const auto found = words.find(name);
+      return found == words.end() ? std::string() : found->second;
+    };
+    options.culling = properties::culling_named(word("culling")).value_or(options.culling);
+    options.start = properties::start_named(word("start")).value_or(options.start);
+    options.pairs = properties::pairs_named(word("pairs")).value_or(options.pairs);
+  }
+  options.culling = request.culling.value_or(options.culling);
+  options.start = request.start.value_or(options.start);
+  options.pairs = request.pairs.value_or(options.pairs);
+  return options;
+}
+
+class Check {
+ public:
+  Check(const CheckRequest& request, const Input& input, detector::Detector detector,
+        const detector::Options& options)
+      : request_(request), input_(input), detector_(std::move(detector)), options_(options),
+        limits_(request.time_limit, request.memory_limit) {}
+
+  int run() {
+    announce();
+    nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+    for (std::size_t s = 0; s < step_count(); ++s) {
+      steps.push_back(run_step(s));
+      if (refused_) return refuse(*refused_);
+    }
+    summarise();
+    if (!request_.json_file.empty()) {
+      if (auto problem = write_json(std::move(steps))) return refuse(*problem);
+    }
+    return exit_code();
+  }
+
+ private:
+  std::size_t step_count() const { return input_.sequence.frames.size() - 1; }
+
+  void announce() const {
+    const auto& mesh = detector_.topology();
+    std::size_t unclosed = 0;
+    for (const auto& component : mesh.components) unclosed += component.is_cycle ? 0 : 1;
+    fmt::print("{} triangles, {} vertices, {} component{}", mesh.triangles.size(),
+               input_.sequence.frames[0].rows(), mesh.components.size(),
+               mesh.components.size() == 1 ? "" : "s");
+    if (unclosed) fmt::print(" ({} unclosed: all dirty, answered without culling)", unclosed);
+    fmt::print("; {} step{}; culling {}{}{}\n", step_count(), step_count() == 1 ? "" : "s",
+               properties::name_of(options_.culling),
+               request_.use_oracle ? "" : "; no oracle: not judged",
+               request_.time_limit ? fmt::format("; at most {} s", *request_.time_limit) : "");
+    if (!request_.json_file.empty()) fmt::print("writes {}\n", request_.json_file);
+    std::fflush(stdout);
+  }
+
+  nlohmann::ordered_json run_step(std::size_t s) {
+    Progress progress(fmt::format("step {}/{}", s + 1, step_count()));
+    const detector::StopFunction stop = [&] {
+      progress.tick();
+      return limits_.exceeded();
+    };
+    const auto &x_t0 = input_.sequence.frames[s], &x_t1 = input_.sequence.frames[s + 1];
+
+    progress.phase("detector");
+    const detector::StepResult result = detect(s, x_t0, x_t1, stop);
+    if (result.answer == Answer::error) {
+      refused_ = fmt::format("step {}: {}", s + 1, result.problem->message);
+      return {};
+    }
+    if (result.answer == Answer::collision && !collision_step_) {
+      collision_step_ = s;
+      collision_time_ = result.first;
+    }
+    undecided_ |= result.answer == Answer::undecided;
+    if (!request_.use_oracle) {
+      progress.finish();
+      fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr));
+      return step_json(result, nullptr, 0, nullptr);
+    }
+
+    progress.phase("oracle");
+    double oracle_ms = 0;
+    const oracle::StepJudgement judgement = judge(x_t0, x_t1, stop, oracle_ms);
+    const auto diff = properties::compare(result, judgement, options_.pairs);
+    progress.finish();
+    defect_ |= diff.outcome == Outcome::defect;
+    undecided_ |= diff.outcome == Outcome::undecided;
+    fmt::print("{}", step_text(s + 1, result, &judgement, oracle_ms, &diff));
+    if (diff.outcome == Outcome::defect) print_defect(s, diff);
+    std::fflush(stdout);
+    return step_json(result, &judgement, oracle_ms, &diff);
+  }
+
+  detector::StepResult detect(std::size_t s, const detector::Positions& x_t0,
+                              const detector::Positions& x_t1, const detector::StopFunction& stop) {
+    std::vector<detector::ViewPrimitive> given;
+    if (input_.as_case) {
+      if (auto view = corpus::view_of_step(*input_.as_case, s)) {
+        if (options_.culling == detector::Culling::view_point) view->q1 = view->q0;
+        given.push_back(*view);
+      }
+    }
+    try {
+      return detector_.step(x_t0, x_t1, given, stop);
+    } catch (const std::bad_alloc&) {
+      limits_.memory_failed();
+      detector::StepResult result;
+      result.answer = Answer::undecided;
+      return result;
+    }
+  }
+
+  oracle::StepJudgement judge(const detector::Positions& x_t0, const detector::Positions& x_t1,
+                              const detector::StopFunction& stop, double& milliseconds) {
+    const auto begin = std::chrono::steady_clock::now();
+    oracle::StepJudgement judgement;
+    try {
+      judgement = oracle::judge_step(x_t0, x_t1, input_.sequence.triangles, {request_.jobs, stop});
+    } catch (const std::bad_alloc&) {
+      limits_.memory_failed();
+    }
+    milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    return judgement;
+  }
+
+  void print_defect(std::size_t s, const properties::StepDiff& diff) const {
+    if (diff.missing.empty()) return;
+    const auto& lost = diff.missing.front();
+    fmt::print("  triangles {} and {} were lost at: {}\n", lost.pair.a, lost.pair.b,
+               properties::stage_that_lost(input_.sequence.triangles, input_.sequence.frames[s],
+                                           input_.sequence.frames[s + 1], lost.pair));
+  }
+
+  void summarise() const {
+    const std::string what =
+        collision_step_ ? fmt::format("collision at t = {} of step {}", time_text(collision_time_),
+                                      *collision_step_ + 1)
+                        : std::string(undecided_ ? "no collision found so far" : "no collision");
+    if (defect_) {
+      fmt::print("{}; DEFECT: detector and oracle differ\n", what);
+    } else if (undecided_) {
+      fmt::print("{}; undecided: {} reached\n", what,
+                 limits_.reached().empty() ? "a limit" : limits_.reached());
+    } else if (!request_.use_oracle) {
+      fmt::print("{}; not judged\n", what);
+    } else {
+      fmt::print("{}; detector and oracle agree\n", what);
+    }
+  }
+
+  std::optional<std::string> write_json(nlohmann::ordered_json steps) const {
+    const nlohmann::ordered_json report = {
+        {"schema", "assay-check/1"},
+        {"version", version_text()},
+        {"files", request_.files},
+        {"triangles", detector_.topology().triangles.size()},
+        {"components", detector_.topology().components.size()},
+        {"culling", properties::name_of(options_.culling)},
+        {"judged", request_.use_oracle},
+        {"outcome", properties::name_of(outcome())},
+        {"limit_reached", limits_.reached().empty() ? nlohmann::ordered_json()
+                                                    : nlohmann::ordered_json(limits_.reached())},
+        {"peak_memory_bytes", peak_resident_bytes()},
+        {"steps", std::move(steps)}};
+    return write_text_file(request_.json_file, report.dump(1) + "\n");
+  }
+
+  Outcome outcome() const {
+    return defect_ ? Outcome::defect : undecided_ ? Outcome::undecided : Outcome::holds;
+  }
+
+  int exit_code() const {
+    if (defect_) return exit_defect;
+    if (undecided_) return exit_undecided;
+    if (request_.fail_on_collision && collision_step_) return exit_collision;
+    return exit_holds;
+  }
+
+  const CheckRequest& request_;
+  const Input& input_;
+  detector::Detector detector_;
+  detector::Options options_;
+  Limits limits_;
+  std::optional<std::string> refused_;
+  bool defect_ = false, undecided_ = false;
+  std::optional<std::size_t> collision_step_;
+  detector::TimeEnclosure collision_time_;
+};
+
+}  // namespace
+
+int run_check(const CheckRequest& request) {
+  auto input = read_input(request.files);
+  if (!input) return refuse(input.error().message);
+  if (input.value().sequence.frames.size() < 2) {
+    return refuse("one frame only: a step needs two frames or more");
+  }
+  const detector::Options options = options_of(request, input.value());
+  auto detector = detector::Detector::create(input.value().sequence.triangles,
+                                             input.value().sequence.frames[0], options);
+  if (!detector) return refuse(fmt::format("{}: {}", request.files[0], detector.error().message));
+  return Check(request, input.value(), std::move(detector.value()), options).run();
+}
+
+}  // namespace assay::reports

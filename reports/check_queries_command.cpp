@@ -1,0 +1,187 @@
+// `assay check-queries`: labelled vertex-face and edge-edge queries answered by one method, scored
+// against their truth, and timed one by one.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "corpus/query_csv.h"
+#include "detector/contact/contact_exact.h"
+#include "detector/contact/elementary_test.h"
+#include "oracle/contact.h"
+#include "reports/commands.h"
+#include "reports/exit_code.h"
+#include "reports/json_output.h"
+
+namespace assay::reports {
+namespace {
+
+using corpus::LabelledQuery;
+
+struct Answered {
+  bool contact = false;
+  int rung = 0;  // 0 axis, 1 interval or filter, 2 algebraic or exact
+};
+
+detector::FourPoints four_points_of(const LabelledQuery& q) {
+  return std::visit([](const auto& query) { return detector::four_points(query); }, q.query);
+}
+
+Answered answer_by_oracle(const LabelledQuery& q) {
+  const auto answer =
+      std::holds_alternative<detector::VertexFace>(q.query)
+          ? oracle::vertex_face_contact(std::get<detector::VertexFace>(q.query), detector::Want::yes_no)
+          : oracle::edge_edge_contact(std::get<detector::EdgeEdge>(q.query), detector::Want::yes_no);
+  return {answer.contact, static_cast<int>(answer.rung)};
+}
+
+Answered answer_by_detector(const LabelledQuery& q) {
+  const auto answer = detector::test_contact(four_points_of(q), detector::Want::yes_no);
+  return {answer.contact, static_cast<int>(answer.rung)};
+}
+
+Answered answer(QueryMethod method, const LabelledQuery& q) {
+  return method == QueryMethod::oracle ? answer_by_oracle(q) : answer_by_detector(q);
+}
+
+QueryMethod other(QueryMethod method) {
+  return method == QueryMethod::oracle ? QueryMethod::detector_exact : QueryMethod::oracle;
+}
+
+const char* name_of(QueryMethod method) {
+  return method == QueryMethod::oracle ? "oracle" : "detector-exact";
+}
+
+// A query where the answer is not the label.
+struct Difference {
+  std::string file;
+  std::size_t index = 0;
+  bool answer = false;
+  // Coplanar for the whole step, and the other exact method answers as this one: the label is in
+  // doubt, not the method (labels of such queries were never checked by their makers).
+  bool label_disputed = false;
+};
+
+class Score {
+ public:
+  explicit Score(QueryMethod method) : method_(method) {}
+
+  void add(const std::string& file, const std::vector<LabelledQuery>& queries) {
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const auto begin = std::chrono::steady_clock::now();
+      const Answered answered = answer(method_, queries[i]);
+      const auto end = std::chrono::steady_clock::now();
+      microseconds_.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
+      yes_ += answered.contact ? 1 : 0;
+      ++rungs_[static_cast<std::size_t>(answered.rung)];
+      if (!queries[i].truth) {
+        ++unlabelled_;
+        continue;
+      }
+      if (answered.contact != *queries[i].truth) note_difference(file, i, queries[i], answered.contact);
+    }
+  }
+
+  void print() {
+    std::sort(microseconds_.begin(), microseconds_.end());
+    const auto middle_rung = method_ == QueryMethod::oracle ? "interval" : "filter";
+    const auto last_rung = method_ == QueryMethod::oracle ? "algebraic" : "exact";
+    fmt::print("{}: {} queries, {} yes, {} without a label\n", name_of(method_), count(), yes_, unlabelled_);
+    fmt::print("differences from the truth: {} false positives, {} false negatives, {} disputed labels\n",
+               false_positives_, false_negatives_, disputed());
+    for (const auto& d : differences_) {
+      fmt::print("  {} query {}: answer {}, label {}{}\n", d.file, d.index, d.answer, !d.answer,
+                 d.label_disputed ? "; coplanar throughout, both exact methods agree against the label" : "");
+    }
+    fmt::print("us a query: mean {:.2f}, median {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.2f}\n", mean(),
+               quantile(0.5), quantile(0.99), quantile(0.999), quantile(1));
+    fmt::print("rungs: axis {:.1f} %, {} {:.1f} %, {} {:.1f} %\n", share(0), middle_rung, share(1),
+               last_rung, share(2));
+  }
+
+  nlohmann::ordered_json json(const std::vector<std::string>& files) const {
+    nlohmann::ordered_json differences = nlohmann::ordered_json::array();
+    for (const auto& d : differences_) {
+      differences.push_back({{"file", d.file}, {"query", d.index}, {"answer", d.answer},
+                             {"label", !d.answer}, {"label_disputed", d.label_disputed}});
+    }
+    const bool oracle = method_ == QueryMethod::oracle;
+    return {{"schema", "assay-queries/1"}, {"version", version_text()}, {"method", name_of(method_)},
+            {"files", files}, {"count", count()}, {"yes", yes_}, {"unlabelled", unlabelled_},
+            {"false_positives", false_positives_}, {"false_negatives", false_negatives_},
+            {"disputed_labels", disputed()}, {"differences", differences}, {"mean_us", mean()},
+            {"median_us", quantile(0.5)}, {"p99_us", quantile(0.99)}, {"p999_us", quantile(0.999)},
+            {"max_us", quantile(1)},
+            {"rungs", {{"axis", rungs_[0]}, {oracle ? "interval" : "filter", rungs_[1]},
+                       {oracle ? "algebraic" : "exact", rungs_[2]}}}};
+  }
+
+  bool is_wrong() const { return false_positives_ + false_negatives_ > 0; }
+
+ private:
+  void note_difference(const std::string& file, std::size_t index, const LabelledQuery& query, bool contact) {
+    const bool disputed = detector::coplanar_throughout(four_points_of(query)) &&
+                          answer(other(method_), query).contact == contact;
+    differences_.push_back({file, index, contact, disputed});
+    if (!disputed) ++(contact ? false_positives_ : false_negatives_);
+  }
+
+  std::size_t count() const { return microseconds_.size(); }
+  std::size_t disputed() const { return differences_.size() - false_positives_ - false_negatives_; }
+  double share(std::size_t rung) const {
+    return count() ? 100.0 * static_cast<double>(rungs_[rung]) / static_cast<double>(count()) : 0;
+  }
+  double mean() const {
+    double sum = 0;
+    for (const double t : microseconds_) sum += t;
+    return count() ? sum / static_cast<double>(count()) : 0;
+  }
+  // The value at rank ceil(share * n) of the sorted times (nearest rank).
+  double quantile(double share) const {
+    if (microseconds_.empty()) return 0;
+    const double rank = share * static_cast<double>(count());
+    auto index = static_cast<std::size_t>(rank);
+    if (static_cast<double>(index) == rank && index > 0) --index;
+    return microseconds_[std::min(index, count() - 1)];
+  }
+
+  QueryMethod method_;
+  std::vector<double> microseconds_;
+  std::size_t yes_ = 0, unlabelled_ = 0, false_positives_ = 0, false_negatives_ = 0;
+  std::array<std::size_t, 3> rungs_ = {0, 0, 0};
+  std::vector<Difference> differences_;
+};
+
+}  // namespace
+
+int run_check_queries(const CheckQueriesRequest& request) {
+  const auto refuse = [](const std::string& message) {
+    fmt::print(stderr, "assay: {}\n", message);
+    return exit_usage;
+  };
+  if (!request.truths.empty() && request.truths.size() != request.files.size()) {
+    return refuse(fmt::format("{} truth files for {} query files: give one for each, in the same order",
+                              request.truths.size(), request.files.size()));
+  }
+  std::vector<std::vector<LabelledQuery>> sets;
+  for (std::size_t i = 0; i < request.files.size(); ++i) {
+    std::optional<std::filesystem::path> truth;
+    if (!request.truths.empty()) truth = request.truths[i];
+    auto queries = corpus::read_queries(request.files[i], truth);
+    if (!queries) return refuse(queries.error().message);
+    sets.push_back(std::move(queries.value()));
+  }
+  Score score(request.method);
+  for (std::size_t i = 0; i < sets.size(); ++i) score.add(request.files[i], sets[i]);
+  score.print();
+  if (!request.json_file.empty()) {
+    if (auto problem = write_text_file(request.json_file, score.json(request.files).dump(1) + "\n")) {
+      return refuse(*problem);
+    }
+    fmt::print("wrote {}\n", request.json_file);
+  }
+  return score.is_wrong() ? exit_defect : exit_holds;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,55 @@
+// The verbs of the command line. Each takes checked options, prints, and returns an exit code.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "detector/options.h"
+
+namespace assay::reports {
+
+struct CheckRequest {
+  std::vector<std::string> files;  // frames of one mesh, or one case file
+  std::optional<detector::Culling> culling;  // default: the case's own, or view-point
+  std::optional<detector::Start> start;
+  std::optional<detector::Pairs> pairs;
+  bool use_oracle = true;
+  int jobs = 1;
+  std::optional<double> time_limit;            // seconds
+  std::optional<std::uint64_t> memory_limit;   // bytes
+  bool fail_on_collision = false;
+  std::string json_file;  // empty: none
+};
+int run_check(const CheckRequest& request);
+
+enum class QueryMethod : std::uint8_t { oracle, detector_exact };
+struct CheckQueriesRequest {
+  std::vector<std::string> files;
+  std::vector<std::string> truths;  // none, or one a file
+  QueryMethod method = QueryMethod::oracle;
+  std::string json_file;
+};
+int run_check_queries(const CheckQueriesRequest& request);
+
+struct SceneRequest {
+  std::string name;
+  std::string mesh_file;  // empty: the scene's own shape
+  int size = 0, frames = 0;
+  std::string out;
+};
+int run_scene(const SceneRequest& request);
+
+int run_list_scenes();
+
+struct CertifyRequest {
+  std::string out;
+  int jobs = 1;
+};
+int run_certify(const CertifyRequest& request);
+
+// "assay 0.1.0 (CGAL 5.5.1, GMP ..., ...)"
+std::string version_text();
+
+}  // namespace assay::reports

@@ -1,0 +1,132 @@
+#include "reports/json_output.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace assay::reports {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const detector::TimeEnclosure& time) { return Json::array({time.lo, time.hi}); }
+
+Json to_json(const detector::PairContact& contact) {
+  Json vertices = Json::array();
+  for (const auto v : contact.feature.vertices) {
+    if (v >= 0) vertices.push_back(v);
+  }
+  return {{"triangles", {contact.pair.a, contact.pair.b}},
+          {"time", to_json(contact.time)},
+          {"feature", properties::name_of(contact.feature.kind)},
+          {"vertices", vertices}};
+}
+
+namespace {
+
+Json pairs_json(const std::vector<detector::PairContact>& pairs) {
+  Json out = Json::array();
+  for (const auto& contact : pairs) out.push_back(to_json(contact));
+  return out;
+}
+
+Json times_json(const std::vector<properties::WrongTime>& times) {
+  Json out = Json::array();
+  for (const auto& t : times) {
+    out.push_back({{"triangles", {t.pair.a, t.pair.b}},
+                   {"detector", to_json(t.detector)},
+                   {"oracle", to_json(t.oracle)}});
+  }
+  return out;
+}
+
+}  // namespace
+
+Json to_json(const properties::StepDiff& diff) {
+  return {{"outcome", properties::name_of(diff.outcome)},
+          {"partial", diff.partial},
+          {"wrong_answer", diff.wrong_answer},
+          {"wrong_first_time", diff.wrong_first_time},
+          {"missing", pairs_json(diff.missing)},
+          {"excused", pairs_json(diff.excused)},
+          {"spurious", pairs_json(diff.spurious)},
+          {"late", times_json(diff.late)},
+          {"early", times_json(diff.early)}};
+}
+
+Json step_json(const detector::StepResult& result, const oracle::StepJudgement* judgement,
+               double oracle_ms, const properties::StepDiff* diff) {
+  const bool collision = result.answer == detector::Answer::collision;
+  Json step = {
+      {"answer", properties::name_of(result.answer)},
+      {"first_time", collision ? to_json(result.first) : Json()},
+      {"view_positive", result.view_positive},
+      {"view_negative", result.view_negative},
+      {"view_zero", result.view_zero},
+      {"violated", result.violated},
+      {"dirty", result.dirty},
+      {"free_components", result.counts.free_components},
+      {"box_tests", result.counts.search.box_tests},
+      {"candidate_pairs", result.counts.search.candidate_pairs},
+      {"elementary_tests", result.counts.narrow.elementary_tests},
+      {"rungs",
+       {{"axis", result.counts.narrow.rungs.axis},
+        {"filter", result.counts.narrow.rungs.filter},
+        {"exact", result.counts.narrow.rungs.exact}}},
+      {"view_rungs", {{"filter", result.counts.view.filter}, {"exact", result.counts.view.exact}}},
+      {"closure_rounds", result.counts.closure_rounds},
+      {"pairs", pairs_json(result.pairs)},
+      {"times_ms",
+       {{"view_test", result.times.view_test},
+        {"start", result.times.start},
+        {"broad_phase", result.times.broad_phase},
+        {"narrow_phase", result.times.narrow_phase},
+        {"closure", result.times.closure},
+        {"total", result.times.total}}}};
+  if (!judgement) {
+    step["oracle"] = nullptr;
+    step["diff"] = nullptr;
+    return step;
+  }
+  step["oracle"] = {
+      {"answer", properties::name_of(judgement->answer)},
+      {"complete", judgement->complete},
+      {"first_time", judgement->complete && judgement->answer == detector::Answer::collision
+                         ? to_json(judgement->first)
+                         : Json()},
+      {"pairs", judgement->pairs.size()},
+      {"feature_candidates", judgement->feature_candidates},
+      {"rungs",
+       {{"axis", judgement->rungs.axis},
+        {"interval", judgement->rungs.interval},
+        {"algebraic", judgement->rungs.algebraic}}},
+      {"time_ms", oracle_ms}};
+  step["diff"] = to_json(*diff);
+  return step;
+}
+
+std::optional<std::string> write_text_file(const std::string& path, const std::string& text) {
+  const std::string beside = path + ".part";
+  {
+    std::ofstream out(beside, std::ios::binary);
+    out << text;
+    out.flush();
+    if (!out) {
+      const std::string why = std::strerror(errno);
+      std::error_code ignored;
+      std::filesystem::remove(beside, ignored);
+      return path + ": cannot be written: " + why;
+    }
+  }
+  std::error_code error;
+  std::filesystem::rename(beside, path, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+    return path + ": cannot be written: " + error.message();
+  }
+  return std::nullopt;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,24 @@
+// JSON of `check`, schema assay-check/1 (documented in reports/README.md), and its writing.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "properties/agreement.h"
+
+namespace assay::reports {
+
+nlohmann::ordered_json to_json(const detector::TimeEnclosure& time);
+nlohmann::ordered_json to_json(const detector::PairContact& contact);
+nlohmann::ordered_json to_json(const properties::StepDiff& diff);
+
+// One entry of `steps`. judgement and diff are null when no oracle was asked.
+nlohmann::ordered_json step_json(const detector::StepResult& result,
+                                 const oracle::StepJudgement* judgement, double oracle_ms,
+                                 const properties::StepDiff* diff);
+
+// Writes a whole file or leaves the old one: a line for the user when that fails.
+std::optional<std::string> write_text_file(const std::string& path, const std::string& text);
+
+}  // namespace assay::reports

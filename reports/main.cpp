@@ -1,0 +1,138 @@
+// The command line. Options are checked here; the verbs are in *_command.cpp.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <thread>
+
+#include "properties/case_check.h"
+#include "reports/commands.h"
+#include "reports/exit_code.h"
+
+namespace {
+
+using namespace assay;
+using reports::exit_usage;
+
+// A word of a fixed set, or one clear line.
+template <class Parse>
+CLI::Validator one_of(const std::string& words, Parse parse) {
+  return CLI::Validator(
+      [words, parse](const std::string& word) {
+        return parse(word) ? std::string() : fmt::format("'{}' is not one of {}", word, words);
+      },
+      words);
+}
+
+template <class T, class Parse>
+void add_choice(CLI::App* verb, const std::string& flag, std::optional<T>& target,
+                const std::string& words, Parse parse, const std::string& about) {
+  verb->add_option_function<std::string>(
+          flag, [&target, parse](const std::string& word) { target = parse(word); }, about)
+      ->check(one_of(words, parse));
+}
+
+void add_jobs(CLI::App* verb, int& jobs) {
+  verb->add_option("--jobs", jobs, "Threads of the oracle; the result does not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+}
+
+void add_check(CLI::App& app, reports::CheckRequest& request) {
+  auto* verb = app.add_subcommand("check", "Detector against oracle on the steps of one mesh");
+  verb->add_option("frames", request.files,
+                   "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)")
+      ->required();
+  add_choice(verb, "--culling", request.culling, "view-point, view-line, bvh, none",
+             properties::culling_named, "How the detector culls (default view-point)");
+  add_choice(verb, "--start", request.start, "verified, clean, unknown", properties::start_named,
+             "What is known of the first frame (default verified)");
+  add_choice(verb, "--pairs", request.pairs, "all, first", properties::pairs_named,
+             "Which pairs are asked for (default all)");
+  verb->add_flag("!--no-oracle", request.use_oracle, "Detector only; prints `not judged`");
+  add_jobs(verb, request.jobs);
+  verb->add_option("--time", request.time_limit, "Limit in seconds; what is left is undecided")
+      ->check(CLI::PositiveNumber);
+  verb->add_option_function<std::uint64_t>(
+          "--memory", [&request](const std::uint64_t& bytes) { request.memory_limit = bytes; },
+          "Limit of resident memory, such as 6GB or 512MB")
+      ->transform(CLI::AsSizeValue(false));
+  verb->add_flag("--fail-on-collision", request.fail_on_collision,
+                 "Exit code 5 when they agree on a collision");
+  verb->add_option("--json", request.json_file, "Write the report here (assay-check/1)");
+}
+
+void add_check_queries(CLI::App& app, reports::CheckQueriesRequest& request) {
+  auto* verb = app.add_subcommand("check-queries", "Labelled VF and EE queries against their truth");
+  verb->add_option("files", request.files, "Query files (.csv, .csv.gz)")->required();
+  verb->add_option("--truth", request.truths, "Labels (.json), one file for each query file");
+  const auto parse = [](std::string_view word) -> std::optional<reports::QueryMethod> {
+    if (word == "oracle") return reports::QueryMethod::oracle;
+    if (word == "detector-exact") return reports::QueryMethod::detector_exact;
+    return std::nullopt;
+  };
+  verb->add_option_function<std::string>(
+          "--method", [&request, parse](const std::string& word) { request.method = *parse(word); },
+          "Who answers (default oracle)")
+      ->check(one_of("oracle, detector-exact", parse));
+  verb->add_option("--json", request.json_file, "Write the report here (assay-queries/1)");
+}
+
+void add_scene(CLI::App& app, reports::SceneRequest& request) {
+  auto* verb = app.add_subcommand("scene", "Write the frames of a kinematic scene");
+  verb->add_option("name", request.name, "One of `assay list scenes`")->required();
+  verb->add_option("--mesh", request.mesh_file, "Deform this mesh instead of the scene's own");
+  verb->add_option("--size", request.size, "Triangles wanted")->check(CLI::PositiveNumber);
+  verb->add_option("--frames", request.frames, "Frames")->check(CLI::PositiveNumber);
+  verb->add_option("--out", request.out, "Folder for frame_0000.ply, ...")->required();
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Assay certifies continuous self-collision detectors for deforming triangle meshes.");
+  app.set_version_flag("--version", [] { return reports::version_text(); });
+  app.require_subcommand(1);
+
+  reports::CheckRequest check;
+  reports::CheckQueriesRequest queries;
+  reports::SceneRequest scene;
+  reports::CertifyRequest certify;
+  std::string listed = "scenes";
+  check.jobs = certify.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  add_check(app, check);
+  add_check_queries(app, queries);
+  add_scene(app, scene);
+  auto* list = app.add_subcommand("list", "List what is shipped: scenes");
+  list->add_option("what", listed, "scenes")->check(CLI::IsMember({"scenes"}));
+  auto* certify_verb =
+      app.add_subcommand("certify", "The shipped corpus and scenes through detector and oracle");
+  certify_verb->add_option("--out", certify.out, "Folder for certify.json")->required();
+  add_jobs(certify_verb, certify.jobs);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    return app.exit(asked);
+  } catch (const CLI::ParseError& wrong) {
+    fmt::print(stderr, "assay: {} (assay --help lists verbs and options)\n", wrong.what());
+    return exit_usage;
+  }
+  if (app.got_subcommand("check")) return reports::run_check(check);
+  if (app.got_subcommand("check-queries")) return reports::run_check_queries(queries);
+  if (app.got_subcommand("scene")) return reports::run_scene(scene);
+  if (app.got_subcommand("certify")) return reports::run_certify(certify);
+  return reports::run_list_scenes();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "assay: not enough memory for this input\n");
+    return reports::exit_usage;
+  } catch (const std::exception& failure) {
+    fmt::print(stderr, "assay: {}\n", failure.what());
+    return reports::exit_unsound;
+  }
+}

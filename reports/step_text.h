@@ -1,0 +1,19 @@
+// What `check` prints of a step.
+#pragma once
+
+#include <string>
+
+#include "properties/agreement.h"
+
+namespace assay::reports {
+
+// One double where the enclosure is exact or its ends print alike at 9 digits, else both.
+std::string time_text(const detector::TimeEnclosure& time);
+
+// A line with the answer, then the sizes, counts and times, indented. judgement and diff are null
+// when no oracle was asked.
+std::string step_text(std::size_t number, const detector::StepResult& result,
+                      const oracle::StepJudgement* judgement, double oracle_ms,
+                      const properties::StepDiff* diff);
+
+}  // namespace assay::reports

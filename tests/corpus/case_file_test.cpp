@@ -1,0 +1,194 @@
+#include "corpus/case_file.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/corpus/scratch.h"
+
+namespace assay::corpus {
+namespace {
+
+class CaseFile : public Scratch {};
+
+// Every field in use.
+Case full_case() {
+  Case c;
+  c.id = "full";
+  c.about = "a \"quoted\" line";
+  c.source = "hand";
+  c.triangles.resize(2, 3);
+  c.triangles << 0, 1, 2, 1, 0, 3;
+  detector::Positions x(4, 3);
+  x << 0.1, -0.0, 5e-324, 1.0 / 3, 1e22, -1.7976931348623157e308, 1, 0, 0, 0, 1, 0;
+  c.frames = {x, 0.5 * x, x};
+  c.view = CaseView{{{0, 0, 0}, {0, 0.5, 0}, {1, 1, 1}}, {{0, 0, 1}, {0, 0, 2}, {0, 0, 3}}};
+  CaseGhosts ghosts;
+  ghosts.apexes = {{{0, 0, 4}}, {{0, 0, 5}}, {{0, 0, 6}}};
+  ghosts.triangles.resize(1, 3);
+  ghosts.triangles << 0, 1, 4;
+  c.ghosts = ghosts;
+  c.options = {{"culling", "view-line"}, {"start", "verified"}};
+  ExpectedStep step;
+  step.answer = detector::Answer::collision;
+  step.first_time = detector::TimeEnclosure{0.25, std::nextafter(0.25, 1)};
+  step.pairs = std::vector<ExpectedPair>{{{0, 1}, *step.first_time}};
+  step.view_signs = {detector::ViewSign::positive, detector::ViewSign::negative};
+  step.ghost_view_signs = {detector::ViewSign::zero};
+  c.expected = {detector::Answer::collision, {step, ExpectedStep{}}};
+  c.pending = R"({"facts":{"closed":true,"t":0.1},"in_K":[[0,1]],"z":null,"a":1})";
+  return c;
+}
+
+TEST_F(CaseFile, RoundTripKeepsEveryFieldAndEveryBit) {
+  const Case c = full_case();
+  const auto path = folder() / "full.json";
+  ASSERT_TRUE(write_case(path, c));
+  const auto read = read_case(path);
+  ASSERT_TRUE(read) << read.error().message;
+  const Case& d = read.value();
+  EXPECT_EQ(d.id, c.id);
+  EXPECT_EQ(d.about, c.about);
+  EXPECT_EQ(d.source, c.source);
+  EXPECT_EQ(d.triangles, c.triangles);
+  ASSERT_EQ(d.frames.size(), c.frames.size());
+  for (std::size_t f = 0; f < c.frames.size(); ++f) {
+    EXPECT_EQ(0, std::memcmp(d.frames[f].data(), c.frames[f].data(), 12 * sizeof(double)));
+  }
+  EXPECT_EQ(d.view->q0, c.view->q0);
+  EXPECT_EQ(d.view->q1, c.view->q1);
+  EXPECT_EQ(d.ghosts->apexes, c.ghosts->apexes);
+  EXPECT_EQ(d.ghosts->triangles, c.ghosts->triangles);
+  EXPECT_EQ(d.options, c.options);
+  EXPECT_EQ(d.expected.answer, c.expected.answer);
+  ASSERT_EQ(d.expected.steps.size(), 2U);
+  EXPECT_EQ(d.expected.steps[0].first_time, c.expected.steps[0].first_time);
+  EXPECT_EQ(d.expected.steps[0].pairs, c.expected.steps[0].pairs);
+  EXPECT_EQ(d.expected.steps[0].view_signs, c.expected.steps[0].view_signs);
+  EXPECT_EQ(d.expected.steps[0].ghost_view_signs, c.expected.steps[0].ghost_view_signs);
+  EXPECT_FALSE(d.expected.steps[1].pairs);
+  EXPECT_EQ(d.pending, c.pending);
+  EXPECT_EQ(case_text(d), case_text(c));
+}
+
+TEST_F(CaseFile, WhatCouldNotBeReadIsNotWritten) {
+  Case c = full_case();
+  c.frames[1](0, 0) = std::numeric_limits<double>::infinity();
+  const auto infinite = write_case(folder() / "a.json", c);
+  ASSERT_FALSE(infinite);
+  EXPECT_EQ(infinite.error().what, FileProblem::malformed);
+  c = full_case();
+  c.triangles(0, 0) = 4;
+  EXPECT_EQ(write_case(folder() / "a.json", c).error().what, FileProblem::index_out_of_range);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "a.json"));
+}
+
+TEST_F(CaseFile, ViewOfStep) {
+  Case c = full_case();
+  const auto line = view_of_step(c, 1);
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->q0.t0, (detector::Point{0, 0.5, 0}));
+  EXPECT_EQ(line->q1.t1, (detector::Point{0, 0, 3}));
+  EXPECT_FALSE(line->is_point());
+  EXPECT_FALSE(view_of_step(c, 2));
+  c.view->q1.clear();
+  EXPECT_TRUE(view_of_step(c, 0)->is_point());
+  c.view.reset();
+  EXPECT_FALSE(view_of_step(c, 0));
+}
+
+TEST_F(CaseFile, SmallestCase) {
+  Case c;
+  c.triangles.resize(1, 3);
+  c.triangles << 0, 1, 2;
+  c.frames = {detector::Positions::Zero(3, 3)};
+  const auto read = parse_case(case_text(c), "small");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read.value().pending, "{}");
+  EXPECT_FALSE(read.value().view);
+  EXPECT_FALSE(read.value().ghosts);
+  EXPECT_TRUE(read.value().expected.steps.empty());
+}
+
+TEST_F(CaseFile, ARefusedMeshMayBeACase) {
+  Case c;
+  c.triangles.resize(1, 3);
+  c.triangles << 0, 1, 1;
+  c.frames = {detector::Positions::Zero(3, 3)};
+  EXPECT_EQ(parse_case(case_text(c), "x").error().what, FileProblem::repeated_index);
+  c.expected.answer = detector::Answer::error;
+  EXPECT_TRUE(parse_case(case_text(c), "x"));
+}
+
+TEST_F(CaseFile, ProblemsNameTheField) {
+  const std::string good = case_text(full_case());
+  const auto expect = [&](FileProblem what, std::string_view field, std::string_view from,
+                          std::string_view to) {
+    std::string text = good;
+    const std::size_t place = text.find(from);
+    ASSERT_NE(place, std::string::npos) << from;
+    text.replace(place, from.size(), to);
+    const auto read = parse_case(text, "bad.json");
+    ASSERT_FALSE(read) << to;
+    EXPECT_EQ(read.error().what, what) << read.error().message;
+    EXPECT_NE(read.error().message.find("bad.json"), std::string::npos);
+    EXPECT_NE(read.error().message.find(field), std::string::npos) << read.error().message;
+    EXPECT_EQ(read.error().message.find('\n'), std::string::npos);
+  };
+  using enum FileProblem;
+  expect(wrong_schema, "schema", "assay-case/1", "assay-case/2");
+  expect(missing_field, "schema", "\"schema\"", "\"scheme\"");
+  expect(missing_field, "about", "\"about\"", "\"abbot\"");
+  expect(missing_field, "frames", "\"frames\"", "\"shots\"");
+  expect(missing_field, "expected", "\"expected\"", "\"wanted\"");
+  expect(missing_field, "pending", "\"pending\"", "\"later\"");
+  expect(missing_field, "view.q0", "\"q0\"", "\"p0\"");
+  expect(missing_field, "ghosts.apexes", "\"apexes\"", "\"tops\"");
+  expect(missing_field, "expected.steps[0].answer", "{\n        \"answer\": \"collision\",", "{\n");
+  expect(wrong_type, "id", "\"full\"", "7");
+  expect(wrong_type, "triangles[1]", "[1, 0, 3]", "[1, 0]");
+  expect(wrong_type, "triangles[1][0]", "[1, 0, 3]", "[1.5, 0, 3]");
+  expect(index_out_of_range, "triangles[1][2]", "[1, 0, 3]", "[1, 0, 4]");
+  expect(index_out_of_range, "triangles[1][2]", "[1, 0, 3]", "[1, 0, -1]");
+  expect(index_out_of_range, "triangles[1][2]", "[1, 0, 3]", "[1, 0, 18446744073709551615]");
+  expect(index_out_of_range, "ghosts.triangles[0]", "[0, 1, 4]", "[0, 1, 5]");
+  expect(wrong_type, "frames[0][2]", "[1, 0, 0]", "[1, 0]");
+  expect(wrong_type, "frames[0][2][0]", "[1, 0, 0]", "[\"1\", 0, 0]");
+  expect(non_finite_coordinate, "beyond", "[1, 0, 0]", "[1e999, 0, 0]");
+  expect(malformed, "not JSON", "[1, 0, 0]", "[nan, 0, 0]");
+  expect(vertex_counts_differ, "frames[1]", ",\n      [1, 0, 0]", "");
+  expect(wrong_type, "view.q1", ",\n      [0, 0, 3]", "");
+  expect(wrong_type, "ghosts.apexes", "[\n        [0, 0, 6]\n      ]", "[]");
+  expect(wrong_type, "options.start", "\"verified\"", "1");
+  expect(wrong_type, "expected.steps[0].answer", "{\n        \"answer\": \"collision\"",
+         "{\n        \"answer\": \"crash\"");
+  expect(wrong_type, "first_time", "\"first_time\": [0.25,", "\"first_time\": [0.5,");
+  expect(wrong_type, "view_signs", "[1, -1]", "[1, -1, 0]");
+  expect(index_out_of_range, "view_signs[1]", "[1, -1]", "[1, -2]");
+  expect(index_out_of_range, "pairs[0]", "[0, 1, 0.25,", "[1, 1, 0.25,");
+  expect(wrong_type, "pending", "\"pending\": {", "\"pending\": [], \"x\": {");
+}
+
+TEST_F(CaseFile, NotJson) {
+  EXPECT_EQ(parse_case("{", "a").error().what, FileProblem::truncated);
+  EXPECT_EQ(parse_case("}", "a").error().what, FileProblem::malformed);
+  EXPECT_EQ(parse_case("7", "a").error().what, FileProblem::wrong_type);
+  EXPECT_EQ(parse_case("\xff", "a").error().what, FileProblem::malformed);
+  // Deep nesting would exhaust the stack of whoever prints it.
+  EXPECT_EQ(parse_case(std::string(1 << 20, '['), "a").error().what, FileProblem::truncated);
+  EXPECT_EQ(parse_case(std::string(1 << 20, '[') + std::string(1 << 20, ']'), "a").error().what,
+            FileProblem::malformed);
+}
+
+TEST_F(CaseFile, FoldersOfCases) {
+  write("b.json", "{}");
+  write("a.json", "{}");
+  write("notes.txt", "");
+  const auto files = case_files(folder());
+  ASSERT_TRUE(files);
+  ASSERT_EQ(files.value().size(), 2U);
+  EXPECT_EQ(files.value()[0].filename(), "a.json");
+  EXPECT_EQ(case_files(folder() / "absent").error().what, FileProblem::cannot_open);
+}
+
+}  // namespace
+}  // namespace assay::corpus

@@ -1,0 +1,90 @@
+// What may be wrong with a file before its content is looked at, and compressed files.
+#include <set>
+
+#include "corpus/file_bytes.h"
+#include "tests/corpus/scratch.h"
+
+namespace assay::corpus {
+namespace {
+
+class FileProblems : public Scratch {};
+
+TEST_F(FileProblems, MissingEmptyFolder) {
+  const auto missing = read_mesh(folder() / "absent.obj");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().what, FileProblem::cannot_open);
+  EXPECT_NE(missing.error().message.find("absent.obj"), std::string::npos);
+  EXPECT_EQ(mesh_problem("empty.obj", "").what, FileProblem::empty_file);
+  const auto directory = read_mesh(folder());
+  ASSERT_FALSE(directory);
+  EXPECT_EQ(directory.error().what, FileProblem::is_directory);
+}
+
+TEST_F(FileProblems, NoPermission) {
+  const auto path = write("locked.obj", obj_tetrahedron);
+  std::filesystem::permissions(path, std::filesystem::perms::none);
+  // The superuser may read everything; another user may not.
+  const bool superuser = geteuid() == 0;
+  if (superuser) {
+    ASSERT_EQ(seteuid(65534), 0);
+  }
+  const auto mesh = read_mesh(path);
+  if (superuser) {
+    ASSERT_EQ(seteuid(0), 0);
+  }
+  ASSERT_FALSE(mesh);
+  EXPECT_EQ(mesh.error().what, FileProblem::permission_denied) << mesh.error().message;
+}
+
+TEST_F(FileProblems, MessagesAreOneLineWhateverThePath) {
+  const auto mesh = read_mesh(folder() / "two\nlines.obj");
+  ASSERT_FALSE(mesh);
+  EXPECT_EQ(mesh.error().message.find('\n'), std::string::npos);
+}
+
+TEST_F(FileProblems, EveryFormatCompressed) {
+  expect_tetrahedron(read_mesh(write("a.obj.gz", gzip(obj_tetrahedron))));
+  expect_tetrahedron(read_mesh(write("a.OBJ.GZ", gzip(obj_tetrahedron))));
+  expect_tetrahedron(read_mesh(write("a.off.gz", gzip(off_tetrahedron))));
+  expect_tetrahedron(read_mesh(write("a.ply.gz", gzip(ply_tetrahedron))));
+  // Told from its content, not from its name; several members one after another.
+  expect_tetrahedron(read_mesh(
+      write("b.obj", gzip(obj_tetrahedron.substr(0, 20)) + gzip(obj_tetrahedron.substr(20)))));
+}
+
+TEST_F(FileProblems, DamagedCompression) {
+  const std::string good = gzip(obj_tetrahedron);
+  for (std::size_t size = 1; size < good.size(); ++size) {
+    EXPECT_EQ(mesh_problem("a.obj.gz", good.substr(0, size)).what, FileProblem::corrupt_gzip)
+        << size;
+  }
+  std::string wrong_sum = good;
+  wrong_sum[wrong_sum.size() - 6] ^= 1;
+  EXPECT_EQ(mesh_problem("b.obj.gz", wrong_sum).what, FileProblem::corrupt_gzip);
+  EXPECT_EQ(mesh_problem("c.obj.gz", good + "tail").what, FileProblem::corrupt_gzip);
+  EXPECT_EQ(mesh_problem("d.obj.gz", obj_tetrahedron).what, FileProblem::corrupt_gzip);
+  EXPECT_EQ(mesh_problem("e.obj.gz", gzip("")).what, FileProblem::empty_file);
+}
+
+TEST_F(FileProblems, DecompressedSizeIsLimited) {
+  const auto path = write("big.gz", gzip(std::string(1 << 20, 'x')));
+  const auto fits = read_bytes(path, 1 << 20);
+  ASSERT_TRUE(fits);
+  EXPECT_EQ(fits.value().size(), std::size_t{1} << 20);
+  const auto refused = read_bytes(path, (1 << 20) - 1);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what, FileProblem::too_large);
+  const auto plain = read_bytes(write("plain", "12345"), 4);
+  ASSERT_FALSE(plain);
+  EXPECT_EQ(plain.error().what, FileProblem::too_large);
+}
+
+TEST_F(FileProblems, EveryProblemHasItsOwnName) {
+  std::set<std::string_view> names;
+  for (int i = 1; i <= 29; ++i) names.insert(name_of(static_cast<FileProblem>(i)));
+  EXPECT_EQ(names.size(), 29U);
+  EXPECT_EQ(names.count("unnamed"), 0U);
+}
+
+}  // namespace
+}  // namespace assay::corpus

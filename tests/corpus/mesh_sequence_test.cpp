@@ -1,0 +1,99 @@
+// Sequences of frames, and the writer: what is written reads back bit by bit.
+#include <cmath>
+#include <limits>
+
+#include "corpus/mesh_writer.h"
+#include "tests/corpus/scratch.h"
+
+namespace assay::corpus {
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+class MeshSequence : public Scratch {
+ protected:
+  Paths frames(const std::vector<std::string>& texts) const {
+    Paths paths;
+    for (const std::string& text : texts) {
+      paths.push_back(write("frame" + std::to_string(paths.size()) + ".obj", text));
+    }
+    return paths;
+  }
+};
+
+TEST_F(MeshSequence, FramesOfDifferentFormats) {
+  const Paths paths = {write("a.obj", obj_tetrahedron), write("b.ply", ply_tetrahedron),
+                       write("c.off.gz", gzip(off_tetrahedron))};
+  const auto sequence = read_sequence(paths);
+  ASSERT_TRUE(sequence) << sequence.error().message;
+  EXPECT_EQ(sequence.value().frames.size(), 3U);
+  EXPECT_EQ(sequence.value().frames[0], sequence.value().frames[2]);
+  EXPECT_EQ(sequence.value().triangles.rows(), 4);
+}
+
+TEST_F(MeshSequence, ProblemsNameBothFiles) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const auto expect = [&](FileProblem what, const std::vector<std::string>& texts) {
+    const auto sequence = read_sequence(frames(texts));
+    ASSERT_FALSE(sequence);
+    EXPECT_EQ(sequence.error().what, what) << sequence.error().message;
+    EXPECT_NE(sequence.error().message.find("frame0.obj"), std::string::npos);
+    EXPECT_NE(sequence.error().message.find("frame1.obj"), std::string::npos);
+  };
+  using enum FileProblem;
+  expect(vertex_counts_differ, {triangle + "f 1 2 3\n", triangle + "v 9 9 9\nf 1 2 3\n"});
+  expect(triangles_differ, {triangle + "f 1 2 3\n", triangle + "f 2 3 1\n"});
+  expect(triangles_differ, {triangle + "f 1 2 3\n", triangle + "f 1 2 3\nf 1 3 2\n"});
+}
+
+TEST_F(MeshSequence, NoFramesAndBadFrames) {
+  EXPECT_EQ(read_sequence({}).error().what, FileProblem::no_frames);
+  const Paths paths = {write("a.obj", obj_tetrahedron), folder() / "absent.obj"};
+  EXPECT_EQ(read_sequence(paths).error().what, FileProblem::cannot_open);
+}
+
+TEST_F(MeshSequence, WrittenFramesReadBackBitByBit) {
+  using Limits = std::numeric_limits<double>;
+  Sequence sequence;
+  sequence.triangles.resize(2, 3);
+  sequence.triangles << 0, 1, 2, 2, 1, 3;
+  for (int f = 0; f < 3; ++f) {
+    detector::Positions x(4, 3);
+    x << 0.1, -0.0, Limits::denorm_min(), Limits::max(), -Limits::max(), 1e-300, f, 1.0 / 3,
+        std::nextafter(1.0, 2.0), -7, 1e17, 0.3;
+    sequence.frames.push_back(x);
+  }
+  const auto paths = write_sequence(folder() / "out" / "deep", sequence);
+  ASSERT_TRUE(paths) << paths.error().message;
+  EXPECT_EQ(paths.value()[2].filename(), "frame_0002.ply");
+  const auto back = read_sequence(paths.value());
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back.value().triangles, sequence.triangles);
+  for (std::size_t f = 0; f < 3; ++f) {
+    EXPECT_EQ(0, std::memcmp(back.value().frames[f].data(), sequence.frames[f].data(),
+                             sizeof(double) * 12));
+  }
+  // Nothing but the frames is left in the folder.
+  const std::filesystem::directory_iterator files(folder() / "out" / "deep");
+  EXPECT_EQ(std::distance(begin(files), end(files)), 3);
+}
+
+TEST_F(MeshSequence, WhatCannotBeWritten) {
+  const detector::Positions x = detector::Positions::Zero(3, 3);
+  detector::Triangles triangles(1, 3);
+  triangles << 0, 1, 2;
+  const auto absent = write_mesh(folder() / "absent" / "a.ply", x, triangles);
+  ASSERT_FALSE(absent);
+  EXPECT_EQ(absent.error().what, FileProblem::cannot_write);
+  // A folder stands where the file should go: the file beside it must be gone again.
+  std::filesystem::create_directories(folder() / "b.ply" / "c");
+  ASSERT_FALSE(write_mesh(folder() / "b.ply", x, triangles));
+  const std::filesystem::directory_iterator files(folder());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+  const auto blocked = write_sequence(write("file", "x") / "folder", Sequence{triangles, {x}});
+  ASSERT_FALSE(blocked);
+  EXPECT_EQ(blocked.error().what, FileProblem::cannot_write);
+}
+
+}  // namespace
+}  // namespace assay::corpus

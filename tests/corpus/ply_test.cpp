@@ -1,0 +1,172 @@
+#include <cmath>
+#include <limits>
+
+#include "tests/corpus/scratch.h"
+
+namespace assay::corpus {
+namespace {
+
+class Ply : public Scratch {};
+
+// The tetrahedron with properties and elements around it that mean nothing here.
+std::string binary_tetrahedron(bool big) {
+  std::string text = "ply\nformat binary_";
+  text += big ? "big" : "little";
+  text +=
+      "_endian 1.0\ncomment c\nobj_info i\nelement vertex 4\nproperty uchar red\n"
+      "property float x\nproperty double y\nproperty list uchar short tags\nproperty short z\n"
+      "element edge 2\nproperty int a\nproperty int b\nelement face 4\nproperty ushort flags\n"
+      "property list ushort uint vertex_index\nelement empty 0\nproperty int n\nend_header\n";
+  const int points[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const auto& p : points) {
+    text += '\xff' + bytes_of(static_cast<float>(p[0]), big) +
+            bytes_of(static_cast<double>(p[1]), big) + '\x01' + bytes_of(std::int16_t{7}, big) +
+            bytes_of(static_cast<std::int16_t>(p[2]), big);
+  }
+  for (int i = 0; i < 4; ++i) text += bytes_of(i, big);
+  const std::uint32_t faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  for (const auto& face : faces) {
+    text += bytes_of(std::uint16_t{9}, big) + bytes_of(std::uint16_t{3}, big);
+    for (const std::uint32_t v : face) text += bytes_of(v, big);
+  }
+  return text;
+}
+
+TEST_F(Ply, Ascii) { expect_tetrahedron(read_mesh(write("a.ply", ply_tetrahedron))); }
+
+TEST_F(Ply, AsciiWithCrlfAndExtraPropertiesAndElements) {
+  expect_tetrahedron(read_mesh(
+      write("a.ply",
+            "ply\r\nformat ascii 1.0\r\nelement material 1\r\nproperty list int float k\r\n"
+            "element vertex 4\r\nproperty float nx\r\nproperty float32 z\r\nproperty int y\r\n"
+            "property double x\r\nelement face 4\r\nproperty list uchar int32 vertex_index\r\n"
+            "property uint8 red\r\nend_header\r\n2 0.5 0.25\r\n9 0 0 0\r\n9 0 0 1\r\n9 0 1 0\r\n"
+            "9 1 0 0\r\n3 0 2 1 255\r\n3 0 1 3 255\r\n3 1 2 3 255\r\n3 2 0 3 255\r\n")));
+}
+
+TEST_F(Ply, BinaryOfBothEndsWithExtraPropertiesAndElements) {
+  expect_tetrahedron(read_mesh(write("little.ply", binary_tetrahedron(false))));
+  expect_tetrahedron(read_mesh(write("big.ply", binary_tetrahedron(true))));
+}
+
+TEST_F(Ply, BinaryAfterACrlfHeader) {
+  std::string text = binary_tetrahedron(false);
+  const std::size_t body = text.find("end_header\n") + 11;
+  std::string header;
+  for (const char c : text.substr(0, body)) header += c == '\n' ? "\r\n" : std::string(1, c);
+  expect_tetrahedron(read_mesh(write("a.ply", header + text.substr(body))));
+}
+
+TEST_F(Ply, Float32ConvertsExactlyAndAsciiKeepsItsDigits) {
+  std::string text =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  const float values[3] = {0.1F, std::numeric_limits<float>::denorm_min(), -3.4e38F};
+  for (int i = 0; i < 3; ++i) {
+    for (const float value : values) text += bytes_of(value, false);
+  }
+  text += '\x03' + bytes_of(0, false) + bytes_of(1, false) + bytes_of(2, false);
+  const auto binary = read_mesh(write("a.ply", text));
+  ASSERT_TRUE(binary) << binary.error().message;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(binary.value().positions(0, k), static_cast<double>(values[k]));
+  }
+  const auto ascii = read_mesh(
+      write("b.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+            "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+            "0.1 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
+  ASSERT_TRUE(ascii);
+  EXPECT_EQ(ascii.value().positions(0, 0), 0.1);
+}
+
+TEST_F(Ply, PolygonsAreFannedFromTheirFirstVertex) {
+  const auto mesh = read_mesh(
+      write("a.ply",
+            "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+            "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+            "4 3 0 1 2\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  detector::Triangles fan(2, 3);
+  fan << 3, 0, 1, 3, 1, 2;
+  EXPECT_EQ(mesh.value().triangles, fan);
+}
+
+TEST_F(Ply, Problems) {
+  const auto expect = [&](FileProblem what, std::string_view from, std::string_view to) {
+    std::string text(ply_tetrahedron);
+    const std::size_t place = text.find(from);
+    ASSERT_NE(place, std::string::npos) << from;
+    text.replace(place, from.size(), to);
+    const Problem problem = mesh_problem("bad.ply", text);
+    EXPECT_EQ(problem.what, what) << to << "\n" << problem.message;
+    EXPECT_NE(problem.message.find("bad.ply"), std::string::npos) << problem.message;
+  };
+  using enum FileProblem;
+  expect(malformed, "format ascii", "format utf8");
+  expect(malformed, "ascii 1.0", "ascii 2.0");
+  expect(malformed, "format ascii 1.0\n", "");
+  expect(malformed, "element vertex 4", "element vertex four");
+  expect(malformed, "element vertex 4", "element vertex -4");
+  expect(malformed, "element vertex 4", "element vertex");
+  expect(malformed, "element vertex 4\n", "");
+  expect(malformed, "element face 4", "element vertex 4");
+  expect(malformed, "property double x", "property double y");
+  expect(malformed, "property double x", "property complex x");
+  expect(malformed, "property double x", "property double");
+  expect(malformed, "property double x\n", "");
+  expect(malformed, "property double x", "remark double x");
+  expect(malformed, "list uchar int", "list float int");
+  expect(malformed, "list uchar int", "list uchar float");
+  expect(malformed, "vertex_indices", "corners");
+  expect(malformed, "end_header\n", "");
+  expect(truncated, "element face 4", "element face 5");
+  expect(truncated, "element face 4", "element face 40");
+  // A vertex too many swallows the first face's line, and what follows no longer fits.
+  expect(malformed, "element vertex 4", "element vertex 5");
+  expect(truncated, "element vertex 4", "element vertex 4000000000000");
+  expect(truncated, "3 2 0 3\n", "");
+  expect(truncated, "3 2 0 3", "3 2 0");
+  expect(truncated, "3 2 0 3", "300 2 0 3");
+  expect(malformed, "3 2 0 3", "-3 2 0 3");
+  expect(malformed, "3 2 0 3", "2 2 0");
+  expect(malformed, "3 2 0 3", "3 2 0 3 3");
+  expect(malformed, "3 2 0 3", "3 2 0 3.0");
+  expect(malformed, "1 0 0", "1 0 zero");
+  expect(non_finite_coordinate, "1 0 0", "1 0 nan");
+  expect(non_finite_coordinate, "1 0 0", "1 0 -1e999");
+  expect(index_out_of_range, "3 2 0 3", "3 2 0 4");
+  expect(index_out_of_range, "3 2 0 3", "3 2 0 -1");
+  expect(repeated_index, "3 2 0 3", "3 2 3 3");
+}
+
+TEST_F(Ply, NoFaces) {
+  EXPECT_EQ(mesh_problem("a.ply",
+                         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                         "property float y\nproperty float z\nend_header\n0 0 0\n")
+                .what,
+            FileProblem::no_triangles);
+}
+
+TEST_F(Ply, BinaryProblems) {
+  const std::string good = binary_tetrahedron(false);
+  EXPECT_EQ(mesh_problem("long.ply", good + "x").what, FileProblem::malformed);
+  EXPECT_EQ(mesh_problem("short.ply", good.substr(0, good.size() - 1)).what,
+            FileProblem::truncated);
+  std::string nan = good;
+  nan.replace(nan.find("end_header\n") + 11 + 1, 4,
+              bytes_of(std::numeric_limits<float>::quiet_NaN(), false));
+  EXPECT_EQ(mesh_problem("nan.ply", nan).what, FileProblem::non_finite_coordinate);
+  std::string huge = good;
+  huge.replace(huge.find("element face 4"), 14, "element face 9223372036854775807");
+  EXPECT_EQ(mesh_problem("huge.ply", huge).what, FileProblem::truncated);
+  // A list that claims more items than the file has bytes.
+  std::string list = good;
+  const std::size_t last_face = list.size() - 14;
+  list.replace(last_face, 2, "\xff\xff");
+  EXPECT_EQ(mesh_problem("list.ply", list).what, FileProblem::truncated);
+}
+
+}  // namespace
+}  // namespace assay::corpus

@@ -1,0 +1,207 @@
+#include "corpus/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "corpus/scenes/box_with_arm.h"
+#include "corpus/scenes/shapes.h"
+#include "corpus/scenes/trigonometry.h"
+
+namespace assay::corpus {
+namespace {
+
+using detector::Point;
+
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+struct Facts {
+  int unmatched_edges = 0;
+  int most_at_an_edge = 0;  // triangles
+  double volume = 0;
+  double least_sine = 1;  // of the angles, a measure of degenerate triangles
+  bool repeats = false;
+};
+
+Facts facts_of(const detector::Positions& x, const detector::Triangles& triangles) {
+  Facts facts;
+  std::map<std::pair<int, int>, int> directed, undirected;
+  for (Eigen::Index i = 0; i < triangles.rows(); ++i) {
+    Point p[3];
+    for (int k = 0; k < 3; ++k) {
+      p[k] = detector::point_of(x, triangles(i, k));
+      const int u = triangles(i, k), v = triangles(i, (k + 1) % 3);
+      facts.repeats = facts.repeats || u == v;
+      ++directed[{u, v}];
+      --directed[{v, u}];
+      ++undirected[{std::min(u, v), std::max(u, v)}];
+    }
+    facts.volume += dot(p[0], cross(p[1], p[2])) / 6;
+    for (int k = 0; k < 3; ++k) {
+      const Point a = minus(p[(k + 1) % 3], p[k]), b = minus(p[(k + 2) % 3], p[k]);
+      const Point n = cross(a, b);
+      facts.least_sine = std::min(facts.least_sine, std::sqrt(dot(n, n) / (dot(a, a) * dot(b, b))));
+    }
+  }
+  for (const auto& [edge, n] : directed) facts.unmatched_edges += n > 0 ? n : 0;
+  for (const auto& [edge, n] : undirected)
+    facts.most_at_an_edge = std::max(facts.most_at_an_edge, n);
+  return facts;
+}
+
+TEST(Scenes, EverySceneAtSeveralSizes) {
+  for (const SceneInfo& info : scenes()) {
+    for (const int size : {1, 300, 2000, info.default_size}) {
+      SCOPED_TRACE(std::string(info.name) + " " + std::to_string(size));
+      const auto scene = make_scene(info.name, {size, 5, {}});
+      ASSERT_TRUE(scene) << scene.error().message;
+      const auto& [triangles, frames] = scene.value();
+      ASSERT_EQ(frames.size(), 5U);
+      EXPECT_LT(triangles.maxCoeff(), frames[0].rows());
+      const Facts facts = facts_of(frames[0], triangles);
+      EXPECT_FALSE(facts.repeats);
+      EXPECT_LE(facts.most_at_an_edge, 2);
+      EXPECT_GT(facts.least_sine, 0.02);
+      EXPECT_EQ(facts.unmatched_edges == 0, info.closed);
+      if (info.closed) {
+        EXPECT_GT(facts.volume, 0);
+      }
+      if (size >= 300) {
+        EXPECT_NEAR(triangles.rows(), size, 0.35 * size);
+      }
+      EXPECT_TRUE(frames[0] != frames[2]) << "nothing moves";
+    }
+  }
+}
+
+TEST(Scenes, DefaultsAndDeterminism) {
+  for (const SceneInfo& info : scenes()) {
+    SCOPED_TRACE(info.name);
+    const auto a = make_scene(info.name, {}), b = make_scene(info.name, {});
+    ASSERT_TRUE(a && b);
+    EXPECT_EQ(static_cast<int>(a.value().frames.size()), info.default_frames);
+    EXPECT_NEAR(a.value().triangles.rows(), info.default_size, 0.15 * info.default_size);
+    EXPECT_EQ(a.value().frames, b.value().frames);
+    EXPECT_FALSE(info.about.empty());
+    // The rest shape does not depend on the number of frames.
+    const auto one = make_scene(info.name, {0, 1, {}});
+    ASSERT_TRUE(one);
+    ASSERT_EQ(one.value().frames.size(), 1U);
+    EXPECT_EQ(one.value().frames[0], a.value().frames[0]);
+  }
+}
+
+TEST(Scenes, BreathingSphereStaysPositiveFromItsCentre) {
+  const auto scene = make_scene("breathing-sphere", {320, 21, {}});
+  ASSERT_TRUE(scene);
+  for (const detector::Positions& x : scene.value().frames) {
+    for (Eigen::Index i = 0; i < scene.value().triangles.rows(); ++i) {
+      const auto row = scene.value().triangles.row(i);
+      EXPECT_GT(dot(detector::point_of(x, row(0)),
+                    cross(detector::point_of(x, row(1)), detector::point_of(x, row(2)))),
+                0);
+    }
+  }
+}
+
+TEST(Scenes, AUsersMeshIsDeformed) {
+  const Mesh sheet = sheet_shape(200);
+  for (const SceneInfo& info : scenes()) {
+    SCOPED_TRACE(info.name);
+    const auto scene = make_scene(info.name, {0, 3, sheet});
+    ASSERT_EQ(scene.has_value(), info.takes_mesh);
+    if (!scene) {
+      EXPECT_EQ(scene.error().what, FileProblem::wrong_scene_option);
+      continue;
+    }
+    EXPECT_EQ(scene.value().triangles, sheet.triangles);
+    EXPECT_EQ(scene.value().frames[0], sheet.positions);
+    EXPECT_TRUE(scene.value().frames[2] != sheet.positions);
+    EXPECT_TRUE(scene.value().frames[2].allFinite());
+  }
+}
+
+TEST(Scenes, DeformationsFollowTheMeshToAnyPlaceAndScale) {
+  Mesh tube = tube_shape(400, true);
+  const auto here = make_scene("bend", {0, 3, tube});
+  // A power of two and a shift that is exact: the same picture, moved.
+  tube.positions *= 1024;
+  const auto there = make_scene("bend", {0, 3, tube});
+  ASSERT_TRUE(here && there);
+  EXPECT_TRUE(there.value().frames[2].isApprox(1024 * here.value().frames[2], 1e-12));
+}
+
+TEST(Scenes, Problems) {
+  const auto unknown = make_scene("nonsense", {});
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().what, FileProblem::unknown_scene);
+  EXPECT_NE(unknown.error().message.find("arm-in-box"), std::string::npos);
+  const auto wrong = [](const SceneOptions& options) {
+    const auto scene = make_scene("bend", options);
+    return !scene && scene.error().what == FileProblem::wrong_scene_option;
+  };
+  EXPECT_TRUE(wrong({-1, 0, {}}));
+  EXPECT_TRUE(wrong({2'000'000'000, 0, {}}));
+  EXPECT_TRUE(wrong({0, -1, {}}));
+  EXPECT_TRUE(wrong({0, 1'000'000'000, {}}));
+  EXPECT_TRUE(wrong({0, 0, Mesh{}}));
+  Mesh mesh = sheet_shape(2);
+  mesh.triangles(0, 0) = 99;
+  EXPECT_TRUE(wrong({0, 0, mesh}));
+  mesh = sheet_shape(2);
+  mesh.positions(0, 0) = std::nan("");
+  EXPECT_TRUE(wrong({0, 0, mesh}));
+  mesh = sheet_shape(2);
+  mesh.positions *= 1.7e308;
+  EXPECT_TRUE(wrong({0, 3, mesh}));
+}
+
+TEST(Scenes, ArmStaysClearOfTheRim) {
+  const BoxWithArm box(2000);
+  const detector::Positions deep = box.with_tip(BoxWithArm::deepest_tip);
+  EXPECT_EQ(box.with_tip(BoxWithArm::tip_outside), box.mesh.positions);
+  int below_the_lid = 0;
+  for (Eigen::Index v = 0; v < deep.rows(); ++v) {
+    const bool moved = deep(v, 2) != box.mesh.positions(v, 2);
+    if (moved && deep(v, 2) < 1) ++below_the_lid;
+    if (moved) {
+      EXPECT_LE(std::abs(deep(v, 0)), 0.1 + 1e-15);
+      EXPECT_LE(std::abs(deep(v, 1)), 0.1 + 1e-15);
+    }
+  }
+  EXPECT_GT(below_the_lid, 0);
+}
+
+TEST(Scenes, OwnSineAndCosine) {
+  for (int i = -4000; i <= 4000; ++i) {
+    const double x = i / 1000.0;
+    EXPECT_NEAR(sin_turn(x), std::sin(2 * pi * x), 4e-15) << x;
+    EXPECT_NEAR(cos_turn(x), std::cos(2 * pi * x), 4e-15) << x;
+  }
+  EXPECT_EQ(sin_turn(0), 0);
+  EXPECT_EQ(sin_turn(0.25), 1);
+  EXPECT_EQ(sin_turn(-0.25), -1);
+  EXPECT_EQ(sin_turn(0.5), 0);
+  EXPECT_EQ(cos_turn(0.25), 0);
+  EXPECT_EQ(cos_turn(0.5), -1);
+  EXPECT_EQ(sin_turn(1e6), 0);
+}
+
+TEST(Scenes, NearestResolution) {
+  const auto squares = [](int n) { return n * n; };
+  EXPECT_EQ(nearest_resolution(1, 2, squares), 2);
+  EXPECT_EQ(nearest_resolution(16, 2, squares), 4);
+  EXPECT_EQ(nearest_resolution(20, 2, squares), 4);
+  EXPECT_EQ(nearest_resolution(21, 2, squares), 5);
+}
+
+}  // namespace
+}  // namespace assay::corpus

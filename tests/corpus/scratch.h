@@ -1,0 +1,105 @@
+// Files that a test makes and leaves no trace of.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "corpus/mesh_reader.h"
+#include "corpus/problem.h"
+
+namespace assay::corpus {
+
+// A folder of its own for every test.
+class Scratch : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("assay_corpus_") + test->test_suite_name() + "_" + test->name() + "_" +
+               std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+
+  void TearDown() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  std::filesystem::path write(const std::string& name, std::string_view bytes) const {
+    const std::filesystem::path path = folder_ / name;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return path;
+  }
+
+  // The problem of reading `bytes` as a mesh; "none" fails the test.
+  Problem mesh_problem(const std::string& name, std::string_view bytes) const {
+    const auto mesh = read_mesh(write(name, bytes));
+    if (mesh) {
+      ADD_FAILURE() << name << " was read";
+      return {FileProblem::cannot_open, ""};
+    }
+    return mesh.error();
+  }
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+inline std::string gzip(std::string_view plain) {
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string packed(deflateBound(&stream, plain.size()) + 64, '\0');
+  std::string input(plain);
+  stream.next_in = reinterpret_cast<Bytef*>(input.data());
+  stream.avail_in = static_cast<uInt>(input.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+// Bytes of a number in a binary PLY.
+template <class T>
+std::string bytes_of(T value, bool big_endian) {
+  std::string bytes(sizeof(T), '\0');
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  if (big_endian) bytes = std::string(bytes.rbegin(), bytes.rend());
+  return bytes;
+}
+
+// A tetrahedron in each text format.
+inline constexpr std::string_view obj_tetrahedron =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+inline constexpr std::string_view off_tetrahedron =
+    "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+inline constexpr std::string_view ply_tetrahedron =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
+    "property double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+
+inline void expect_tetrahedron(const Expected<Mesh>& mesh) {
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  detector::Positions x(4, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+  detector::Triangles triangles(4, 3);
+  triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3;
+  EXPECT_EQ(mesh.value().positions, x);
+  EXPECT_EQ(mesh.value().triangles, triangles);
+}
+
+}  // namespace assay::corpus

@@ -1,0 +1,170 @@
+#include "detector/detector.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/detector/points.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::octahedron;
+using tests::octahedron_positions;
+
+Detector make(const Triangles& t, const Positions& x, Culling culling = Culling::view_point,
+              Start start = Start::verified, Pairs pairs = Pairs::all) {
+  auto made = Detector::create(t, x, {culling, start, pairs});
+  EXPECT_TRUE(made.has_value());
+  return std::move(made.value());
+}
+
+InputError create_error(const Triangles& t, const Positions& x) {
+  auto made = Detector::create(t, x, {});
+  EXPECT_FALSE(made.has_value());
+  return made.error().error;
+}
+
+TEST(Detector, L12_NamedErrors) {
+  const Positions x = octahedron_positions(1);
+  EXPECT_EQ(create_error(Triangles(0, 3), x), InputError::no_triangles);
+  EXPECT_EQ(create_error(tests::triangles({{0, 1, 6}}), x), InputError::index_out_of_range);
+  EXPECT_EQ(create_error(tests::triangles({{0, 1, -1}}), x), InputError::index_out_of_range);
+  EXPECT_EQ(create_error(tests::triangles({{0, 1, 1}}), x), InputError::repeated_index);
+  EXPECT_EQ(create_error(tests::triangles({{0, 1, 2}, {2, 1, 0}}), x), InputError::same_vertices_twice);
+  Positions nan = x;
+  nan(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(create_error(octahedron(), nan), InputError::non_finite_coordinate);
+}
+
+TEST(Detector, BadFramesAreErrorsAndLeaveTheState) {
+  const Positions x = octahedron_positions(1);
+  Detector detector = make(octahedron(), x);
+  ASSERT_EQ(detector.step(x, octahedron_positions(2)).answer, Answer::free);
+  Positions infinite = octahedron_positions(2);
+  infinite(0, 0) = std::numeric_limits<double>::infinity();
+  const StepResult refused = detector.step(octahedron_positions(2), infinite);
+  EXPECT_EQ(refused.answer, Answer::error);
+  ASSERT_TRUE(refused.problem.has_value());
+  EXPECT_EQ(refused.problem->error, InputError::non_finite_coordinate);
+  EXPECT_EQ(detector.step(octahedron_positions(2), x.topRows(5)).problem->error, InputError::wrong_frame_size);
+  const StepResult next = detector.step(octahedron_positions(2), octahedron_positions(3));
+  EXPECT_EQ(next.answer, Answer::free);
+  EXPECT_EQ(next.counts.winding_numbers, 0u) << "still known from the first step";
+}
+
+TEST(Detector, L5_BreathingIsFreeWithoutAnyBoxTest) {
+  for (const auto culling : {Culling::view_point, Culling::view_line}) {
+    Detector detector = make(octahedron(), octahedron_positions(1), culling);
+    std::uint64_t windings = 0;
+    for (int step = 0; step < 5; ++step) {
+      const auto result = detector.step(octahedron_positions(1 + step), octahedron_positions(2 + step));
+      EXPECT_EQ(result.answer, Answer::free);
+      EXPECT_EQ(result.view_positive, 8u);
+      EXPECT_EQ(result.counts.search.box_tests, 0u);
+      windings += result.counts.winding_numbers;
+    }
+    EXPECT_EQ(windings, 1u) << "kept from step to step";
+  }
+}
+
+// The apex is pulled out through the side and stays there: the end is in contact too.
+Positions pushed() {
+  Positions x = octahedron_positions(2);
+  x.row(4) << 3, .5, -.25;
+  return x;
+}
+
+TEST(Detector, AllCullingsFindTheSamePairs) {
+  const auto reference = make(octahedron(), octahedron_positions(2), Culling::none)
+                             .evaluate(octahedron_positions(2), pushed());
+  ASSERT_EQ(reference.answer, Answer::collision);
+  for (const auto culling : {Culling::view_point, Culling::view_line, Culling::bvh}) {
+    const auto result = make(octahedron(), octahedron_positions(2), culling)
+                            .evaluate(octahedron_positions(2), pushed());
+    EXPECT_EQ(result.first, reference.first);
+    ASSERT_EQ(result.pairs.size(), reference.pairs.size());
+    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+      EXPECT_EQ(result.pairs[i].pair, reference.pairs[i].pair);
+      EXPECT_EQ(result.pairs[i].time, reference.pairs[i].time);
+    }
+  }
+}
+
+TEST(Detector, L8_ContactsMakeDirtyAndL5Releases) {
+  Detector detector = make(octahedron(), octahedron_positions(2));
+  EXPECT_EQ(detector.step(octahedron_positions(2), pushed()).dirty, 0u);
+  const auto still_in = detector.step(pushed(), pushed());
+  EXPECT_GT(still_in.dirty, 0u);
+  EXPECT_EQ(still_in.answer, Answer::collision);
+  EXPECT_EQ(still_in.first, (TimeEnclosure{0, 0}));
+  EXPECT_EQ(detector.step(pushed(), octahedron_positions(2)).answer, Answer::collision);
+  const auto out = detector.step(octahedron_positions(2), octahedron_positions(3));
+  EXPECT_EQ(out.answer, Answer::free);
+  EXPECT_EQ(out.dirty, 0u);
+}
+
+TEST(Detector, L8_StateBelongsToExactPositions) {
+  Detector detector = make(octahedron(), octahedron_positions(2), Culling::view_point, Start::unknown);
+  Positions moved = octahedron_positions(3);
+  ASSERT_EQ(detector.step(octahedron_positions(2), moved).answer, Answer::free);
+  // All positive over the next steps too, but a start elsewhere is not the committed one.
+  moved(0, 0) += 0x1p-50;
+  const auto result = detector.evaluate(moved, octahedron_positions(2));
+  EXPECT_EQ(result.counts.winding_numbers, 1u);
+}
+
+TEST(Detector, EvaluateWithoutCommitChangesNothing) {
+  Detector detector = make(octahedron(), octahedron_positions(2));
+  const auto first = detector.evaluate(octahedron_positions(2), pushed());
+  const auto again = detector.evaluate(octahedron_positions(2), pushed());
+  EXPECT_EQ(first.pairs.size(), again.pairs.size());
+  EXPECT_EQ(first.dirty, again.dirty);
+  EXPECT_EQ(first.counts.search.box_tests, again.counts.search.box_tests);
+  EXPECT_FALSE(detector.commit().has_value());
+  ASSERT_TRUE(detector.commit().has_value());
+  EXPECT_EQ(detector.commit()->error, InputError::nothing_to_commit);
+}
+
+TEST(Detector, StopMeansUndecidedAndNoState) {
+  Detector detector = make(octahedron(), octahedron_positions(2));
+  const auto result = detector.step(octahedron_positions(2), pushed(), {}, [] { return true; });
+  EXPECT_EQ(result.answer, Answer::undecided);
+  EXPECT_TRUE(detector.commit().has_value());
+}
+
+TEST(Detector, PairsFirstHasTheFirstTime) {
+  const auto all = make(octahedron(), octahedron_positions(2)).evaluate(octahedron_positions(2), pushed());
+  Detector first = make(octahedron(), octahedron_positions(2), Culling::view_point, Start::verified, Pairs::first);
+  const auto result = first.step(octahedron_positions(2), pushed());
+  EXPECT_EQ(result.first, all.first);
+  EXPECT_LE(result.pairs.size(), all.pairs.size());
+  EXPECT_EQ(first.evaluate(pushed(), pushed()).dirty, 8u) << "nothing is known after it (L8)";
+}
+
+TEST(Detector, WrongNumberOfPrimitivesIsRefused) {
+  Detector detector = make(octahedron(), octahedron_positions(2));
+  const std::vector<ViewPrimitive> two(2);
+  const auto result = detector.evaluate(octahedron_positions(2), octahedron_positions(2), two);
+  EXPECT_EQ(result.answer, Answer::error);
+  EXPECT_EQ(result.problem->error, InputError::wrong_primitive_count);
+}
+
+TEST(Detector, SeparateComponentsAreTestedAgainstEachOther) {
+  // Two octahedra; the second flies through the first.
+  Triangles t(16, 3);
+  t.topRows(8) = octahedron();
+  t.bottomRows(8) = octahedron().array() + 6;
+  Positions x_t0(12, 3), x_t1(12, 3);
+  x_t0.topRows(6) = x_t1.topRows(6) = octahedron_positions(1);
+  x_t0.bottomRows(6) = x_t1.bottomRows(6) = octahedron_positions(1);
+  x_t0.bottomRows(6).col(0).array() += 4;
+  x_t1.bottomRows(6).col(0).array() -= 4;
+  const auto result = make(t, x_t0).evaluate(x_t0, x_t1);
+  EXPECT_EQ(result.counts.free_components, 2u);
+  EXPECT_EQ(result.answer, Answer::collision);
+  EXPECT_EQ(result.first, (TimeEnclosure{.25, .25}));
+}
+
+}  // namespace
+}  // namespace assay::detector

@@ -1,0 +1,111 @@
+#include "detector/contact/elementary_test.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "detector/contact/contact_exact.h"
+#include "detector/contact/contact_filter.h"
+#include "tests/detector/points.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::still;
+
+const std::array<MovingPoint, 3> unit_triangle = {still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};
+
+FourPoints vertex_moves(Point from, Point to) {
+  return four_points(VertexFace{{from, to}, unit_triangle});
+}
+
+struct NamedQuery {
+  const char* name;
+  FourPoints query;
+  bool contact;
+  TimeEnclosure time;
+  ContactRung rung;
+};
+
+std::vector<NamedQuery> named_queries() {
+  const auto ee = [](MovingPoint a0, MovingPoint a1, MovingPoint b0, MovingPoint b1) {
+    return four_points(EdgeEdge{{a0, a1}, {b0, b1}});
+  };
+  return {
+      {"far away", vertex_moves({5, 5, 5}, {6, 5, 5}), false, {}, ContactRung::axis},
+      {"stays above", vertex_moves({.2, .2, 1}, {.3, .3, 1}), false, {}, ContactRung::axis},
+      {"passes beside", vertex_moves({.9, .9, 1}, {.9, .9, -1}), false, {}, ContactRung::filter},
+      {"through the face", vertex_moves({.25, .25, 1}, {.25, .25, -1}), true, {.5, .5}, ContactRung::filter},
+      {"onto an edge", vertex_moves({.5, 0, 1}, {.5, 0, -1}), true, {.5, .5}, ContactRung::exact},
+      {"onto a corner", vertex_moves({0, 0, 1}, {0, 0, -1}), true, {.5, .5}, ContactRung::exact},
+      {"touches at t=1", vertex_moves({.25, .25, 1}, {.25, .25, 0}), true, {1, 1}, ContactRung::exact},
+      {"leaves at t=0", vertex_moves({.25, .25, 0}, {.25, .25, 1}), true, {0, 0}, ContactRung::exact},
+      {"no motion, inside", vertex_moves({.25, .25, 0}, {.25, .25, 0}), true, {0, 0}, ContactRung::exact},
+      {"no motion, in the plane outside", vertex_moves({.75, .75, 0}, {.75, .75, 0}), false, {}, ContactRung::filter},
+      {"in the plane, enters", vertex_moves({-1, .25, 0}, {1, .25, 0}), true, {.5, .5}, ContactRung::exact},
+      {"triangle of one point, met",
+       four_points(VertexFace{{{-1, 0, 0}, {3, 0, 0}}, {still({1, 0, 0}), still({1, 0, 0}), still({1, 0, 0})}}),
+       true, {.5, .5}, ContactRung::exact},
+      {"collinear throughout, no contact",
+       four_points(VertexFace{{{5, 0, 0}, {4, 0, 0}}, {still({0, 0, 0}), still({1, 0, 0}), still({2, 0, 0})}}),
+       false, {}, ContactRung::axis},
+      {"crossing edges", ee(still({-1, 0, 0}), still({1, 0, 0}), {{0, -1, 1}, {0, -1, -1}}, {{0, 1, 1}, {0, 1, -1}}),
+       true, {.5, .5}, ContactRung::filter},
+      {"parallel edges meet in a stretch", ee(still({0, 0, 0}), still({2, 0, 0}), {{1, 0, 1}, {1, 0, -1}}, {{3, 0, 1}, {3, 0, -1}}),
+       true, {.5, .5}, ContactRung::exact},
+      {"edges meet at end points", ee(still({0, 0, 0}), still({1, 0, 0}), {{1, 0, 1}, {1, 0, 0}}, {{2, 1, 1}, {2, 1, 0}}),
+       true, {1, 1}, ContactRung::exact},
+      {"zero-length edge meets an edge", ee(still({0, 0, 0}), still({2, 0, 0}), {{1, 1, 0}, {1, -1, 0}}, {{1, 1, 0}, {1, -1, 0}}),
+       true, {.5, .5}, ContactRung::exact},
+      {"double root: rises, touches, sinks",
+       ee({{-1, -1, 0}, {1, -1, 0}}, {{-1, 1, 0}, {1, 1, 0}}, still({0, 0, 0}), still({0, 0, 1})), true, {.5, .5},
+       ContactRung::exact},
+  };
+}
+
+TEST(ElementaryTest, NamedQueriesAndTheRungThatDecides) {
+  for (const auto& q : named_queries()) {
+    const ContactResult result = test_contact(q.query, Want::first_time);
+    EXPECT_EQ(result.contact, q.contact) << q.name;
+    EXPECT_EQ(result.rung, q.rung) << q.name;
+    if (q.contact) {
+      EXPECT_EQ(result.time, q.time) << q.name;
+    }
+    EXPECT_EQ(test_contact(q.query, Want::yes_no).contact, q.contact) << q.name;
+    EXPECT_EQ(exact_first_contact(q.query).has_value(), q.contact) << q.name;
+  }
+}
+
+TEST(ElementaryTest, IrrationalTimeIsEnclosedInAdjacentDoubles) {
+  // The vertex sits in the plane z = 2 t^2 - 1 of edges that grow: contact where t^2 = 1/2.
+  const FourPoints query = four_points(
+      EdgeEdge{{MovingPoint{{-1, 0, -1}, {-1, 0, 1}}, MovingPoint{{1, 0, -1}, {1, 2, 1}}},
+               {still({-.5, -1, 0}), still({-.5, 3, 0})}});
+  const auto result = test_contact(query, Want::first_time);
+  ASSERT_TRUE(result.contact);
+  EXPECT_TRUE(result.time.lo == result.time.hi || result.time.hi == std::nextafter(result.time.lo, 2.0));
+  EXPECT_EQ(exact_first_contact(query), result.time);
+}
+
+TEST(ElementaryTest, ExtremeMagnitudesFallThroughToIntegers) {
+  for (const double scale : {0x1p-1070, 0x1p-600, 0x1p600, 0x1p1020}) {
+    FourPoints query = vertex_moves({.25, .25, 1}, {.25, .25, -1});
+    for (auto& p : query.points) {
+      for (double* c : {p.t0.data(), p.t1.data()}) {
+        for (int k = 0; k < 3; ++k) c[k] *= scale;
+      }
+    }
+    const auto result = test_contact(query, Want::first_time);
+    EXPECT_TRUE(result.contact) << scale;
+    EXPECT_EQ(result.time, (TimeEnclosure{.5, .5})) << scale;
+    EXPECT_EQ(result.rung, ContactRung::exact) << scale;
+  }
+}
+
+TEST(ElementaryTest, CoplanarThroughoutIsRecognised) {
+  EXPECT_TRUE(coplanar_throughout(vertex_moves({-1, .25, 0}, {1, .25, 0})));
+  EXPECT_FALSE(coplanar_throughout(vertex_moves({-1, .25, 0}, {1, .25, 1e-300})));
+}
+
+}  // namespace
+}  // namespace assay::detector

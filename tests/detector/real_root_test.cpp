@@ -1,0 +1,111 @@
+#include "detector/exact/real_root.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace assay::detector {
+namespace {
+
+// Ascending powers.
+Polynomial polynomial(std::initializer_list<std::int64_t> coefficients) {
+  Polynomial p, power = Polynomial::constant(1);
+  const Polynomial t = Polynomial::linear(0, 1);
+  for (const auto c : coefficients) {
+    p = p + Polynomial::constant(c) * power;
+    power = power * t;
+  }
+  return p;
+}
+
+// a - b t
+Polynomial factor(std::int64_t a, std::int64_t b) { return polynomial({a, -b}); }
+
+void expect_exact(const RealRoot& root, double time) {
+  EXPECT_EQ(root.enclosure().lo, time);
+  EXPECT_EQ(root.enclosure().hi, time);
+}
+
+void expect_between_doubles(const RealRoot& root, double near) {
+  EXPECT_EQ(root.enclosure().hi, std::nextafter(root.enclosure().lo, 2.0));
+  EXPECT_LE(root.enclosure().lo, near);
+  EXPECT_GE(root.enclosure().hi, near);
+}
+
+TEST(RealRoot, FindsRootsAtTheEndsAndInside) {
+  const auto roots = roots_in_unit_interval(factor(0, 1) * factor(1, 4) * factor(1, 1));
+  ASSERT_EQ(roots.size(), 3u);
+  expect_exact(roots[0], 0);
+  expect_exact(roots[1], 0.25);
+  expect_exact(roots[2], 1);
+}
+
+TEST(RealRoot, EnclosesAThirdInAdjacentDoubles) {
+  const auto roots = roots_in_unit_interval(factor(1, 3));
+  ASSERT_EQ(roots.size(), 1u);
+  expect_between_doubles(roots[0], 1.0 / 3);
+}
+
+TEST(RealRoot, ReportsAMultipleRootOnce) {
+  const auto roots = roots_in_unit_interval(factor(1, 3) * factor(1, 3) * factor(3, 4));
+  ASSERT_EQ(roots.size(), 2u);
+  expect_between_doubles(roots[0], 1.0 / 3);
+  expect_exact(roots[1], 0.75);
+  EXPECT_EQ(roots_in_unit_interval(factor(1, 2) * factor(1, 2) * factor(1, 2)).size(), 1u);
+}
+
+TEST(RealRoot, IgnoresRootsOutside) {
+  EXPECT_TRUE(roots_in_unit_interval(factor(3, 2) * factor(-1, 7) * factor(5, 1)).empty());
+  EXPECT_FALSE(has_root_in_unit_interval(polynomial({1, 0, 1})));
+}
+
+TEST(RealRoot, SeparatesRootsThatShareOneGapOfDoubles) {
+  // 1/3 and 1/3 + 1/(3 (2^70)): closer than any two doubles there.
+  const Integer big = Integer(1) << 70;
+  const Polynomial close = Polynomial::linear(-(big + 1), -(big + 1) + 3 * big);
+  const auto roots = roots_in_unit_interval(factor(1, 3) * close);
+  ASSERT_EQ(roots.size(), 2u);
+  EXPECT_EQ(roots[0].enclosure(), roots[1].enclosure());
+  // 3t - 1 vanishes at the first and is positive at the second.
+  EXPECT_EQ(roots[0].sign_of(polynomial({-1, 3})), 0);
+  EXPECT_EQ(roots[1].sign_of(polynomial({-1, 3})), 1);
+}
+
+TEST(RealRoot, FindsTinyRootsWithoutManySteps) {
+  const Integer huge = Integer(1) << 1074;
+  const auto roots = roots_in_unit_interval(Polynomial::linear(-1, -1 + huge));  // t = 2^-1074
+  ASSERT_EQ(roots.size(), 1u);
+  expect_exact(roots[0], 0x1p-1074);
+}
+
+TEST(RealRoot, SignAtAnIrrationalRoot) {
+  // t^2 = 1/2.
+  const auto roots = roots_in_unit_interval(polynomial({-1, 0, 2}));
+  ASSERT_EQ(roots.size(), 1u);
+  expect_between_doubles(roots[0], std::sqrt(0.5));
+  EXPECT_EQ(roots[0].sign_of(polynomial({-1, 0, 2})), 0);
+  EXPECT_EQ(roots[0].sign_of(polynomial({-7071067, 10000000})), 1);
+  EXPECT_EQ(roots[0].sign_of(polynomial({-7071068, 10000000})), -1);
+  EXPECT_EQ(roots[0].sign_of(polynomial({-1, 0, 2}) * factor(1, 3)), 0);
+  EXPECT_EQ(roots[0].sign_of(polynomial({-1, 0, 2}) + Polynomial::constant(1)), 1);
+  EXPECT_EQ(roots[0].sign_of(Polynomial()), 0);
+}
+
+TEST(RealRoot, FindsAllRootsOfAQuintic) {
+  const auto roots = roots_in_unit_interval(factor(1, 7) * factor(1, 5) * factor(1, 3) * factor(2, 3) *
+                                            factor(6, 7));
+  ASSERT_EQ(roots.size(), 5u);
+  const double expected[] = {1.0 / 7, 0.2, 1.0 / 3, 2.0 / 3, 6.0 / 7};
+  for (std::size_t i = 0; i < roots.size(); ++i) expect_between_doubles(roots[i], expected[i]);
+}
+
+TEST(RealRoot, BracketedRootIsTheSameFromAnyGuess) {
+  const Polynomial f = polynomial({-1, 0, 2});
+  const auto roots = roots_in_unit_interval(f);
+  for (const double guess : {-1.0, 1e-300, 0.3, 0.70710678, 0.99}) {
+    EXPECT_EQ(enclose_single_root(f, 0, 1, guess), roots[0].enclosure()) << guess;
+  }
+}
+
+}  // namespace
+}  // namespace assay::detector

@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "detector/state/layers.h"
+#include "detector/state/start.h"
+#include "detector/state/winding.h"
+#include "tests/detector/points.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::octahedron;
+using tests::octahedron_positions;
+
+TEST(Topology, OctahedronIsOneCycle) {
+  const Topology mesh = make_topology(octahedron(), 6);
+  EXPECT_EQ(mesh.edges.size(), 12u);
+  ASSERT_EQ(mesh.components.size(), 1u);
+  EXPECT_TRUE(mesh.components[0].is_cycle);
+  for (std::int32_t e = 0; e < 12; ++e) EXPECT_EQ(mesh.edge_triangles.row(e).size(), 2u);
+}
+
+TEST(Topology, OneTriangleLessIsNoCycle) {
+  const Triangles all = octahedron();
+  const Topology mesh = make_topology(all.topRows(7), 6);
+  EXPECT_FALSE(mesh.components[0].is_cycle);
+}
+
+TEST(Topology, OneTriangleFlippedIsNoCycle) {
+  Triangles all = octahedron();
+  std::swap(all(0, 1), all(0, 2));
+  EXPECT_FALSE(make_topology(all, 6).components[0].is_cycle);
+}
+
+TEST(Winding, InsideOutsideAndInward) {
+  const Positions x = octahedron_positions(2);
+  Triangles t = octahedron();
+  const Topology mesh = make_topology(t, 6);
+  const auto& all = mesh.components[0].triangles;
+  EXPECT_EQ(winding_number(mesh, all, x, {0, 0, 0}), 1);
+  EXPECT_EQ(winding_number(mesh, all, x, {.5, .25, -.125}), 1);
+  EXPECT_EQ(winding_number(mesh, all, x, {3, 0, 0}), 0);
+  EXPECT_EQ(winding_number(mesh, all, x, {1, 1, 1}), 0);
+  EXPECT_EQ(winding_number(mesh, all, x, {1, .5, .5}), std::nullopt) << "on the surface";
+  for (std::int32_t i = 0; i < 8; ++i) EXPECT_EQ(winding_number_outside(mesh, all, x, i), 0);
+  t.col(1).swap(t.col(2));
+  const Topology inward = make_topology(t, 6);
+  EXPECT_EQ(winding_number(inward, all, x, {0, 0, 0}), -1);
+  EXPECT_EQ(winding_number_outside(inward, all, x, 3), -1);
+}
+
+TEST(Winding, FarFromTheOriginAndTiny) {
+  const Topology mesh = make_topology(octahedron(), 6);
+  Positions x = octahedron_positions(1);
+  x.array() += 0x1p50;
+  EXPECT_EQ(winding_number(mesh, mesh.components[0].triangles, x, {0x1p50, 0x1p50, 0x1p50}), 1);
+  const Positions tiny = octahedron_positions(0x1p-1070);
+  EXPECT_EQ(winding_number(mesh, mesh.components[0].triangles, tiny, {0, 0, 0}), 1);
+  EXPECT_EQ(winding_number(mesh, mesh.components[0].triangles, tiny, {0x1p-1000, 0, 0}), 0);
+}
+
+// Two outward tetrahedra that share an edge, one inside the other: connected, embedded, but two
+// pieces of different layers.
+TEST(Layers, L9_PiecesNotConnectionDecide) {
+  const Triangles t = tests::triangles(
+      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 1}, {0, 1, 5}, {0, 5, 4}, {1, 4, 5}});
+  const Positions x = tests::positions({{0, 0, -4}, {0, 0, 4}, {8, -6, 0}, {8, 6, 0}, {4, -1.5, 0}, {4, 1.5, 0}});
+  const Topology mesh = make_topology(t, 6);
+  ASSERT_EQ(mesh.components.size(), 1u);
+  ASSERT_TRUE(mesh.components[0].is_cycle);
+  std::vector<std::uint8_t> clean(8, 2);
+  mark_clean_by_layers(mesh, mesh.components[0], x, std::vector<std::uint8_t>(8, 0), clean);
+  EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 0}))
+      << "as many triangles in each layer: the one with triangle 0 is common";
+}
+
+TEST(Layers, L9_TouchedTrianglesStayDirty) {
+  const Topology mesh = make_topology(octahedron(), 6);
+  std::vector<std::uint8_t> touched(8, 0), clean(8, 0);
+  touched[2] = 1;
+  mark_clean_by_layers(mesh, mesh.components[0], octahedron_positions(1), touched, clean);
+  EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 1, 1, 1}));
+}
+
+TEST(Start, L5_ReleasesWithWindingOneOnly) {
+  const Topology mesh = make_topology(octahedron(), 6);
+  EXPECT_TRUE(released_by_view(mesh, mesh.components[0], octahedron_positions(1), {0, 0, 0}, {0, 0, 0}));
+  EXPECT_FALSE(released_by_view(mesh, mesh.components[0], octahedron_positions(1), {2, 0, 0}, {2, 0, 0}));
+}
+
+TEST(Start, L9_FindsStaticContactsOfAStartInContact) {
+  // The apex (vertex 4) pulled out through the side.
+  const Topology mesh = make_topology(octahedron(), 6);
+  Positions x = octahedron_positions(2);
+  x.row(4) << 3, .5, -.25;
+  BoundingVolumeTree tree(mesh, x);
+  std::vector<std::uint8_t> clean(8, 2);
+  ASSERT_TRUE(verify_start(mesh, tree, x, {0}, {}, clean));
+  // Edge (1,4) of triangles 1 and 2 pierces triangle 4.
+  EXPECT_EQ(clean[1], 0);
+  EXPECT_EQ(clean[2], 0);
+  EXPECT_GT(std::count(clean.begin(), clean.end(), 0), 2);
+}
+
+}  // namespace
+}  // namespace assay::detector

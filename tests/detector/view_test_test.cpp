@@ -1,0 +1,90 @@
+#include "detector/view/view_test.h"
+
+#include <gtest/gtest.h>
+
+#include "detector/view/view_exact.h"
+#include "detector/view/view_filter.h"
+#include "tests/detector/points.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::still;
+
+ViewPrimitive point_at(Point q) { return {still(q), still(q)}; }
+
+// Both ways: exact always, the filter where it decides.
+ViewSign sign(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
+  const ViewSign exact = exact_view_sign(triangle, primitive);
+  const auto filtered = filter_view_sign(triangle, primitive);
+  if (filtered) {
+    EXPECT_EQ(*filtered, exact);
+  }
+  return exact;
+}
+
+const MovingTriangle above = {still({0, 0, 1}), still({1, 0, 1}), still({0, 1, 1})};
+const MovingTriangle flipped = {still({0, 0, 1}), still({0, 1, 1}), still({1, 0, 1})};
+
+TEST(ViewTest, PointSigns) {
+  EXPECT_EQ(sign(above, point_at({0, 0, 0})), ViewSign::positive);
+  EXPECT_EQ(sign(flipped, point_at({0, 0, 0})), ViewSign::negative);
+  EXPECT_EQ(sign(above, point_at({5, 5, 1})), ViewSign::zero) << "in the plane of the triangle";
+}
+
+TEST(ViewTest, ZeroAreaTriangleHasNoSign) {
+  EXPECT_EQ(sign({still({0, 0, 1}), still({1, 1, 1}), still({2, 2, 1})}, point_at({0, 0, 0})), ViewSign::zero);
+}
+
+TEST(ViewTest, L2_SignsAtTheEndsSayNothing) {
+  // Positive at t=0 and t=1; the plane dips below the view point in between.
+  const MovingTriangle dips = {MovingPoint{{0, 0, 1}, {0, 0, 1}}, MovingPoint{{1, 0, 1}, {-1, 0, 1}},
+                               MovingPoint{{0, 1, 1}, {0, -1, 1}}};
+  EXPECT_EQ(sign(dips, point_at({0, 0, 0})), ViewSign::zero) << "N vanishes at t = 1/2";
+}
+
+TEST(ViewTest, L2_TouchingZeroIsNotPositive) {
+  const MovingTriangle touches = {MovingPoint{{0, 0, 1}, {0, 0, 0}}, MovingPoint{{1, 0, 1}, {1, 0, 0}},
+                                  MovingPoint{{0, 1, 1}, {0, 1, 0}}};
+  EXPECT_EQ(sign(touches, point_at({0, 0, 0})), ViewSign::zero);
+  EXPECT_EQ(sign(touches, point_at({0, 0, -0x1p-60})), ViewSign::positive);
+}
+
+TEST(ViewTest, L1_EachVertexHasItsOwnNearestPoint) {
+  // THEORY's example: the three vertices give -1.28, +1.28 and 0.
+  const MovingTriangle t = {still({.4, 1, .1}), still({-.4, 1, .9}), still({0, 5, .5})};
+  EXPECT_EQ(sign(t, {still({0, 0, 0}), still({0, 0, 1})}), ViewSign::zero);
+}
+
+TEST(ViewTest, L1_LineThatIsAPointIsThePointScheme) {
+  for (const auto& triangle : {above, flipped}) {
+    for (const Point q : {Point{0, 0, 0}, Point{.3, -.7, 2}, Point{0, 0, 1}}) {
+      ViewPrimitive nearly_point = point_at(q);
+      nearly_point.q1.t1[2] += 0x1p-80;  // takes the code of lines
+      const auto as_point = sign(triangle, point_at(q));
+      if (as_point != ViewSign::zero) {
+        EXPECT_EQ(sign(triangle, nearly_point), as_point);
+      }
+    }
+  }
+}
+
+TEST(ViewTest, LineEndsThatMoveApart) {
+  const ViewPrimitive grows = {{{0, 0, 0}, {-2, 0, 0}}, {{0, 0, 0}, {2, 0, 0}}};
+  EXPECT_EQ(sign(above, grows), ViewSign::positive);
+  EXPECT_EQ(sign(flipped, grows), ViewSign::negative);
+  const ViewPrimitive rises = {{{0, 0, 0}, {0, 0, 3}}, {{0, 0, 0}, {1, 0, 0}}};
+  EXPECT_EQ(sign(above, rises), ViewSign::zero);
+}
+
+TEST(ViewTest, LineSeesATubeBetterThanAPoint) {
+  // A side wall near one end, leaning in: from the middle it is seen from behind.
+  const MovingTriangle wall = {still({9, 1, 0}), still({10, .2, 0}), still({9.5, .6, 1})};
+  const ViewSign from_line = sign(wall, {still({0, 0, 0}), still({9, 0, 0})});
+  const ViewSign from_point = sign(wall, point_at({4.5, 0, 0}));
+  EXPECT_NE(from_line, ViewSign::zero);
+  EXPECT_NE(from_point, ViewSign::zero);
+}
+
+}  // namespace
+}  // namespace assay::detector

@@ -1,0 +1,178 @@
+// Laws of contacts on random queries of every kind of coordinates; fixed seeds.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "oracle/algebraic_rung.h"
+#include "oracle/axis_rung.h"
+#include "oracle/contact.h"
+#include "oracle/interval_rung.h"
+#include "oracle/simple_zero.h"
+#include "tests/oracle/random_points.h"
+
+namespace assay::oracle {
+namespace {
+
+using detector::EdgeEdge;
+using detector::MovingPoint;
+using detector::TimeEnclosure;
+using detector::VertexFace;
+using detector::Want;
+using test::Coordinates;
+using test::Random;
+
+constexpr int kQueriesPerKind = 300;
+
+struct Query {
+  FourPoints q;
+  ContactAnswer judge(Want want = Want::first_time) const {
+    const auto& x = q.x;
+    return q.first_group == 1 ? vertex_face_contact({x[0], {x[1], x[2], x[3]}}, want)
+                              : edge_edge_contact({{x[0], x[1]}, {x[2], x[3]}}, want);
+  }
+};
+
+template <class Law>
+void for_random_queries(std::uint64_t seed, const Law& law) {
+  Random random(seed);
+  int queries = 0, contacts = 0;
+  for (int kind = 0; kind < test::kCoordinateKinds; ++kind) {
+    for (int i = 0; i < kQueriesPerKind; ++i) {
+      Query query;
+      query.q.first_group = 1 + i % 2;
+      for (MovingPoint& p : query.q.x) {
+        p = test::random_point(random, static_cast<Coordinates>(kind));
+      }
+      if (random.below(6) == 0) query.q.x[3] = query.q.x[random.below(3)];
+      ++queries;
+      contacts += query.judge(Want::yes_no).contact;
+      law(query);
+      if (testing::Test::HasFailure()) {
+        FAIL() << "seed " << seed << " kind " << kind << " query " << i;
+      }
+    }
+  }
+  std::printf("%d queries, %d in contact\n", queries, contacts);
+}
+
+TEST(ContactLaws, RungsAgree) {
+  for_random_queries(11, [](const Query& query) {
+    ContactPolynomials polynomials(query.q);
+    const AlgebraicVerdict full = algebraic_verdict(polynomials, Want::first_time);
+    EXPECT_FALSE(separated_by_axis(query.q) && full.contact);
+    for (const Want want : {Want::yes_no, Want::first_time}) {
+      const IntervalVerdict quick = interval_verdict(query.q, want);
+      if (quick.verdict == Verdict::unknown) continue;
+      EXPECT_EQ(quick.verdict == Verdict::contact, full.contact);
+      if (!full.contact || want == Want::yes_no) continue;
+      EXPECT_EQ(simple_zero_time(polynomials.coplanarity(), quick.s, quick.e), full.first);
+    }
+  });
+}
+
+TEST(ContactLaws, WantDoesNotChangeTheAnswer) {
+  for_random_queries(12, [](const Query& query) {
+    const ContactAnswer timed = query.judge();
+    EXPECT_EQ(query.judge(Want::yes_no).contact, timed.contact);
+    if (!timed.contact) return;
+    EXPECT_GE(timed.first.lo, 0);
+    EXPECT_LE(timed.first.hi, 1);
+    EXPECT_TRUE(timed.first.lo == timed.first.hi ||
+                std::nextafter(timed.first.lo, 2) == timed.first.hi);
+  });
+}
+
+TEST(ContactLaws, TimeReversalKeepsTheAnswer) {
+  for_random_queries(13, [](const Query& query) {
+    Query back = query;
+    for (MovingPoint& p : back.q.x) std::swap(p.t0, p.t1);
+    const ContactAnswer forward = query.judge(), reversed = back.judge();
+    EXPECT_EQ(forward.contact, reversed.contact);
+    if (!forward.contact) return;
+    // The reversed first time is 1 - (last time), and the last is not before the first.
+    EXPECT_LE(forward.first.lo + reversed.first.lo, 1);
+  });
+}
+
+TEST(ContactLaws, OrderOfPointsDoesNotMatter) {
+  for_random_queries(14, [](const Query& query) {
+    const ContactAnswer expected = query.judge();
+    auto same = [&](const Query& other) {
+      const ContactAnswer answer = other.judge();
+      EXPECT_EQ(answer.contact, expected.contact);
+      EXPECT_EQ(answer.first, expected.first);
+    };
+    Query other = query;
+    std::swap(other.q.x[2], other.q.x[3]);
+    same(other);
+    if (query.q.first_group == 2) {
+      std::swap(other.q.x[0], other.q.x[1]);
+      same(other);
+      std::swap(other.q.x[0], other.q.x[2]);
+      std::swap(other.q.x[1], other.q.x[3]);
+      same(other);
+    } else {
+      std::swap(other.q.x[1], other.q.x[2]);
+      same(other);
+    }
+  });
+}
+
+TEST(ContactLaws, AxesAreAlike) {
+  for_random_queries(15, [](const Query& query) {
+    Query other = query;
+    for (MovingPoint& p : other.q.x) {
+      p = {{p.t0[1], p.t0[2], -p.t0[0]}, {p.t1[1], p.t1[2], -p.t1[0]}};
+    }
+    const ContactAnswer expected = query.judge(), answer = other.judge();
+    EXPECT_EQ(answer.contact, expected.contact);
+    EXPECT_EQ(answer.first, expected.first);
+  });
+}
+
+TEST(ContactLaws, PowersOfTwoDoNotChangeTheTime) {
+  for_random_queries(16, [](const Query& query) {
+    const ContactAnswer expected = query.judge();
+    for (const int exponent : {-900, -60, 7, 900}) {
+      Query other = query;
+      for (MovingPoint& p : other.q.x) {
+        for (int k = 0; k < 3; ++k) {
+          p.t0[k] = std::ldexp(p.t0[k], exponent);
+          p.t1[k] = std::ldexp(p.t1[k], exponent);
+        }
+      }
+      const ContactAnswer answer = other.judge();
+      EXPECT_EQ(answer.contact, expected.contact) << exponent;
+      EXPECT_EQ(answer.first, expected.first) << exponent;
+    }
+  });
+}
+
+TEST(ContactLaws, AContactOfAFaceIsAContactOfALargerFace) {
+  // Doubling a face about its first corner keeps every point of it; the time can only be earlier.
+  for_random_queries(17, [](const Query& query) {
+    if (query.q.first_group != 1) return;
+    const ContactAnswer small = query.judge();
+    if (!small.contact) return;
+    Query larger = query;
+    for (auto end : {&MovingPoint::t0, &MovingPoint::t1}) {
+      for (int i = 2; i < 4; ++i) {
+        for (int k = 0; k < 3; ++k) {
+          // Exact: twice a double is one, and the differences used here are when on a grid.
+          double& x = (larger.q.x[i].*end)[k];
+          const double corner = (query.q.x[1].*end)[k];
+          const double doubled = 2 * (x - corner) + corner;
+          if ((doubled - corner) / 2 + corner != x || std::fabs(x) > 4 || x != std::floor(x))
+            return;
+          x = doubled;
+        }
+      }
+    }
+    const ContactAnswer large = larger.judge();
+    EXPECT_TRUE(large.contact);
+    EXPECT_LE(large.first.lo, small.first.lo);
+  });
+}
+
+}  // namespace
+}  // namespace assay::oracle

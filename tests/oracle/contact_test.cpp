@@ -1,0 +1,260 @@
+// Named queries: which answer, which first time, and which rung decides.
+#include "oracle/contact.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace assay::oracle {
+namespace {
+
+using detector::EdgeEdge;
+using detector::MovingPoint;
+using detector::Point;
+using detector::TimeEnclosure;
+using detector::VertexFace;
+using detector::Want;
+
+MovingPoint rest(const Point& p) { return {p, p}; }
+
+constexpr std::array<Point, 3> kFace = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+
+VertexFace over_resting_face(const Point& from, const Point& to) {
+  return {{from, to}, {rest(kFace[0]), rest(kFace[1]), rest(kFace[2])}};
+}
+
+struct Expected {
+  bool contact;
+  Rung rung;
+  TimeEnclosure first = {};
+};
+
+void expect(const ContactAnswer& yes_no, const ContactAnswer& timed, const Expected& expected) {
+  EXPECT_EQ(yes_no.contact, expected.contact);
+  EXPECT_EQ(timed.contact, expected.contact);
+  EXPECT_EQ(static_cast<int>(yes_no.rung), static_cast<int>(expected.rung));
+  EXPECT_EQ(static_cast<int>(timed.rung), static_cast<int>(expected.rung));
+  if (!expected.contact) return;
+  EXPECT_EQ(timed.first.lo, expected.first.lo);
+  EXPECT_EQ(timed.first.hi, expected.first.hi);
+}
+
+void expect(const VertexFace& q, const Expected& expected) {
+  expect(vertex_face_contact(q, Want::yes_no), vertex_face_contact(q, Want::first_time), expected);
+}
+
+void expect(const EdgeEdge& q, const Expected& expected) {
+  expect(edge_edge_contact(q, Want::yes_no), edge_edge_contact(q, Want::first_time), expected);
+}
+
+TimeEnclosure at(double t) { return {t, t}; }
+
+// A time that is no double, between t and the next.
+TimeEnclosure around(double t) { return {t, std::nextafter(t, 2)}; }
+
+constexpr double kBelowThird = 0x1.5555555555555p-2;
+
+TEST(ContactAxis, OrderedAtBothEnds) {
+  expect(over_resting_face({1, 1, 1}, {1, 1, 0.5}), {false, Rung::axis});
+  expect(EdgeEdge{{rest({0, 0, 0}), rest({1, 0, 0})}, {rest({2, 0, 0}), rest({3, 0, 0})}},
+         {false, Rung::axis});
+}
+
+TEST(ContactAxis, SwappedOrderIsNotSeparated) {
+  expect(over_resting_face({1, 1, 3}, {1, 1, -1}), {true, Rung::interval, at(0.75)});
+}
+
+TEST(ContactAxis, TouchingIsNotSeparated) {
+  expect(over_resting_face({1, 1, 1}, {1, 1, 0}), {true, Rung::algebraic, at(1)});
+}
+
+TEST(ContactInterval, PassesBeside) {
+  expect(over_resting_face({3, 3, 1}, {3, 3.5, -1}), {false, Rung::interval});
+}
+
+TEST(ContactInterval, CrossesInside) {
+  expect(over_resting_face({1, 1, 1}, {1, 1, -2}), {true, Rung::interval, around(kBelowThird)});
+}
+
+TEST(ContactInterval, EdgesCross) {
+  expect(EdgeEdge{{rest({-1, 0, 0}), rest({1, 0.25, 0})},
+                  {MovingPoint{{0.125, -1, 1}, {0.125, -1, -2}}, {{0, 1, 1}, {0, 1, -2}}}},
+         {true, Rung::interval, around(kBelowThird)});
+}
+
+TEST(ContactInterval, FirstOfThreeZeros) {
+  // The face tilts about the x axis while the point crosses it: F is a cubic and changes sign more
+  // than once.
+  const VertexFace q = {
+      {{0.1, 3, 1}, {0.1, -5, -1}},
+      {{{{-9, -9, -4}, {-9, -9, 4}}, {{9, -9, -4}, {9, -9, 4}}, {{0, 9, 4}, {0, 9, -4}}}}};
+  const ContactAnswer answer = vertex_face_contact(q, Want::first_time);
+  ASSERT_TRUE(answer.contact);
+  EXPECT_EQ(static_cast<int>(answer.rung), static_cast<int>(Rung::interval));
+  EXPECT_LE(answer.first.hi, 0.5);
+}
+
+TEST(ContactAlgebraic, ContactOnAnEdgeOfTheFace) {
+  expect(over_resting_face({2, 0, 1}, {2, 0, -1}), {true, Rung::algebraic, at(0.5)});
+}
+
+TEST(ContactAlgebraic, ContactAtACornerOfTheFace) {
+  expect(over_resting_face({4, 0, 3}, {4, 0, -1}), {true, Rung::algebraic, at(0.75)});
+}
+
+TEST(ContactAlgebraic, StartsInContact) {
+  expect(over_resting_face({1, 1, 0}, {1, 1, 5}), {true, Rung::algebraic, at(0)});
+}
+
+TEST(ContactAlgebraic, EndsInContact) {
+  expect(over_resting_face({1, 1, 5}, {1, 1, 0}), {true, Rung::algebraic, at(1)});
+}
+
+// The point moves along y, two corners of the face along z, and F = c (2t - 1)^2: at t=1/2 alone
+// the face is a segment on the x axis, from 0 to 4, and the point is on that axis.
+VertexFace double_zero(double x) {
+  return {
+      {{x, -1, 0}, {x, 1, 0}},
+      {rest({0, 0, 0}), MovingPoint{{4, 0, -1}, {4, 0, 1}}, MovingPoint{{0, 0, -1}, {0, 0, 1}}}};
+}
+
+TEST(ContactAlgebraic, DoubleZeroTouches) {
+  expect(double_zero(1), {true, Rung::algebraic, at(0.5)});
+  expect(double_zero(4), {true, Rung::algebraic, at(0.5)});
+}
+
+TEST(ContactAlgebraic, DoubleZeroWithoutContact) {
+  EXPECT_FALSE(vertex_face_contact(double_zero(5), Want::yes_no).contact);
+  EXPECT_FALSE(vertex_face_contact(double_zero(5), Want::first_time).contact);
+}
+
+// All in the plane y=0 but one corner. The point (2t, 0, 1) meets the line of the edge from the
+// origin to (length, 0, length t) where 2 t^2 = 1, and the edge itself when that reaches so far.
+VertexFace irrational_time(double length) {
+  return {{{0, 0, 1}, {2, 0, 1}},
+          {rest({0, 0, 0}), MovingPoint{{length, 0, 0}, {length, 0, length}}, rest({0, 4, 0})}};
+}
+
+TEST(ContactAlgebraic, IrrationalTimeOnAnEdge) {
+  const double root_half = 0x1.6a09e667f3bccp-1;  // the double below the square root of 1/2
+  expect(irrational_time(3), {true, Rung::algebraic, around(root_half)});
+  EXPECT_FALSE(vertex_face_contact(irrational_time(1), Want::first_time).contact);
+}
+
+TEST(ContactDegenerate, NoMotion) {
+  expect(over_resting_face({1, 1, 0}, {1, 1, 0}), {true, Rung::algebraic, at(0)});
+  EXPECT_FALSE(vertex_face_contact(over_resting_face({3, 3, 0}, {3, 3, 0}), Want::yes_no).contact);
+  EXPECT_TRUE(vertex_face_contact(over_resting_face({2, 2, 0}, {2, 2, 0}), Want::yes_no).contact);
+}
+
+TEST(ContactDegenerate, CoplanarThroughoutResting) {
+  // In the plane of the face from outside over its edge x + y = 4.
+  expect(over_resting_face({4, 4, 0}, {0, 0, 0}), {true, Rung::algebraic, at(0.5)});
+  // Past the corner.
+  EXPECT_FALSE(
+      vertex_face_contact(over_resting_face({5, -1, 0}, {-1, -1, 0}), Want::first_time).contact);
+  // Through the corner (4,0).
+  expect(over_resting_face({5, -1, 0}, {3, 1, 0}), {true, Rung::algebraic, at(0.5)});
+}
+
+TEST(ContactDegenerate, CoplanarThroughoutInAMovingPlane) {
+  // The same motion within a plane z = c that moves itself.
+  auto lifted = [](double x0, double y0, double x1, double y1) {
+    return MovingPoint{{x0, y0, 1}, {x1, y1, 7}};
+  };
+  const VertexFace q = {lifted(4, 4, 0, 0),
+                        {lifted(0, 0, 0, 0), lifted(4, 0, 4, 0), lifted(0, 4, 0, 4)}};
+  expect(q, {true, Rung::algebraic, at(0.5)});
+}
+
+TEST(ContactDegenerate, CollinearThroughout) {
+  const EdgeEdge meet = {{MovingPoint{{0, 0, 0}, {3, 3, 3}}, {{1, 1, 1}, {4, 4, 4}}},
+                         {rest({2, 2, 2}), rest({9, 9, 9})}};
+  expect(meet, {true, Rung::algebraic, around(kBelowThird)});
+  const EdgeEdge apart = {{rest({0, 0, 0}), rest({1, 1, 1})}, {rest({1, 1, 1}), rest({2, 2, 2})}};
+  expect(apart, {true, Rung::algebraic, at(0)});
+  const EdgeEdge gap = {{rest({0, 0, 0}), rest({1, 1, 1})}, {rest({2, 2, 2}), rest({3, 3, 3})}};
+  expect(gap, {false, Rung::axis});
+}
+
+TEST(ContactDegenerate, EdgesTurningOnOneLine) {
+  // At t=1/2 all four points are on the x axis, and the edges overlap there or do not.
+  auto turning = [](double a, double b) {
+    return std::array<MovingPoint, 2>{MovingPoint{{a, -1, 0}, {a, 1, 0}},
+                                      MovingPoint{{b, 1, 0}, {b, -1, 0}}};
+  };
+  auto resting = [](double a, double b) {
+    return std::array<MovingPoint, 2>{rest({a, 0, 0}), rest({b, 0, 0})};
+  };
+  EXPECT_TRUE(edge_edge_contact({turning(0, 2), resting(1, 3)}, Want::yes_no).contact);
+  expect(EdgeEdge{turning(0, 2), resting(2, 3)}, {true, Rung::algebraic, at(0.5)});
+  EXPECT_FALSE(edge_edge_contact({turning(0, 2), resting(3, 4)}, Want::yes_no).contact);
+}
+
+TEST(ContactDegenerate, AllPointsCoincide) {
+  const Point p = {1, 2, 3};
+  expect(VertexFace{rest(p), {rest(p), rest(p), rest(p)}}, {true, Rung::algebraic, at(0)});
+  expect(EdgeEdge{{rest(p), rest(p)}, {rest(p), rest(p)}}, {true, Rung::algebraic, at(0)});
+}
+
+TEST(ContactDegenerate, PointsMeetOnce) {
+  const MovingPoint a = {{0, 0, 0}, {2, 4, 6}}, b = {{2, 4, 6}, {0, 0, 0}};
+  expect(VertexFace{a, {b, b, b}}, {true, Rung::algebraic, at(0.5)});
+  expect(EdgeEdge{{a, a}, {b, b}}, {true, Rung::algebraic, at(0.5)});
+  const MovingPoint c = {{2, 4, 6}, {0, 1, 0}};
+  EXPECT_FALSE(edge_edge_contact({{a, a}, {c, c}}, Want::first_time).contact);
+}
+
+TEST(ContactDegenerate, ZeroLengthEdgeThroughAnEdge) {
+  const MovingPoint p = {{1, 0, 1}, {1, 0, -1}};
+  expect(EdgeEdge{{p, p}, {rest({0, 0, 0}), rest({2, 0, 0})}}, {true, Rung::algebraic, at(0.5)});
+  const MovingPoint miss = {{1, 0.5, 1}, {1, 0.5, -1}};
+  EXPECT_FALSE(
+      edge_edge_contact({{miss, miss}, {rest({0, 0, 0}), rest({2, 0, 0})}}, Want::yes_no).contact);
+}
+
+TEST(ContactDegenerate, SliverFaceIsASegment) {
+  VertexFace q = {{{1, 0, 1}, {1, 0, -1}}, {rest({0, 0, 0}), rest({1, 0, 0}), rest({2, 0, 0})}};
+  expect(q, {true, Rung::algebraic, at(0.5)});
+  q.vertex = {{3, 0, 1}, {3, 0, -1}};
+  EXPECT_FALSE(vertex_face_contact(q, Want::yes_no).contact);
+}
+
+TEST(ContactDegenerate, ParallelEdgesSlide) {
+  const EdgeEdge q = {{MovingPoint{{-3, 0, 0}, {1, 0, 0}}, {{-2, 0, 0}, {2, 0, 0}}},
+                      {rest({0, 0, 0}), rest({1, 0, 0})}};
+  expect(q, {true, Rung::algebraic, at(0.5)});
+  EdgeEdge beside = q;
+  beside.b = {rest({0, 1, 0}), rest({1, 1, 0})};
+  expect(beside, {false, Rung::axis});
+}
+
+TEST(ContactDegenerate, FarFromTheOrigin) {
+  const double far = 0x1p40;
+  const VertexFace q = {
+      {{far + 1, far + 1, far + 1}, {far + 1, far + 1, far - 1}},
+      {rest({far, far, far}), rest({far + 4, far, far}), rest({far, far + 4, far})}};
+  expect(q, {true, Rung::interval, at(0.5)});
+}
+
+TEST(ContactDegenerate, TimeBesideTheEnds) {
+  const double tiny = 0x1p-1000;
+  expect(over_resting_face({1, 1, tiny}, {1, 1, -1}),
+         {true, Rung::interval, {std::nextafter(tiny, 0), tiny}});
+  const double last = std::nextafter(1.0, 0.0);
+  expect(over_resting_face({1, 1, 1}, {1, 1, -0x1p-60}), {true, Rung::interval, {last, 1}});
+}
+
+TEST(RungCounts, AddUp) {
+  RungCounts counts;
+  counts.add(Rung::axis);
+  counts.add(Rung::interval);
+  counts.add(Rung::algebraic);
+  counts += counts;
+  EXPECT_EQ(counts.axis, 2U);
+  EXPECT_EQ(counts.interval, 2U);
+  EXPECT_EQ(counts.algebraic, 2U);
+}
+
+}  // namespace
+}  // namespace assay::oracle

@@ -1,0 +1,64 @@
+// Own integer-only random numbers: the standard distributions differ between libraries.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "detector/mesh/step_types.h"
+
+namespace assay::oracle::test {
+
+// splitmix64.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t next() {
+    state_ += 0x9e3779b97f4a7c15U;
+    std::uint64_t x = state_;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31);
+  }
+  // In [0, n); n is far below 2^64, so the bias is of no matter.
+  int below(int n) { return static_cast<int>(next() % static_cast<std::uint64_t>(n)); }
+  // In [-n, n], integers.
+  double integer(int n) { return below(2 * n + 1) - n; }
+  // In [-1, 1), multiples of 2^-52.
+  double unit() { return std::ldexp(static_cast<double>(next() >> 11), -52) - 1; }
+
+ private:
+  std::uint64_t state_;
+};
+
+// A menu of coordinates that are generic, degenerate, or just beside degenerate.
+enum class Coordinates { generic, tiny_grid, grid_and_noise, ulp_neighbours, far, mixed_scales };
+constexpr int kCoordinateKinds = 6;
+
+inline double random_coordinate(Random& random, Coordinates kind) {
+  switch (kind) {
+    case Coordinates::generic:
+      return random.unit();
+    case Coordinates::tiny_grid:
+      return random.integer(2);
+    case Coordinates::grid_and_noise:
+      return random.integer(2) + std::ldexp(random.unit(), -40);
+    case Coordinates::ulp_neighbours:
+      return random.integer(2) * (1 + std::ldexp(random.below(3), -52));
+    case Coordinates::far:
+      return 1e6 + random.unit();
+    case Coordinates::mixed_scales:
+      return std::ldexp(random.integer(4), random.below(40) - 20);
+  }
+  return 0;
+}
+
+inline detector::MovingPoint random_point(Random& random, Coordinates kind) {
+  detector::MovingPoint p;
+  for (int k = 0; k < 3; ++k) {
+    p.t0[k] = random_coordinate(random, kind);
+    p.t1[k] = random_coordinate(random, kind);
+  }
+  return p;
+}
+
+}  // namespace assay::oracle::test

@@ -1,0 +1,100 @@
+// Meshes of a few triangles, written as lists.
+#pragma once
+
+#include <initializer_list>
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+
+namespace assay::oracle::test {
+
+using Rows = std::initializer_list<detector::Point>;
+using Corners = std::initializer_list<std::array<std::int32_t, 3>>;
+
+inline detector::Positions positions(Rows rows) {
+  detector::Positions x(static_cast<Eigen::Index>(rows.size()), 3);
+  Eigen::Index i = 0;
+  for (const auto& row : rows) {
+    for (int k = 0; k < 3; ++k) x(i, k) = row[k];
+    ++i;
+  }
+  return x;
+}
+
+inline detector::Triangles triangles(Corners rows) {
+  detector::Triangles f(static_cast<Eigen::Index>(rows.size()), 3);
+  Eigen::Index i = 0;
+  for (const auto& row : rows) {
+    for (int k = 0; k < 3; ++k) f(i, k) = row[k];
+    ++i;
+  }
+  return f;
+}
+
+struct Step {
+  detector::Positions x_t0, x_t1;
+  detector::Triangles f;
+};
+
+// A tetrahedron whose vertices cross each other's faces; two contacts in turn.
+inline Step turning_tetrahedron() {
+  return {positions({{3, 2, 4}, {3, -2, -2}, {-2, 2, -2}, {-1, -2, 4}}),
+          positions({{-3, -1, 3}, {-4, 3, -8}, {2, -6, 3}, {1, 1, -1}}),
+          triangles({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}})};
+}
+
+// An octahedron that collapses through itself; later contacts follow the first.
+inline Step collapsing_octahedron() {
+  return {
+      positions({{4, 0, 0}, {-3, 0, 0}, {1, 4, 1}, {0, -4, -1}, {0, -1, 3}, {0, 0, -2}}),
+      positions({{4, 0, 0}, {3, -1, -3}, {-5, 1, -9}, {-3, -2, 3}, {-6, -11, -1}, {-10, -6, -8}}),
+      triangles({{0, 2, 4},
+                 {2, 1, 4},
+                 {1, 3, 4},
+                 {3, 0, 4},
+                 {2, 0, 5},
+                 {1, 2, 5},
+                 {3, 1, 5},
+                 {0, 3, 5}})};
+}
+
+// An octahedron that intersects itself at the start, where an edge pierces three faces.
+inline Step intersecting_octahedron() {
+  return {positions({{1, -2, 0}, {-2, 1, 1}, {-2, 5, -2}, {2, -2, -1}, {0, 0, 1}, {-1, 0, -4}}),
+          positions({{1, -2, 0}, {-2, 1, 1}, {0, 6, -2}, {2, -2, -1}, {0, 0, 1}, {-1, 0, -4}}),
+          triangles({{0, 2, 4},
+                     {2, 1, 4},
+                     {1, 3, 4},
+                     {3, 0, 4},
+                     {2, 0, 5},
+                     {1, 2, 5},
+                     {3, 1, 5},
+                     {0, 3, 5}})};
+}
+
+// Seven vertices seen from a segment: one triangle has no sign, though each of its vertices alone
+// seems to.
+inline Step seven_vertices_about_a_line() {
+  return {
+      positions(
+          {{4, 0, 2}, {2, 7, 2}, {-5, 5, -2}, {-2, -5, -2}, {-1, -6, -2}, {2, 1, 6}, {-2, 2, -6}}),
+      positions({{6, -3, -1},
+                 {2, 7, 2},
+                 {-5, 5, -2},
+                 {-2, -5, -2},
+                 {1, -10, -5},
+                 {2, 1, 6},
+                 {-6, -1, -3}}),
+      triangles({{0, 1, 5},
+                 {1, 0, 6},
+                 {1, 2, 5},
+                 {1, 6, 2},
+                 {2, 3, 5},
+                 {3, 2, 6},
+                 {3, 4, 5},
+                 {4, 3, 6},
+                 {4, 0, 5},
+                 {0, 4, 6}})};
+}
+
+}  // namespace assay::oracle::test
