@@ -3,6 +3,7 @@
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
+#include <mpfr.h>
 
 #include <algorithm>
 #include <cassert>
@@ -47,6 +48,11 @@ IntegerPolynomial on_interval(const IntegerPolynomial& q, const Real& number) {
   return result;
 }
 
+// MPFR keeps a pool of numbers for each thread and never frees it by itself.
+struct ThreadCaches {
+  ~ThreadCaches() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
+};
+
 }  // namespace
 
 struct AlgebraicTimes::Zeros {
@@ -56,6 +62,7 @@ struct AlgebraicTimes::Zeros {
 
 AlgebraicTimes::AlgebraicTimes(std::span<const IntegerPolynomial> polynomials)
     : zeros_(std::make_unique<Zeros>()) {
+  static thread_local const ThreadCaches freed_when_the_thread_ends;
   const auto solve = zeros_->kernel.solve_1_object();
   const auto compare = zeros_->kernel.compare_1_object();
   std::vector<Real>& times = zeros_->times;

@@ -21,14 +21,13 @@ double cos_small(double a) {
   return 1.0 + sum;
 }
 
-}  // namespace
-
-double sin_turn(double x) {
-  // Both subtractions are exact: r is x less a near multiple of a quarter.
+// The sine of x turns and `shift` quarters of a turn.
+double shifted_sine(double x, int shift) {
+  // Both subtractions are exact: the rest is x less the nearest multiple of a quarter.
   const double quarters = std::floor(4 * x + 0.5);
   const double a = 2 * pi * (x - quarters / 4);
-  const auto quarter = static_cast<int>(quarters - 4 * std::floor(quarters / 4));
-  switch (quarter) {
+  const int quarter = static_cast<int>(quarters - 4 * std::floor(quarters / 4)) + shift;
+  switch (quarter % 4) {
     case 0:
       return sin_small(a);
     case 1:
@@ -40,6 +39,10 @@ double sin_turn(double x) {
   }
 }
 
-double cos_turn(double x) { return sin_turn(x + 0.25); }
+}  // namespace
+
+double sin_turn(double x) { return shifted_sine(x, 0); }
+
+double cos_turn(double x) { return shifted_sine(x, 1); }
 
 }  // namespace assay::corpus

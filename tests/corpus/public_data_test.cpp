@@ -64,7 +64,7 @@ TEST_F(PublicData, SampleQueries) {
     ++files;
   }
   EXPECT_GT(files, 0U);
-  EXPECT_GE(count, 50 * files / 3);
+  EXPECT_GE(count, 20 * files);
 }
 
 TEST_F(PublicData, CompressedDancer) {

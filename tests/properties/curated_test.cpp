@@ -1,0 +1,50 @@
+// Every case of corpus/curated with its own options and with every culling: answer, first time,
+// pair set, view signs. Facts that later work builds on are listed as pending.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "properties/case_check.h"
+
+namespace assay::properties {
+namespace {
+
+std::vector<std::filesystem::path> curated() {
+  auto files = corpus::case_files(std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated");
+  if (!files) ADD_FAILURE() << files.error().message;
+  return files ? files.value() : std::vector<std::filesystem::path>{};
+}
+
+class Curated : public testing::TestWithParam<std::filesystem::path> {};
+
+std::string lines(const CaseReport& report) {
+  std::string out;
+  for (const auto& line : report.failed) out += "  " + line + "\n";
+  return out;
+}
+
+TEST_P(Curated, Holds) {
+  const auto c = corpus::read_case(GetParam());
+  ASSERT_TRUE(c.has_value()) << c.error().message;
+  ASSERT_FALSE(c.value().expected.steps.empty()) << "a case without facts checks nothing";
+  const auto report = check_case(c.value());
+  EXPECT_EQ(report.outcome, Outcome::holds) << lines(report);
+  for (const auto culling : {detector::Culling::view_point, detector::Culling::view_line,
+                             detector::Culling::bvh, detector::Culling::none}) {
+    const auto other = check_case(c.value(), culling);
+    EXPECT_EQ(other.outcome, Outcome::holds) << name_of(culling) << ":\n" << lines(other);
+  }
+  std::string pending;
+  const auto facts = nlohmann::json::parse(c.value().pending);
+  for (const auto& [name, value] : facts.items()) pending += " " + name;
+  if (!pending.empty()) std::printf("pending:%s\n", pending.c_str());
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, Curated, testing::ValuesIn(curated()),
+                         [](const auto& file) { return file.param.stem().string(); });
+
+TEST(CuratedCorpus, IsComplete) { EXPECT_GE(curated().size(), 50u); }
+
+}  // namespace
+}  // namespace assay::properties

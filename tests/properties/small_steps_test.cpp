@@ -1,0 +1,158 @@
+// Random small steps with small-integer coordinates: the detector with every culling against the
+// oracle, pairs and times compared bit by bit, and view signs against the oracle's.
+#include "properties/small_steps.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
+#include "detector/detector.h"
+#include "oracle/view_sign.h"
+#include "properties/agreement.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Culling;
+
+// ASSAY_SEED and ASSAY_CASES replay other cases; ASSAY_CASE runs a single one.
+std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+struct Variant {
+  const char* name;
+  Culling culling;
+  enum { own, point, line } primitive;
+};
+constexpr Variant variants[] = {
+    {"view-point, own point", Culling::view_point, Variant::own},
+    {"view-point, given point", Culling::view_point, Variant::point},
+    {"view-line, own line", Culling::view_line, Variant::own},
+    {"view-line, given line", Culling::view_line, Variant::line},
+    {"bvh", Culling::bvh, Variant::own},
+    {"none", Culling::none, Variant::own},
+};
+
+detector::StepResult run(const SmallStep& step, const Variant& variant, detector::Pairs pairs) {
+  auto made = detector::Detector::create(step.triangles, step.x_t0,
+                                         {variant.culling, detector::Start::verified, pairs});
+  std::vector<detector::ViewPrimitive> given;
+  if (variant.primitive == Variant::point) given.push_back(step.point);
+  if (variant.primitive == Variant::line) given.push_back(step.line);
+  return made.value().step(step.x_t0, step.x_t1, given);
+}
+
+struct Tally {
+  std::uint64_t collisions = 0, at_start = 0, pairs = 0, signs = 0, free_components = 0;
+  std::map<std::string, std::uint64_t> families;
+};
+
+void check_signs(const SmallStep& step, const detector::StepResult& result, Tally& tally) {
+  auto made = detector::Detector::create(step.triangles, step.x_t0, {});
+  const auto& mesh = made.value().topology();
+  for (std::size_t c = 0; c < mesh.components.size(); ++c) {
+    if (!mesh.components[c].is_cycle) continue;
+    for (const auto t : mesh.components[c].triangles) {
+      const auto corner = [&](int i) {
+        return detector::moving_point(step.x_t0, step.x_t1, step.triangles(t, i));
+      };
+      const auto exact = oracle::view_sign({corner(0), corner(1), corner(2)}, result.primitives[c]);
+      ASSERT_EQ(result.signs[static_cast<std::size_t>(t)], exact) << "view sign of triangle " << t;
+      ++tally.signs;
+    }
+  }
+}
+
+void check(const SmallStep& step, Tally& tally) {
+  const auto judgement = oracle::judge_step(step.x_t0, step.x_t1, step.triangles, {1, {}});
+  ++tally.families[step.family];
+  tally.collisions += judgement.pairs.empty() ? 0 : 1;
+  tally.at_start += !judgement.pairs.empty() && judgement.first.hi == 0 ? 1 : 0;
+  tally.pairs += judgement.pairs.size();
+  for (const auto& variant : variants) {
+    SCOPED_TRACE(variant.name);
+    const auto all = run(step, variant, detector::Pairs::all);
+    tally.free_components += all.counts.free_components;
+    const auto diff = compare(all, judgement, detector::Pairs::all);
+    ASSERT_EQ(diff.outcome, Outcome::holds)
+        << diff.missing.size() << " missing, " << diff.spurious.size() << " spurious, "
+        << diff.late.size() << " late, " << diff.early.size() << " early";
+    const auto first = run(step, variant, detector::Pairs::first);
+    ASSERT_EQ(compare(first, judgement, detector::Pairs::first).outcome, Outcome::holds);
+    const bool has_views = variant.culling == Culling::view_point || variant.culling == Culling::view_line;
+    if (has_views) {
+      ASSERT_EQ(all.view_positive + all.view_negative + all.view_zero + all.dirty, step.triangles.rows());
+      check_signs(step, all, tally);
+    }
+  }
+}
+
+TEST(SmallSteps, L3_L7_L12_EveryCullingAgreesWithTheOracle) {
+  const std::uint64_t seed = number_from_environment("ASSAY_SEED", 20111);
+  const std::uint64_t cases = number_from_environment("ASSAY_CASES", 10000);
+  const std::uint64_t only = number_from_environment("ASSAY_CASE", cases);
+  Tally tally;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    if (only != cases && i != only) continue;
+    SCOPED_TRACE(i);
+    const auto step = make_small_step(seed, i);
+    check(step, tally);
+    if (HasFatalFailure()) {
+      std::printf("replay: ASSAY_SEED=%llu ASSAY_CASE=%llu ctest --preset law -R %s\n",
+                  static_cast<unsigned long long>(seed), static_cast<unsigned long long>(i),
+                  "EveryCullingAgreesWithTheOracle");
+      return;
+    }
+  }
+  std::printf("%llu cases, seed %llu: %llu collide (%llu at t=0), %llu pairs, %llu view signs, %llu "
+              "free components; %zu variants\n",
+              static_cast<unsigned long long>(cases), static_cast<unsigned long long>(seed),
+              static_cast<unsigned long long>(tally.collisions),
+              static_cast<unsigned long long>(tally.at_start),
+              static_cast<unsigned long long>(tally.pairs), static_cast<unsigned long long>(tally.signs),
+              static_cast<unsigned long long>(tally.free_components), std::size(variants));
+  for (const auto& [family, n] : tally.families) {
+    std::printf("  %-28s %llu\n", family.c_str(), static_cast<unsigned long long>(n));
+  }
+  if (only == cases) {
+    EXPECT_GT(tally.collisions, cases / 4);
+    EXPECT_GT(tally.collisions - tally.at_start, cases / 20);
+    EXPECT_GT(tally.free_components, cases / 100);
+  }
+}
+
+// Two steps with the state carried: what the first leaves dirty or clean serves the second.
+TEST(SmallSteps, L8_StateIsCarriedSoundly) {
+  const std::uint64_t seed = number_from_environment("ASSAY_SEED", 20112);
+  const std::uint64_t cases = 2000;
+  std::uint64_t second_collisions = 0, dirty = 0;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    const auto step = make_small_step(seed, i);
+    const auto other = make_small_step(seed, i + cases);
+    detector::Positions x_t2 = step.x_t1;
+    for (Eigen::Index v = 0; v < std::min(x_t2.rows(), other.x_t1.rows()); ++v) x_t2.row(v) = other.x_t1.row(v);
+    for (const auto& variant : variants) {
+      if (variant.primitive != Variant::own) continue;
+      auto made = detector::Detector::create(step.triangles, step.x_t0,
+                                             {variant.culling, detector::Start::verified, detector::Pairs::all});
+      made.value().step(step.x_t0, step.x_t1);
+      const auto result = made.value().step(step.x_t1, x_t2);
+      const auto judgement = oracle::judge_step(step.x_t1, x_t2, step.triangles, {1, {}});
+      ASSERT_EQ(compare(result, judgement, detector::Pairs::all).outcome, Outcome::holds)
+          << variant.name << ", seed " << seed << ", case " << i;
+      second_collisions += judgement.pairs.empty() ? 0 : 1;
+      dirty += result.dirty;
+    }
+  }
+  std::printf("%llu cases, seed %llu: %llu second steps collide, %llu dirty triangles carried\n",
+              static_cast<unsigned long long>(cases), static_cast<unsigned long long>(seed),
+              static_cast<unsigned long long>(second_collisions), static_cast<unsigned long long>(dirty));
+  EXPECT_GT(dirty, cases);
+}
+
+}  // namespace
+}  // namespace assay::properties
