@@ -1,4 +1,5 @@
-// Rung "algebraic": the complete exact test. 50 us to 3 ms.
+// Rung "algebraic": the complete exact test. 0.1 to 0.4 ms; 7 ms on average and up to 0.1 s when
+// the exponents of the coordinates spread over all doubles.
 #pragma once
 
 #include <optional>

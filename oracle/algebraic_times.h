@@ -15,7 +15,6 @@ namespace assay::oracle {
 class AlgebraicTimes {
  public:
   // The distinct zeros in [0,1] of all the polynomials, ascending. None may be identically zero.
-  // 50 to 300 us; 0.2 to 3 ms with denormals beside ordinary numbers.
   explicit AlgebraicTimes(std::span<const IntegerPolynomial> polynomials);
   ~AlgebraicTimes();
   AlgebraicTimes(const AlgebraicTimes&) = delete;

@@ -1,4 +1,4 @@
-// Rung "axis": comparisons of the inputs alone, so exact for every finite input. About 0.01 us.
+// Rung "axis": comparisons of the inputs alone, so exact for every finite input. About 0.03 us.
 #pragma once
 
 #include "oracle/four_points.h"

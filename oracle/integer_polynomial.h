@@ -25,7 +25,7 @@ IntegerPolynomial operator*(const IntegerPolynomial& a, const IntegerPolynomial&
 // The linear polynomial with these values at t=0 and t=1.
 IntegerPolynomial linear(const Integer& at_t0, const Integer& at_t1);
 
-// Exact sign at a finite double t >= 0. About 0.5 us for a cubic.
+// Exact sign at a finite double t >= 0.
 int sign_at(const IntegerPolynomial& p, double t);
 
 // True only if p has no zero in [0,1] (Descartes' rule in Bernstein form); false says nothing.

@@ -1,5 +1,5 @@
-// View sign of a triangle in interval arithmetic, on pieces of the step. About 0.3 us for a point,
-// 1 us for a segment. Certain when it answers.
+// View sign of a triangle in interval arithmetic, on pieces of the step. A point takes 0.2 us over
+// a small motion and 2 us over a large one, a segment 7 us. Certain when it answers.
 #pragma once
 
 #include <optional>

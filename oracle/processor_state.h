@@ -6,7 +6,7 @@
 
 namespace assay::oracle {
 
-// True when doubles round to nearest and denormals are neither flushed nor read as zero. About 5
+// True when doubles round to nearest and denormals are neither flushed nor read as zero. About 10
 // ns.
 bool processor_state_is_exact();
 

@@ -1,0 +1,69 @@
+# Sourced by tests/run and reports/certify: what Assay needs of Debian 12, and how it gets it.
+# shellcheck shell=bash
+
+assay_packages="g++ cmake ninja-build ccache libcgal-dev libgmp-dev libmpfr-dev libmpfi-dev
+  libeigen3-dev libboost-dev libgtest-dev librapidcheck-dev libbenchmark-dev libcli11-dev libfmt-dev
+  nlohmann-json3-dev zlib1g-dev"
+
+# ensure_packages YES EXTRA...: installs what is missing of assay_packages and EXTRA, or says what
+# it is and stops. YES=1 does not ask.
+ensure_packages() {
+  local yes=$1 missing=() package answer
+  shift
+  # shellcheck disable=SC2086
+  for package in $assay_packages "$@"; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' ||
+      missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  if ! command -v apt-get >/dev/null; then
+    echo "missing, and there is no apt-get here to install them: ${missing[*]}" >&2
+    return 2
+  fi
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "missing, and neither root nor sudo is at hand: ${missing[*]}" >&2
+      return 2
+    fi
+    as_root=(sudo)
+  fi
+  echo "will install with apt-get: ${missing[*]}"
+  if [ "$yes" != 1 ]; then
+    printf 'go on? [y/N] '
+    read -r answer || answer=n
+    case $answer in y | Y | yes) ;; *)
+      echo "not installed; missing: ${missing[*]}" >&2
+      return 2
+      ;;
+    esac
+  fi
+  local log
+  log=$(mktemp)
+  if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq >"$log" 2>&1 ||
+    ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y -qq --no-install-recommends "${missing[@]}" >>"$log" 2>&1; then
+    tail -n 5 "$log" >&2
+    rm -f "$log"
+    echo "could not install: ${missing[*]}" >&2
+    return 2
+  fi
+  rm -f "$log"
+}
+
+# build_preset PRESET TARGET...: configures build/PRESET and builds the targets, quietly unless it
+# fails. A compile of the algebraic kernel takes 0.6 GB and more under a sanitizer.
+build_preset() {
+  local preset=$1 log started=$SECONDS
+  shift
+  log=build/$preset.log
+  mkdir -p build
+  echo "building build/$preset (log: $log)"
+  if ! cmake --preset "$preset" -G Ninja >"$log" 2>&1 ||
+    ! cmake --build "build/$preset" --target "$@" >>"$log" 2>&1; then
+    grep -E 'error|Error|FAILED' "$log" | head -n 20 >&2
+    echo "the build failed; see $log" >&2
+    return 1
+  fi
+  echo "built in $((SECONDS - started)) s"
+}
