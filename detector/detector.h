@@ -24,7 +24,8 @@ namespace assay::detector {
 class Detector {
  public:
   // Errors: those of check_triangles and check_positions. `positions` shape the tree and the view
-  // anchors (preprocessing, O(M log M)); any positions of the mesh will do, the first frame is best.
+  // anchors (preprocessing, O(M log M)); any positions of the mesh will do, the first frame is
+  // best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
   Detector(Detector&&) noexcept;
@@ -34,7 +35,8 @@ class Detector {
   // primitives: none (the detector's own), one for all components, or one for each component.
   // `stop` ends long work with the answer undecided.
   StepResult evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
-                      std::span<const ViewPrimitive> primitives = {}, const StopFunction& stop = {});
+                      std::span<const ViewPrimitive> primitives = {},
+                      const StopFunction& stop = {});
 
   // Advances the state to the end of the last evaluated step; nothing_to_commit without one.
   std::optional<Problem> commit();

@@ -48,8 +48,8 @@ struct StepCounts {
   NarrowCounts narrow;
   ViewCounts view;
   std::uint64_t closure_rounds = 0;
-  std::uint64_t winding_numbers = 0;   // of view primitives (L5)
-  std::uint64_t free_components = 0;   // by L5, without any pair
+  std::uint64_t winding_numbers = 0;  // of view primitives (L5)
+  std::uint64_t free_components = 0;  // by L5, without any pair
 };
 
 struct StepResult {

@@ -29,7 +29,8 @@ class Stopwatch {
  public:
   explicit Stopwatch(double& milliseconds) : total_(milliseconds) {}
   ~Stopwatch() {
-    total_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+    total_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_)
+                  .count();
   }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
@@ -44,7 +45,11 @@ class Step {
   Step(StepContext& context, const std::optional<StepState>& known, const PositionsView& x_t0,
        const PositionsView& x_t1, std::span<const ViewPrimitive> primitives,
        const StopFunction& stop)
-      : context_(context), mesh_(context.mesh), x_t0_(x_t0), x_t1_(x_t1), stop_(stop),
+      : context_(context),
+        mesh_(context.mesh),
+        x_t0_(x_t0),
+        x_t1_(x_t1),
+        stop_(stop),
         known_(known && known->holds_at(x_t0) ? &*known : nullptr) {
     place_primitives(primitives);
   }
@@ -58,7 +63,8 @@ class Step {
       make_next_state(next);
     }
     for (const auto& contact : result_.pairs) {
-      if (&contact == &result_.pairs.front() || contact.time < result_.first) result_.first = contact.time;
+      if (&contact == &result_.pairs.front() || contact.time < result_.first)
+        result_.first = contact.time;
     }
     return std::move(result_);
   }
@@ -72,7 +78,7 @@ class Step {
   void place_primitives(std::span<const ViewPrimitive> given) {
     if (!uses_views()) return;
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      result_.primitives.push_back(given.empty()       ? place_view(context_.anchors[c], x_t0_, x_t1_)
+      result_.primitives.push_back(given.empty() ? place_view(context_.anchors[c], x_t0_, x_t1_)
                                    : given.size() == 1 ? given[0]
                                                        : given[c]);
     }
@@ -98,7 +104,8 @@ class Step {
       const Component& component = mesh_.components[c];
       if (!component.is_cycle) continue;
       const ViewPrimitive& primitive = result_.primitives[c];
-      classify(mesh_, component.triangles, x_t0_, x_t1_, primitive, result_.signs, result_.counts.view);
+      classify(mesh_, component.triangles, x_t0_, x_t1_, primitive, result_.signs,
+               result_.counts.view);
       const bool all_positive =
           std::all_of(component.triangles.begin(), component.triangles.end(),
                       [&](std::int32_t t) { return result_.signs[at(t)] == ViewSign::positive; });
@@ -141,8 +148,7 @@ class Step {
         for (const auto t : component.triangles) clean_[at(t)] = 1;
       }
     }
-    return to_verify.empty() ||
-           verify_start(mesh_, context_.tree, x_t0_, to_verify, stop_, clean_);
+    return to_verify.empty() || verify_start(mesh_, context_.tree, x_t0_, to_verify, stop_, clean_);
   }
 
   bool released_at_start(std::size_t c) const {
@@ -178,7 +184,8 @@ class Step {
     {
       Stopwatch watch(result_.times.broad_phase);
       marks.triangle_flags.resize(mesh_.triangles.size());
-      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) marks.triangle_flags[t] = flags_of(t);
+      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+        marks.triangle_flags[t] = flags_of(t);
       if (context_.options.culling != Culling::none) context_.tree.refit(mesh_, x_t0_, x_t1_);
     }
     const PairRule rule = uses_views() ? PairRule::candidates : PairRule::every_pair;
@@ -202,8 +209,9 @@ class Step {
       constexpr std::uint64_t pairs_between_stops = 4096;
       if (counts.candidate_pairs % pairs_between_stops == 0 && stop_ && stop_()) return false;
       // A clean triangle is in no contact with its own component at t=0.
-      const bool may_pierce = mesh_.component_of_triangle[at(a)] != mesh_.component_of_triangle[at(b)] ||
-                              (!clean_[at(a)] && !clean_[at(b)]);
+      const bool may_pierce =
+          mesh_.component_of_triangle[at(a)] != mesh_.component_of_triangle[at(b)] ||
+          (!clean_[at(a)] && !clean_[at(b)]);
       contacts.add_candidate(a, b, may_pierce);
       return true;
     };
@@ -284,7 +292,8 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
                          std::span<const ViewPrimitive> primitives, const StopFunction& stop,
                          std::optional<StepState>& next) {
   for (const auto* x : {&x_t0, &x_t1}) {
-    if (auto problem = check_positions(*x, context.vertex_count)) return refused(std::move(*problem));
+    if (auto problem = check_positions(*x, context.vertex_count))
+      return refused(std::move(*problem));
   }
   if (primitives.size() > 1 && primitives.size() != context.mesh.components.size()) {
     return refused({InputError::wrong_primitive_count,
@@ -292,7 +301,8 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
                         std::to_string(context.mesh.components.size()) + " components"});
   }
   for (const auto& primitive : primitives) {
-    for (const auto* point : {&primitive.q0.t0, &primitive.q0.t1, &primitive.q1.t0, &primitive.q1.t1}) {
+    for (const auto* point :
+         {&primitive.q0.t0, &primitive.q0.t1, &primitive.q1.t0, &primitive.q1.t1}) {
       if (!std::all_of(point->begin(), point->end(), [](double c) { return std::isfinite(c); })) {
         return refused({InputError::non_finite_coordinate, "a view primitive is not finite"});
       }

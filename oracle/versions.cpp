@@ -1,6 +1,5 @@
 #include "oracle/versions.h"
 
-#include <CGAL/version.h>
 #include <gmp.h>
 #include <mpfi.h>
 #include <mpfr.h>
@@ -8,7 +7,7 @@
 namespace assay::oracle {
 
 std::string library_versions() {
-  return std::string("CGAL ") + CGAL_STR(CGAL_VERSION) + ", GMP " + gmp_version + ", MPFR " +
+  return std::string("CGAL ") + ASSAY_CGAL_VERSION + ", GMP " + gmp_version + ", MPFR " +
          mpfr_get_version() + ", MPFI " + mpfi_get_version();
 }
 

@@ -136,8 +136,8 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
   }
   if (!diff.partial) {
     diff.wrong_answer = result.answer != judgement.answer;
-    diff.wrong_first_time = !diff.wrong_answer && result.answer == Answer::collision &&
-                            result.first != judgement.first;
+    diff.wrong_first_time =
+        !diff.wrong_answer && result.answer == Answer::collision && result.first != judgement.first;
   } else {
     diff.wrong_answer = result.answer == Answer::free && !judgement.pairs.empty();
   }
@@ -151,8 +151,8 @@ std::string stage_that_lost(const detector::TrianglesView& triangles,
                             const detector::PositionsView& x_t0,
                             const detector::PositionsView& x_t1, TrianglePair pair) {
   const auto finds = [&](detector::Culling culling) {
-    auto made = detector::Detector::create(triangles, x_t0,
-                                           {culling, detector::Start::unknown, detector::Pairs::all});
+    auto made = detector::Detector::create(
+        triangles, x_t0, {culling, detector::Start::unknown, detector::Pairs::all});
     if (!made) return false;
     const auto result = made.value().evaluate(x_t0, x_t1);
     return std::any_of(result.pairs.begin(), result.pairs.end(),

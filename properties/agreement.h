@@ -25,9 +25,9 @@ struct WrongTime {
 
 struct StepDiff {
   Outcome outcome = Outcome::holds;
-  bool partial = false;  // detector or oracle was stopped: only what both reached is compared
-  bool wrong_answer = false;      // free against a contact, or collision against none
-  bool wrong_first_time = false;  // collision at both, first times differ
+  bool partial = false;       // detector or oracle was stopped: only what both reached is compared
+  bool wrong_answer = false;  // free against a contact, or collision against none
+  bool wrong_first_time = false;                // collision at both, first times differ
   std::vector<detector::PairContact> missing;   // of the oracle, not of the detector
   std::vector<detector::PairContact> excused;   // missing, but outside of what is claimed
   std::vector<detector::PairContact> spurious;  // of the detector, not of the oracle

@@ -50,16 +50,20 @@ const char* name_of(Culling culling) {
 
 namespace {
 
-std::string time_text(const detector::TimeEnclosure& t) { return fmt::format("[{}, {}]", t.lo, t.hi); }
+std::string time_text(const detector::TimeEnclosure& t) {
+  return fmt::format("[{}, {}]", t.lo, t.hi);
+}
 
 class CaseChecker {
  public:
-  CaseChecker(const corpus::Case& c, std::optional<Culling> culling, int jobs) : case_(c), jobs_(jobs) {
+  CaseChecker(const corpus::Case& c, std::optional<Culling> culling, int jobs)
+      : case_(c), jobs_(jobs) {
     const auto word = [&](const char* name) -> std::string_view {
       const auto found = c.options.find(name);
       return found == c.options.end() ? std::string_view{} : found->second;
     };
-    options_.culling = culling ? *culling : culling_named(word("culling")).value_or(Culling::view_point);
+    options_.culling =
+        culling ? *culling : culling_named(word("culling")).value_or(Culling::view_point);
     options_.start = start_named(word("start")).value_or(detector::Start::verified);
     options_.pairs = pairs_named(word("pairs")).value_or(detector::Pairs::all);
   }
@@ -87,7 +91,8 @@ class CaseChecker {
   void fail(std::string what) { report_.failed.push_back(std::move(what)); }
 
   CaseReport finish() {
-    if (!report_.failed.empty() && report_.outcome == Outcome::holds) report_.outcome = Outcome::defect;
+    if (!report_.failed.empty() && report_.outcome == Outcome::holds)
+      report_.outcome = Outcome::defect;
     return std::move(report_);
   }
 
@@ -95,7 +100,8 @@ class CaseChecker {
     const auto &x_t0 = case_.frames[s], &x_t1 = case_.frames[s + 1];
     const auto view = corpus::view_of_step(case_, s);
     std::vector<detector::ViewPrimitive> given;
-    const bool uses_views = options_.culling == Culling::view_point || options_.culling == Culling::view_line;
+    const bool uses_views =
+        options_.culling == Culling::view_point || options_.culling == Culling::view_line;
     if (view && uses_views) {
       given.push_back(*view);
       // A segment serves as a point by its first end.
@@ -166,7 +172,8 @@ class CaseChecker {
     }
   }
 
-  ViewSign sign_by_oracle(std::size_t s, std::int32_t t, const detector::ViewPrimitive& view) const {
+  ViewSign sign_by_oracle(std::size_t s, std::int32_t t,
+                          const detector::ViewPrimitive& view) const {
     const auto corner = [&](int i) {
       return detector::moving_point(case_.frames[s], case_.frames[s + 1], case_.triangles(t, i));
     };

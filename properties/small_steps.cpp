@@ -47,9 +47,11 @@ const std::vector<Family>& families() {
       {"bipyramid", 5, bipyramid(3)},
       {"octahedron", 6, bipyramid(4)},
       {"two tetrahedra", 8, joined(tetrahedron, shifted(tetrahedron, 4))},
-      {"two tetrahedra at an edge", 6,
+      {"two tetrahedra at an edge",
+       6,
        {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 1}, {0, 1, 5}, {0, 5, 4}, {1, 4, 5}}},
-      {"two tetrahedra at a vertex", 7,
+      {"two tetrahedra at a vertex",
+       7,
        {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 5, 4}, {0, 4, 6}, {0, 6, 5}, {4, 5, 6}}},
       {"open tetrahedron", 4, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}}},
       {"two triangles", 6, {{0, 1, 2}, {3, 4, 5}}},
@@ -93,7 +95,8 @@ void move(Random& random, int reach, const detector::Positions& x_t0, detector::
 
 SmallStep make_small_step(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  const Family& family = families()[static_cast<std::size_t>(random.below(static_cast<int>(families().size())))];
+  const Family& family =
+      families()[static_cast<std::size_t>(random.below(static_cast<int>(families().size())))];
   SmallStep step;
   step.family = family.name;
   step.triangles.resize(static_cast<Eigen::Index>(family.faces.size()), 3);

@@ -31,7 +31,8 @@ struct Row {
 };
 
 double milliseconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+      .count();
 }
 
 corpus::Expected<Row> run_corpus(Culling culling, int jobs) {
@@ -54,7 +55,8 @@ corpus::Expected<Row> run_corpus(Culling culling, int jobs) {
       row.pairs += step.judgement.pairs.size();
       row.detector_ms += step.result.times.total;
       row.oracle_ms -= step.result.times.total;
-      positive += static_cast<double>(step.result.view_positive) / static_cast<double>(c.value().triangles.rows());
+      positive += static_cast<double>(step.result.view_positive) /
+                  static_cast<double>(c.value().triangles.rows());
     }
     row.defects += report.outcome == Outcome::holds ? 0 : 1;
     for (const auto& line : report.failed) row.failed.push_back(c.value().id + ": " + line);
@@ -75,8 +77,9 @@ corpus::Expected<Row> run_scene_row(std::string_view name, Culling culling, int 
   auto made = corpus::make_scene(name, options);
   if (!made) return made.error();
   const auto& sequence = made.value();
-  auto detector = detector::Detector::create(sequence.triangles, sequence.frames[0],
-                                             {culling, detector::Start::verified, detector::Pairs::all});
+  auto detector =
+      detector::Detector::create(sequence.triangles, sequence.frames[0],
+                                 {culling, detector::Start::verified, detector::Pairs::all});
   if (!detector) {
     row.failed.push_back(row.what + ": " + detector.error().message);
     row.defects = 1;
@@ -98,17 +101,18 @@ corpus::Expected<Row> run_scene_row(std::string_view name, Culling culling, int 
                                static_cast<double>(sequence.frames.size() - 1);
     if (diff.outcome != Outcome::holds) {
       ++row.defects;
-      row.failed.push_back(fmt::format("{} step {}: {} missing, {} spurious, {} late, {} early pairs",
-                                       name, s + 1, diff.missing.size(), diff.spurious.size(),
-                                       diff.late.size(), diff.early.size()));
+      row.failed.push_back(fmt::format(
+          "{} step {}: {} missing, {} spurious, {} late, {} early pairs", name, s + 1,
+          diff.missing.size(), diff.spurious.size(), diff.late.size(), diff.early.size()));
     }
   }
   return row;
 }
 
 void print_header() {
-  fmt::print("{:<18} {:<11} {:>6} {:>6} {:>11} {:>7} {:>6} {:>12} {:>10} {:>8}\n", "input", "culling",
-             "cases", "steps", "collisions", "pairs", "V+ %", "detector ms", "oracle ms", "defects");
+  fmt::print("{:<18} {:<11} {:>6} {:>6} {:>11} {:>7} {:>6} {:>12} {:>10} {:>8}\n", "input",
+             "culling", "cases", "steps", "collisions", "pairs", "V+ %", "detector ms", "oracle ms",
+             "defects");
 }
 
 void print(const Row& row) {
@@ -124,14 +128,21 @@ void print(const Row& row) {
 nlohmann::ordered_json json_of(const std::vector<Row>& rows, std::size_t defects) {
   nlohmann::ordered_json table = nlohmann::ordered_json::array();
   for (const auto& row : rows) {
-    table.push_back({{"input", row.what}, {"culling", properties::name_of(row.culling)},
-                     {"cases", row.cases}, {"steps", row.steps}, {"collisions", row.collisions},
-                     {"pairs", row.pairs}, {"view_positive_share", row.view_positive_share},
-                     {"detector_ms", row.detector_ms}, {"oracle_ms", row.oracle_ms},
-                     {"defects", row.defects}, {"failed", row.failed}});
+    table.push_back({{"input", row.what},
+                     {"culling", properties::name_of(row.culling)},
+                     {"cases", row.cases},
+                     {"steps", row.steps},
+                     {"collisions", row.collisions},
+                     {"pairs", row.pairs},
+                     {"view_positive_share", row.view_positive_share},
+                     {"detector_ms", row.detector_ms},
+                     {"oracle_ms", row.oracle_ms},
+                     {"defects", row.defects},
+                     {"failed", row.failed}});
   }
-  return {{"schema", "assay-certify/1"}, {"version", version_text()}, {"verdict", "incomplete"},
-          {"why", "no random campaign was run"}, {"defects", defects}, {"rows", table}};
+  return {{"schema", "assay-certify/1"}, {"version", version_text()},
+          {"verdict", "incomplete"},     {"why", "no random campaign was run"},
+          {"defects", defects},          {"rows", table}};
 }
 
 }  // namespace
@@ -145,8 +156,9 @@ int run_certify(const CertifyRequest& request) {
   std::filesystem::create_directories(request.out, error);
   if (error) return refuse(fmt::format("{}: cannot be made: {}", request.out, error.message()));
   const std::string json_file = request.out + "/certify.json";
-  fmt::print("the shipped corpus and {} scenes through detector and oracle; a minute or two; writes {}\n",
-             corpus::scenes().size(), json_file);
+  fmt::print(
+      "the shipped corpus and {} scenes through detector and oracle; a minute or two; writes {}\n",
+      corpus::scenes().size(), json_file);
   print_header();
   std::vector<Row> rows;
   std::size_t defects = 0, steps = 0;
@@ -161,11 +173,14 @@ int run_certify(const CertifyRequest& request) {
   for (const auto culling : {Culling::view_point, Culling::view_line, Culling::bvh}) {
     if (auto problem = take(run_corpus(culling, request.jobs))) return refuse(*problem);
     for (const auto& scene : corpus::scenes()) {
-      if (auto problem = take(run_scene_row(scene.name, culling, request.jobs))) return refuse(*problem);
+      if (auto problem = take(run_scene_row(scene.name, culling, request.jobs)))
+        return refuse(*problem);
     }
   }
-  if (auto problem = write_text_file(json_file, json_of(rows, defects).dump(1) + "\n")) return refuse(*problem);
-  fmt::print("{} steps, {} defects. No certificate: this version runs no random campaign.\n", steps, defects);
+  if (auto problem = write_text_file(json_file, json_of(rows, defects).dump(1) + "\n"))
+    return refuse(*problem);
+  fmt::print("{} steps, {} defects. No certificate: this version runs no random campaign.\n", steps,
+             defects);
   return defects ? exit_defect : exit_holds;
 }
 

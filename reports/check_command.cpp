@@ -69,7 +69,10 @@ class Check {
  public:
   Check(const CheckRequest& request, const Input& input, detector::Detector detector,
         const detector::Options& options)
-      : request_(request), input_(input), detector_(std::move(detector)), options_(options),
+      : request_(request),
+        input_(input),
+        detector_(std::move(detector)),
+        options_(options),
         limits_(request.time_limit, request.memory_limit) {}
 
   int run() {
@@ -171,7 +174,8 @@ class Check {
     } catch (const std::bad_alloc&) {
       limits_.memory_failed();
     }
-    milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return judgement;
   }
 
@@ -242,6 +246,8 @@ class Check {
 }  // namespace
 
 int run_check(const CheckRequest& request) {
+  // Before the work, not after it.
+  if (auto problem = cannot_write(request.json_file)) return refuse(*problem);
   auto input = read_input(request.files);
   if (!input) return refuse(input.error().message);
   if (input.value().sequence.frames.size() < 2) {

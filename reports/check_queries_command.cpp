@@ -29,10 +29,11 @@ detector::FourPoints four_points_of(const LabelledQuery& q) {
 }
 
 Answered answer_by_oracle(const LabelledQuery& q) {
-  const auto answer =
-      std::holds_alternative<detector::VertexFace>(q.query)
-          ? oracle::vertex_face_contact(std::get<detector::VertexFace>(q.query), detector::Want::yes_no)
-          : oracle::edge_edge_contact(std::get<detector::EdgeEdge>(q.query), detector::Want::yes_no);
+  const auto answer = std::holds_alternative<detector::VertexFace>(q.query)
+                          ? oracle::vertex_face_contact(std::get<detector::VertexFace>(q.query),
+                                                        detector::Want::yes_no)
+                          : oracle::edge_edge_contact(std::get<detector::EdgeEdge>(q.query),
+                                                      detector::Want::yes_no);
   return {answer.contact, static_cast<int>(answer.rung)};
 }
 
@@ -79,7 +80,8 @@ class Score {
         ++unlabelled_;
         continue;
       }
-      if (answered.contact != *queries[i].truth) note_difference(file, i, queries[i], answered.contact);
+      if (answered.contact != *queries[i].truth)
+        note_difference(file, i, queries[i], answered.contact);
     }
   }
 
@@ -87,15 +89,19 @@ class Score {
     std::sort(microseconds_.begin(), microseconds_.end());
     const auto middle_rung = method_ == QueryMethod::oracle ? "interval" : "filter";
     const auto last_rung = method_ == QueryMethod::oracle ? "algebraic" : "exact";
-    fmt::print("{}: {} queries, {} yes, {} without a label\n", name_of(method_), count(), yes_, unlabelled_);
-    fmt::print("differences from the truth: {} false positives, {} false negatives, {} disputed labels\n",
-               false_positives_, false_negatives_, disputed());
+    fmt::print("{}: {} queries, {} yes, {} without a label\n", name_of(method_), count(), yes_,
+               unlabelled_);
+    fmt::print(
+        "differences from the truth: {} false positives, {} false negatives, {} disputed labels\n",
+        false_positives_, false_negatives_, disputed());
     for (const auto& d : differences_) {
       fmt::print("  {} query {}: answer {}, label {}{}\n", d.file, d.index, d.answer, !d.answer,
-                 d.label_disputed ? "; coplanar throughout, both exact methods agree against the label" : "");
+                 d.label_disputed
+                     ? "; coplanar throughout, both exact methods agree against the label"
+                     : "");
     }
-    fmt::print("us a query: mean {:.2f}, median {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.2f}\n", mean(),
-               quantile(0.5), quantile(0.99), quantile(0.999), quantile(1));
+    fmt::print("us a query: mean {:.2f}, median {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.2f}\n",
+               mean(), quantile(0.5), quantile(0.99), quantile(0.999), quantile(1));
     fmt::print("rungs: axis {:.1f} %, {} {:.1f} %, {} {:.1f} %\n", share(0), middle_rung, share(1),
                last_rung, share(2));
   }
@@ -103,24 +109,40 @@ class Score {
   nlohmann::ordered_json json(const std::vector<std::string>& files) const {
     nlohmann::ordered_json differences = nlohmann::ordered_json::array();
     for (const auto& d : differences_) {
-      differences.push_back({{"file", d.file}, {"query", d.index}, {"answer", d.answer},
-                             {"label", !d.answer}, {"label_disputed", d.label_disputed}});
+      differences.push_back({{"file", d.file},
+                             {"query", d.index},
+                             {"answer", d.answer},
+                             {"label", !d.answer},
+                             {"label_disputed", d.label_disputed}});
     }
     const bool oracle = method_ == QueryMethod::oracle;
-    return {{"schema", "assay-queries/1"}, {"version", version_text()}, {"method", name_of(method_)},
-            {"files", files}, {"count", count()}, {"yes", yes_}, {"unlabelled", unlabelled_},
-            {"false_positives", false_positives_}, {"false_negatives", false_negatives_},
-            {"disputed_labels", disputed()}, {"differences", differences}, {"mean_us", mean()},
-            {"median_us", quantile(0.5)}, {"p99_us", quantile(0.99)}, {"p999_us", quantile(0.999)},
+    return {{"schema", "assay-queries/1"},
+            {"version", version_text()},
+            {"method", name_of(method_)},
+            {"files", files},
+            {"count", count()},
+            {"yes", yes_},
+            {"unlabelled", unlabelled_},
+            {"false_positives", false_positives_},
+            {"false_negatives", false_negatives_},
+            {"disputed_labels", disputed()},
+            {"differences", differences},
+            {"mean_us", mean()},
+            {"median_us", quantile(0.5)},
+            {"p99_us", quantile(0.99)},
+            {"p999_us", quantile(0.999)},
             {"max_us", quantile(1)},
-            {"rungs", {{"axis", rungs_[0]}, {oracle ? "interval" : "filter", rungs_[1]},
-                       {oracle ? "algebraic" : "exact", rungs_[2]}}}};
+            {"rungs",
+             {{"axis", rungs_[0]},
+              {oracle ? "interval" : "filter", rungs_[1]},
+              {oracle ? "algebraic" : "exact", rungs_[2]}}}};
   }
 
   bool is_wrong() const { return false_positives_ + false_negatives_ > 0; }
 
  private:
-  void note_difference(const std::string& file, std::size_t index, const LabelledQuery& query, bool contact) {
+  void note_difference(const std::string& file, std::size_t index, const LabelledQuery& query,
+                       bool contact) {
     const bool disputed = detector::coplanar_throughout(four_points_of(query)) &&
                           answer(other(method_), query).contact == contact;
     differences_.push_back({file, index, contact, disputed});
@@ -161,9 +183,11 @@ int run_check_queries(const CheckQueriesRequest& request) {
     return exit_usage;
   };
   if (!request.truths.empty() && request.truths.size() != request.files.size()) {
-    return refuse(fmt::format("{} truth files for {} query files: give one for each, in the same order",
-                              request.truths.size(), request.files.size()));
+    return refuse(
+        fmt::format("{} truth files for {} query files: give one for each, in the same order",
+                    request.truths.size(), request.files.size()));
   }
+  if (auto problem = cannot_write(request.json_file)) return refuse(*problem);
   std::vector<std::vector<LabelledQuery>> sets;
   for (std::size_t i = 0; i < request.files.size(); ++i) {
     std::optional<std::filesystem::path> truth;
@@ -176,7 +200,8 @@ int run_check_queries(const CheckQueriesRequest& request) {
   for (std::size_t i = 0; i < sets.size(); ++i) score.add(request.files[i], sets[i]);
   score.print();
   if (!request.json_file.empty()) {
-    if (auto problem = write_text_file(request.json_file, score.json(request.files).dump(1) + "\n")) {
+    if (auto problem =
+            write_text_file(request.json_file, score.json(request.files).dump(1) + "\n")) {
       return refuse(*problem);
     }
     fmt::print("wrote {}\n", request.json_file);

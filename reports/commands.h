@@ -11,14 +11,14 @@
 namespace assay::reports {
 
 struct CheckRequest {
-  std::vector<std::string> files;  // frames of one mesh, or one case file
+  std::vector<std::string> files;            // frames of one mesh, or one case file
   std::optional<detector::Culling> culling;  // default: the case's own, or view-point
   std::optional<detector::Start> start;
   std::optional<detector::Pairs> pairs;
   bool use_oracle = true;
   int jobs = 1;
-  std::optional<double> time_limit;            // seconds
-  std::optional<std::uint64_t> memory_limit;   // bytes
+  std::optional<double> time_limit;           // seconds
+  std::optional<std::uint64_t> memory_limit;  // bytes
   bool fail_on_collision = false;
   std::string json_file;  // empty: none
 };

@@ -1,10 +1,11 @@
 #include "reports/json_output.h"
 
-#include <cerrno>
-#include <cstring>
+#include <unistd.h>
+
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "corpus/atomic_file.h"
 
 namespace assay::reports {
 
@@ -106,26 +107,20 @@ Json step_json(const detector::StepResult& result, const oracle::StepJudgement* 
   return step;
 }
 
+std::optional<std::string> cannot_write(const std::string& path) {
+  namespace fs = std::filesystem;
+  if (path.empty()) return std::nullopt;
+  const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return path + ": is a directory";
+  if (!fs::is_directory(parent, ignored)) return path + ": its folder does not exist";
+  if (access(parent.c_str(), W_OK) != 0) return path + ": no permission to write in its folder";
+  return std::nullopt;
+}
+
 std::optional<std::string> write_text_file(const std::string& path, const std::string& text) {
-  const std::string beside = path + ".part";
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out) {
-      const std::string why = std::strerror(errno);
-      std::error_code ignored;
-      std::filesystem::remove(beside, ignored);
-      return path + ": cannot be written: " + why;
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(beside, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    return path + ": cannot be written: " + error.message();
-  }
+  auto written = corpus::write_file_atomically(path, text);
+  if (!written) return written.error().message;
   return std::nullopt;
 }
 

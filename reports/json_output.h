@@ -18,6 +18,9 @@ nlohmann::ordered_json step_json(const detector::StepResult& result,
                                  const oracle::StepJudgement* judgement, double oracle_ms,
                                  const properties::StepDiff* diff);
 
+// A line for the user when a file could not be written at `path` (empty: no file is wanted).
+std::optional<std::string> cannot_write(const std::string& path);
+
 // Writes a whole file or leaves the old one: a line for the user when that fails.
 std::optional<std::string> write_text_file(const std::string& path, const std::string& text);
 

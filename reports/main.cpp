@@ -63,7 +63,8 @@ void add_check(CLI::App& app, reports::CheckRequest& request) {
 }
 
 void add_check_queries(CLI::App& app, reports::CheckQueriesRequest& request) {
-  auto* verb = app.add_subcommand("check-queries", "Labelled VF and EE queries against their truth");
+  auto* verb =
+      app.add_subcommand("check-queries", "Labelled VF and EE queries against their truth");
   verb->add_option("files", request.files, "Query files (.csv, .csv.gz)")->required();
   verb->add_option("--truth", request.truths, "Labels (.json), one file for each query file");
   const auto parse = [](std::string_view word) -> std::optional<reports::QueryMethod> {
@@ -88,7 +89,8 @@ void add_scene(CLI::App& app, reports::SceneRequest& request) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Assay certifies continuous self-collision detectors for deforming triangle meshes.");
+  CLI::App app(
+      "Assay certifies continuous self-collision detectors for deforming triangle meshes.");
   app.set_version_flag("--version", [] { return reports::version_text(); });
   app.require_subcommand(1);
 

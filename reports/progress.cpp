@@ -8,8 +8,10 @@
 namespace assay::reports {
 
 Progress::Progress(std::string what)
-    : on_terminal_(isatty(STDERR_FILENO) == 1), what_(std::move(what)),
-      begin_(std::chrono::steady_clock::now()), last_(begin_) {}
+    : on_terminal_(isatty(STDERR_FILENO) == 1),
+      what_(std::move(what)),
+      begin_(std::chrono::steady_clock::now()),
+      last_(begin_) {}
 
 void Progress::phase(std::string name) {
   phase_ = std::move(name);

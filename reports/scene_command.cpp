@@ -17,7 +17,8 @@ int refuse(const corpus::Problem& problem) {
 }  // namespace
 
 int run_list_scenes() {
-  fmt::print("{:<20} {:>9} {:>7}  {:<6} {:<6} {}\n", "scene", "triangles", "frames", "closed", "--mesh", "what it is");
+  fmt::print("{:<20} {:>9} {:>7}  {:<6} {:<6} {}\n", "scene", "triangles", "frames", "closed",
+             "--mesh", "what it is");
   for (const auto& scene : corpus::scenes()) {
     fmt::print("{:<20} {:>9} {:>7}  {:<6} {:<6} {}\n", scene.name, scene.default_size,
                scene.default_frames, scene.closed ? "yes" : "no", scene.takes_mesh ? "yes" : "no",

@@ -38,7 +38,8 @@ std::string diff_text(const properties::StepDiff& diff) {
                          pairs[i].pair.b, time_text(pairs[i].time),
                          properties::name_of(pairs[i].feature.kind));
     }
-    if (pairs.size() > most_listed) out += fmt::format("  ... {} more\n", pairs.size() - most_listed);
+    if (pairs.size() > most_listed)
+      out += fmt::format("  ... {} more\n", pairs.size() - most_listed);
   };
   list("missing", diff.missing);
   list("spurious", diff.spurious);
@@ -52,7 +53,8 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
                       const properties::StepDiff* diff) {
   std::string out = fmt::format("step {}: {}", number, properties::name_of(result.answer));
   if (result.answer == Answer::collision) {
-    out += fmt::format(" at t = {}, {} pairs in contact", time_text(result.first), result.pairs.size());
+    out += fmt::format(" at t = {}, {} pairs in contact", time_text(result.first),
+                       result.pairs.size());
   }
   out += diff ? fmt::format("; {}\n", verdict_text(*diff)) : "; not judged\n";
   out += fmt::format(
@@ -63,11 +65,11 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
       result.view_positive, result.view_negative, result.view_zero, result.violated, result.dirty,
       result.counts.search.box_tests, result.counts.search.candidate_pairs,
       result.counts.narrow.elementary_tests, result.counts.closure_rounds, result.times.view_test,
-      result.times.start, result.times.broad_phase, result.times.narrow_phase,
-      result.times.closure, result.times.total);
+      result.times.start, result.times.broad_phase, result.times.narrow_phase, result.times.closure,
+      result.times.total);
   if (judgement) {
-    out += fmt::format(", oracle {:.1f}\n  oracle: {}, {} pairs of {} feature candidates{}", oracle_ms,
-                       properties::name_of(judgement->answer), judgement->pairs.size(),
+    out += fmt::format(", oracle {:.1f}\n  oracle: {}, {} pairs of {} feature candidates{}",
+                       oracle_ms, properties::name_of(judgement->answer), judgement->pairs.size(),
                        judgement->feature_candidates, judgement->complete ? "" : " (stopped)");
   }
   out += "\n";

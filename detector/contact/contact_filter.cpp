@@ -48,9 +48,10 @@ struct CrossQuadratic {
 
 CrossQuadratic cross(const MovingVector& x, const MovingVector& y) {
   const Vector mixed_a = cross(x.t0, y.t1), mixed_b = cross(x.t1, y.t0);
-  return {cross(x.t0, y.t0),
-          {(mixed_a[0] + mixed_b[0]) / 2, (mixed_a[1] + mixed_b[1]) / 2, (mixed_a[2] + mixed_b[2]) / 2},
-          cross(x.t1, y.t1)};
+  return {
+      cross(x.t0, y.t0),
+      {(mixed_a[0] + mixed_b[0]) / 2, (mixed_a[1] + mixed_b[1]) / 2, (mixed_a[2] + mixed_b[2]) / 2},
+      cross(x.t1, y.t1)};
 }
 
 Cubic triple_product(const MovingVector& x, const CrossQuadratic& n) {
@@ -59,7 +60,8 @@ Cubic triple_product(const MovingVector& x, const CrossQuadratic& n) {
 }
 
 template <std::size_t n>
-void halve(const std::array<double, n>& b, std::array<double, n>& left, std::array<double, n>& right) {
+void halve(const std::array<double, n>& b, std::array<double, n>& left,
+           std::array<double, n>& right) {
   std::array<double, n> row = b;
   for (std::size_t level = 0; level < n; ++level) {
     left[level] = row[0];
@@ -167,7 +169,8 @@ class Filter {
     result_.lo = piece.lo;
     result_.hi = piece.hi;
     // One root of F only: the coefficients change sign once, wherever an uncertain one falls.
-    const bool single = sign_beyond(piece.f[1], f_bound) == f_lo || sign_beyond(piece.f[2], f_bound) == -f_lo;
+    const bool single =
+        sign_beyond(piece.f[1], f_bound) == f_lo || sign_beyond(piece.f[2], f_bound) == -f_lo;
     result_.time_bracketed = all_free_ && single;
     result_.time_guess = guess(piece);
   }

@@ -18,7 +18,7 @@ struct ContactRungCounts {
 
 struct ContactResult {
   bool contact = false;
-  TimeEnclosure time;  // first contact time; set when contact and wanted
+  TimeEnclosure time;                    // first contact time; set when contact and wanted
   ContactRung rung = ContactRung::axis;  // which rung decided whether there is a contact
 };
 

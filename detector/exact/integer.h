@@ -10,10 +10,9 @@ namespace assay::detector {
 inline constexpr unsigned inline_integer_bits = 512;
 
 using Integer = boost::multiprecision::number<
-    boost::multiprecision::cpp_int_backend<inline_integer_bits, 0,
-                                           boost::multiprecision::signed_magnitude,
-                                           boost::multiprecision::unchecked,
-                                           std::allocator<boost::multiprecision::limb_type>>,
+    boost::multiprecision::cpp_int_backend<
+        inline_integer_bits, 0, boost::multiprecision::signed_magnitude,
+        boost::multiprecision::unchecked, std::allocator<boost::multiprecision::limb_type>>,
     boost::multiprecision::et_off>;
 
 // A finite double as mantissa * 2^exponent with an odd mantissa (0 as 0 * 2^0). Exact.

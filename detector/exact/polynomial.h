@@ -25,7 +25,9 @@ class Polynomial {
 
   bool is_zero() const { return coefficients_.empty(); }
   int degree() const { return static_cast<int>(coefficients_.size()) - 1; }  // -1 for zero
-  const Integer& operator[](int power) const { return coefficients_[static_cast<std::size_t>(power)]; }
+  const Integer& operator[](int power) const {
+    return coefficients_[static_cast<std::size_t>(power)];
+  }
   const Integer& leading() const { return coefficients_.back(); }
 
   friend Polynomial operator+(const Polynomial& a, const Polynomial& b);

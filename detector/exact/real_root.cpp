@@ -90,7 +90,8 @@ class Isolation {
     if (interval.inside_gap()) {
       left.hi = right.lo = interval.lo.midpoint_with(interval.hi);
     } else {
-      const double middle = from_ordinal((ordinal(interval.doubles.lo) + ordinal(interval.doubles.hi)) / 2);
+      const double middle =
+          from_ordinal((ordinal(interval.doubles.lo) + ordinal(interval.doubles.hi)) / 2);
       left.hi = right.lo = Dyadic::of(middle);
       left.doubles.hi = right.doubles.lo = middle;
     }
@@ -107,14 +108,14 @@ class Isolation {
   }
 
   void isolate_in(const Interval& interval, std::vector<RealRoot>& out) {
-    isolate(interval, sequence_.variations_at(interval.lo), sequence_.variations_at(interval.hi), out);
+    isolate(interval, sequence_.variations_at(interval.lo), sequence_.variations_at(interval.hi),
+            out);
   }
 
   RealRoot enclose(const Interval& interval) const {
     if (interval.inside_gap()) return {f_, interval.lo, interval.hi, interval.doubles};
     const double guess = approximate_root(f_, interval.doubles.lo, interval.doubles.hi);
-    const auto doubles =
-        enclose_single_root(f_, interval.doubles.lo, interval.doubles.hi, guess);
+    const auto doubles = enclose_single_root(f_, interval.doubles.lo, interval.doubles.hi, guess);
     if (doubles.lo == doubles.hi) return RealRoot(Dyadic::of(doubles.lo));
     return {f_, Dyadic::of(doubles.lo), Dyadic::of(doubles.hi), doubles};
   }
@@ -144,7 +145,8 @@ int bernstein_variations(const Polynomial& f) {
     std::uint64_t binomial = 1;
     for (int i = j; i >= 0; --i) {
       sum += f[i] * binomial;
-      binomial = binomial * static_cast<std::uint64_t>(n - i + 1) / static_cast<std::uint64_t>(j - i + 1);
+      binomial =
+          binomial * static_cast<std::uint64_t>(n - i + 1) / static_cast<std::uint64_t>(j - i + 1);
     }
     const int sign = sum.sign();
     if (sign == 0) continue;

@@ -41,9 +41,9 @@ std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::In
     for (int corner = 0; corner < 3; ++corner) {
       const std::int32_t v = triangles(t, corner);
       if (v < 0 || v >= vertex_count) {
-        return Problem{InputError::index_out_of_range,
-                       at_triangle(t) + " names vertex " + std::to_string(v) + " of " +
-                           std::to_string(vertex_count)};
+        return Problem{InputError::index_out_of_range, at_triangle(t) + " names vertex " +
+                                                           std::to_string(v) + " of " +
+                                                           std::to_string(vertex_count)};
       }
     }
   }

@@ -28,6 +28,7 @@ struct Problem {
 
 template <class T>
 using Expected =
-    BOOST_OUTCOME_V2_NAMESPACE::basic_result<T, Problem, BOOST_OUTCOME_V2_NAMESPACE::policy::terminate>;
+    BOOST_OUTCOME_V2_NAMESPACE::basic_result<T, Problem,
+                                             BOOST_OUTCOME_V2_NAMESPACE::policy::terminate>;
 
 }  // namespace assay::detector

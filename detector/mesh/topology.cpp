@@ -18,7 +18,8 @@ Incidence make_incidence(std::size_t rows, ForEachEntry for_each_entry) {
   std::partial_sum(out.starts.begin(), out.starts.end(), out.starts.begin());
   out.items.resize(at(out.starts.back()));
   std::vector<std::int32_t> next(out.starts.begin(), out.starts.end() - 1);
-  for_each_entry([&](std::int32_t row, std::int32_t item) { out.items[at(next[at(row)]++)] = item; });
+  for_each_entry(
+      [&](std::int32_t row, std::int32_t item) { out.items[at(next[at(row)]++)] = item; });
   return out;
 }
 
@@ -116,9 +117,8 @@ Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count
       for (const auto row : lists[t]) visit(row, static_cast<std::int32_t>(t));
     }
   };
-  mesh.vertex_triangles =
-      make_incidence(static_cast<std::size_t>(vertex_count),
-                     [&](auto visit) { for_each_of(mesh.triangles, visit); });
+  mesh.vertex_triangles = make_incidence(static_cast<std::size_t>(vertex_count),
+                                         [&](auto visit) { for_each_of(mesh.triangles, visit); });
   mesh.edge_triangles = make_incidence(
       mesh.edges.size(), [&](auto visit) { for_each_of(mesh.triangle_edges, visit); });
   make_components(mesh, static_cast<std::size_t>(vertex_count));

@@ -76,7 +76,8 @@ std::int32_t BoundingVolumeTree::build(std::vector<std::int32_t>& order,
   }
   const std::size_t middle = begin + (end - begin) / 2;
   const auto first = order.begin();
-  std::nth_element(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(middle),
+  std::nth_element(first + static_cast<std::ptrdiff_t>(begin),
+                   first + static_cast<std::ptrdiff_t>(middle),
                    first + static_cast<std::ptrdiff_t>(end), [&](std::int32_t a, std::int32_t b) {
                      const double x = centres[static_cast<std::size_t>(a)][axis];
                      const double y = centres[static_cast<std::size_t>(b)][axis];

@@ -19,12 +19,15 @@ struct Box {
 // Nodes in depth-first order: an inner node's left child follows it. A leaf holds one triangle.
 class BoundingVolumeTree {
  public:
-  // Splits the triangles at the median of their centres along the longest side of those. O(M log M).
+  // Splits the triangles at the median of their centres along the longest side of those. O(M log
+  // M).
   BoundingVolumeTree(const Topology& mesh, const PositionsView& x);
 
   std::size_t node_count() const { return triangle_.size(); }
   bool is_leaf(std::int32_t node) const { return triangle_[static_cast<std::size_t>(node)] >= 0; }
-  std::int32_t triangle(std::int32_t leaf) const { return triangle_[static_cast<std::size_t>(leaf)]; }
+  std::int32_t triangle(std::int32_t leaf) const {
+    return triangle_[static_cast<std::size_t>(leaf)];
+  }
   std::int32_t left(std::int32_t node) const { return node + 1; }
   std::int32_t right(std::int32_t node) const { return right_[static_cast<std::size_t>(node)]; }
   const Box& box(std::int32_t node) const { return boxes_[static_cast<std::size_t>(node)]; }

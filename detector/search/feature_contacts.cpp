@@ -108,9 +108,9 @@ void FeatureContacts::test(std::uint64_t key) {
   const auto& face = mesh_.triangles[at(second)];
   if (kind_of(key) == FeatureKind::piercing) {
     const auto& e = mesh_.edges[at(first)];
-    if (!segment_pierces_triangle(point_of(x_t0_, e[0]), point_of(x_t0_, e[1]),
-                                  {point_of(x_t0_, face[0]), point_of(x_t0_, face[1]),
-                                   point_of(x_t0_, face[2])})) {
+    if (!segment_pierces_triangle(
+            point_of(x_t0_, e[0]), point_of(x_t0_, e[1]),
+            {point_of(x_t0_, face[0]), point_of(x_t0_, face[1]), point_of(x_t0_, face[2])})) {
       return;
     }
     contact.feature = {FeatureKind::piercing, {e[0], e[1], face[0], face[1], face[2]}};
@@ -169,9 +169,10 @@ std::vector<PairContact> FeatureContacts::pair_contacts() const {
     if (x.feature.kind != y.feature.kind) return x.feature.kind < y.feature.kind;
     return x.feature.vertices < y.feature.vertices;
   });
-  out.erase(std::unique(out.begin(), out.end(),
-                        [](const PairContact& x, const PairContact& y) { return x.pair == y.pair; }),
-            out.end());
+  out.erase(
+      std::unique(out.begin(), out.end(),
+                  [](const PairContact& x, const PairContact& y) { return x.pair == y.pair; }),
+      out.end());
   return out;
 }
 

@@ -17,13 +17,13 @@ namespace assay::detector {
 // One contact of a feature pair.
 struct FeatureContact {
   Feature feature;
-  TimeEnclosure time;                    // {0, 0} when only yes or no was wanted
-  std::vector<TrianglePair> pairs;       // all that hold the two features
+  TimeEnclosure time;               // {0, 0} when only yes or no was wanted
+  std::vector<TrianglePair> pairs;  // all that hold the two features
 };
 
 struct NarrowCounts {
   std::uint64_t elementary_tests = 0;  // feature pairs tested beyond rung 0, each once
-  ContactRungCounts rungs;             // `axis`: once for each candidate pair that held the feature pair
+  ContactRungCounts rungs;  // `axis`: once for each candidate pair that held the feature pair
 };
 
 class FeatureContacts {

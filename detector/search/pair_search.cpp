@@ -43,8 +43,10 @@ bool search_pairs(const BoundingVolumeTree& tree, const Marks& marks, PairRule r
       if (!sink(tree.triangle(p.a), tree.triangle(p.b))) return false;
       continue;
     }
-    const std::int32_t a_children[2] = {a_leaf ? p.a : tree.right(p.a), a_leaf ? -1 : tree.left(p.a)};
-    const std::int32_t b_children[2] = {b_leaf ? p.b : tree.right(p.b), b_leaf ? -1 : tree.left(p.b)};
+    const std::int32_t a_children[2] = {a_leaf ? p.a : tree.right(p.a),
+                                        a_leaf ? -1 : tree.left(p.a)};
+    const std::int32_t b_children[2] = {b_leaf ? p.b : tree.right(p.b),
+                                        b_leaf ? -1 : tree.left(p.b)};
     for (const auto a : a_children) {
       for (const auto b : b_children) {
         if (a >= 0 && b >= 0) stack.push_back({a, b});
@@ -59,8 +61,10 @@ bool enumerate_pairs(const Topology& mesh, const Marks& marks, PairRule rule, Se
   const auto n = static_cast<std::int32_t>(mesh.triangles.size());
   for (std::int32_t a = 0; a < n; ++a) {
     for (std::int32_t b = a + 1; b < n; ++b) {
-      const bool same_component = mesh.component_of_triangle[at(a)] == mesh.component_of_triangle[at(b)];
-      if (!may_hold_pair(rule, marks.triangle_flags[at(a)], marks.triangle_flags[at(b)], same_component)) {
+      const bool same_component =
+          mesh.component_of_triangle[at(a)] == mesh.component_of_triangle[at(b)];
+      if (!may_hold_pair(rule, marks.triangle_flags[at(a)], marks.triangle_flags[at(b)],
+                         same_component)) {
         continue;
       }
       ++counts.candidate_pairs;

@@ -38,7 +38,8 @@ struct LayerClass {
 }  // namespace
 
 void mark_clean_by_layers(const Topology& mesh, const Component& component, const PositionsView& x,
-                          const std::vector<std::uint8_t>& touched, std::vector<std::uint8_t>& clean) {
+                          const std::vector<std::uint8_t>& touched,
+                          std::vector<std::uint8_t>& clean) {
   for (const auto t : component.triangles) clean[at(t)] = 0;
   std::vector<std::uint8_t> seen(mesh.triangles.size(), 0);
   std::map<int, LayerClass> by_layer;  // key: winding number outside

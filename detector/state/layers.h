@@ -17,6 +17,7 @@ namespace assay::detector {
 // the one that holds the lowest triangle index). "Connected" would not be enough: two tetrahedra,
 // one inside the other, may share an edge (case L9_shared_edge_two_layers).
 void mark_clean_by_layers(const Topology& mesh, const Component& component, const PositionsView& x,
-                          const std::vector<std::uint8_t>& touched, std::vector<std::uint8_t>& clean);
+                          const std::vector<std::uint8_t>& touched,
+                          std::vector<std::uint8_t>& clean);
 
 }  // namespace assay::detector

@@ -27,8 +27,8 @@ bool verify_start(const Topology& mesh, BoundingVolumeTree& tree, const Position
   FeatureContacts contacts(mesh, x, x, Want::yes_no);
   SearchCounts counts;
   constexpr std::uint64_t pairs_between_stops = 4096;
-  const bool searched =
-      search_pairs(tree, marks, PairRule::within_component, counts, [&](std::int32_t a, std::int32_t b) {
+  const bool searched = search_pairs(
+      tree, marks, PairRule::within_component, counts, [&](std::int32_t a, std::int32_t b) {
         if (counts.candidate_pairs % pairs_between_stops == 0 && stop && stop()) return false;
         contacts.add_candidate(a, b, true);
         return true;

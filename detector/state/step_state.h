@@ -10,8 +10,8 @@
 namespace assay::detector {
 
 struct StepState {
-  Positions positions;                // at which the rest holds, in every bit
-  std::vector<std::uint8_t> clean;    // by triangle
+  Positions positions;              // at which the rest holds, in every bit
+  std::vector<std::uint8_t> clean;  // by triangle
   // By component: its view primitive at these positions, when that is known to have winding number
   // 1 there. It keeps it while all triangles stay positive, so L5 need not count again.
   std::vector<std::optional<std::array<Point, 2>>> inside;

@@ -7,9 +7,9 @@
 //
 // Coordinates are taken 4 times as large, so that the origin (2 p0 + p1 + p2) / 4, inside a
 // triangle, is exact as well. Filter: A_k = 4 (a_k - o_k) is computed as a sum of differences
-// 2 (a - p0) + (a - p1) + (a - p2), each off by u times its size, two sums rounded: off by less than
-// 8u W_k + 2 * 4u W_k, W_k the largest |a_k - p_k| involved, while |A_k| <= 4 W_k. For entries of
-// size 4 W with error 16 u W = 4u (4W): a determinant is off by at most 6 * 3 * 4u V (entries) +
+// 2 (a - p0) + (a - p1) + (a - p2), each off by u times its size, two sums rounded: off by less
+// than 8u W_k + 2 * 4u W_k, W_k the largest |a_k - p_k| involved, while |A_k| <= 4 W_k. For entries
+// of size 4 W with error 16 u W = 4u (4W): a determinant is off by at most 6 * 3 * 4u V (entries) +
 // 30u V (arithmetic), V = product of the 4 W_k: less than 128u V.
 #include "detector/state/winding.h"
 
@@ -74,7 +74,8 @@ Signs exact_signs(const std::array<Point, 3>& corners, const Origin& o, const Di
     }
   }
   Signs signs{};
-  const auto dets = determinants<Integer>(from_origin, {Integer(r[0]), Integer(r[1]), Integer(r[2])});
+  const auto dets =
+      determinants<Integer>(from_origin, {Integer(r[0]), Integer(r[1]), Integer(r[2])});
   for (std::size_t i = 0; i < signs.size(); ++i) signs[i] = dets[i].sign();
   return signs;
 }
@@ -84,21 +85,22 @@ Signs signs_of(const std::array<Point, 3>& corners, const Origin& o, const Direc
   Point w = {0, 0, 0};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const double d0 = corners[i][k] - o[0][k], d1 = corners[i][k] - o[1][k], d2 = corners[i][k] - o[2][k];
+      const double d0 = corners[i][k] - o[0][k], d1 = corners[i][k] - o[1][k],
+                   d2 = corners[i][k] - o[2][k];
       a[i][k] = 2 * d0 + d1 + d2;
       w[k] = std::max({w[k], 4 * std::abs(d0), 4 * std::abs(d1), 4 * std::abs(d2)});
     }
   }
-  const bool in_range = std::all_of(w.begin(), w.end(), [](double m) {
-    return m > least_magnitude && m < greatest_magnitude;
-  });
+  const bool in_range = std::all_of(
+      w.begin(), w.end(), [](double m) { return m > least_magnitude && m < greatest_magnitude; });
   if (!in_range) return exact_signs(corners, o, r);
-  const Point direction = {static_cast<double>(r[0]), static_cast<double>(r[1]), static_cast<double>(r[2])};
+  const Point direction = {static_cast<double>(r[0]), static_cast<double>(r[1]),
+                           static_cast<double>(r[2])};
   const Point reach = {std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])};
   const auto dets = determinants<double>(a, direction);
   // The direction is exact and each of its coordinates has its own size: V by terms.
-  const double along = winding_error *
-                       (w[0] * w[1] * reach[2] + w[1] * w[2] * reach[0] + w[2] * w[0] * reach[1]);
+  const double along =
+      winding_error * (w[0] * w[1] * reach[2] + w[1] * w[2] * reach[0] + w[2] * w[0] * reach[1]);
   const double volume = winding_error * (w[0] * w[1] * w[2]);
   Signs signs{};
   for (std::size_t i = 0; i < signs.size(); ++i) {
@@ -118,8 +120,7 @@ RayOutcome count_along(const Topology& mesh, std::span<const std::int32_t> trian
   for (const auto t : triangles) {
     if (t == skipped) continue;
     const auto& v = mesh.triangles[static_cast<std::size_t>(t)];
-    const Signs s =
-        signs_of({point_of(x, v[0]), point_of(x, v[1]), point_of(x, v[2])}, origin, r);
+    const Signs s = signs_of({point_of(x, v[0]), point_of(x, v[1]), point_of(x, v[2])}, origin, r);
     const bool some_positive = s[0] > 0 || s[1] > 0 || s[2] > 0;
     const bool some_negative = s[0] < 0 || s[1] < 0 || s[2] < 0;
     if (some_positive && some_negative) continue;  // the line passes by

@@ -28,7 +28,8 @@ Eigen::Vector3d longest_axis(const std::vector<std::int32_t>& vertices, const Po
   if (!(extent > 0)) return Eigen::Vector3d::UnitX();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const auto v : vertices) {
-    const Eigen::Vector3d offset = (x.row(v).transpose() - Eigen::Vector3d(centre[0], centre[1], centre[2])) / extent;
+    const Eigen::Vector3d offset =
+        (x.row(v).transpose() - Eigen::Vector3d(centre[0], centre[1], centre[2])) / extent;
     covariance += offset * offset.transpose();
   }
   if (!covariance.allFinite()) return Eigen::Vector3d::UnitX();

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "detector/mesh/topology.h"
 #include "detector/mesh/step_types.h"
+#include "detector/mesh/topology.h"
 
 namespace assay::detector {
 
@@ -15,8 +15,8 @@ enum class ViewKind : std::uint8_t { point, line };
 
 struct ViewAnchor {
   ViewKind kind = ViewKind::point;
-  std::vector<std::int32_t> vertices;                      // of the component
-  std::vector<std::int32_t> outer_vertices[2];             // line: of its two ends
+  std::vector<std::int32_t> vertices;           // of the component
+  std::vector<std::int32_t> outer_vertices[2];  // line: of its two ends
 };
 
 // point: the mean of all vertices. line: the means of the two outer thirds of the vertices in the

@@ -59,7 +59,8 @@ bool in_range(const Vector& magnitude) {
 }
 
 template <std::size_t n>
-void halve(const std::array<double, n>& b, std::array<double, n>& left, std::array<double, n>& right) {
+void halve(const std::array<double, n>& b, std::array<double, n>& left,
+           std::array<double, n>& right) {
   std::array<double, n> row = b;
   for (std::size_t level = 0; level < n; ++level) {
     left[level] = row[0];
@@ -110,7 +111,8 @@ class ViewFilter {
     grow(edge, e1);
     grow(edge, e2);
     make_normal(e1, e2);
-    usable_ = in_range(edge) && make_cubic(difference(triangle[0], primitive.q0), edge, h0_, scale0_);
+    usable_ =
+        in_range(edge) && make_cubic(difference(triangle[0], primitive.q0), edge, h0_, scale0_);
     if (is_point_ || !usable_) return;
     usable_ = make_cubic(difference(triangle[0], primitive.q1), edge, h1_, scale1_) &&
               make_axial(triangle, primitive);
@@ -145,7 +147,8 @@ class ViewFilter {
     if (!in_range(reach)) return false;
     h = {dot(w.t0, n0_), (2 * dot(w.t0, n1_) + dot(w.t1, n0_)) / 3,
          (dot(w.t0, n2_) + 2 * dot(w.t1, n1_)) / 3, dot(w.t1, n2_)};
-    scale = reach[0] * edge[1] * edge[2] + reach[1] * edge[2] * edge[0] + reach[2] * edge[0] * edge[1];
+    scale =
+        reach[0] * edge[1] * edge[2] + reach[1] * edge[2] * edge[0] + reach[2] * edge[0] * edge[1];
     return true;
   }
 
@@ -214,9 +217,11 @@ class ViewFilter {
         note(h0.lo > 0 ? 1 : h0.hi < 0 ? -1 : 0);
         continue;
       }
-      const Range h1 = around(at_end ? piece.h1[3] : piece.h1[0], view_cubic_error(depth) * scale1_);
+      const Range h1 =
+          around(at_end ? piece.h1[3] : piece.h1[0], view_cubic_error(depth) * scale1_);
       const double axial = view_axial_error(depth);
-      const Range length2 = around(at_end ? piece.length2[2] : piece.length2[0], axial * length2_scale_);
+      const Range length2 =
+          around(at_end ? piece.length2[2] : piece.length2[0], axial * length2_scale_);
       for (const auto& a : piece.along) {
         const Range along = around(at_end ? a[2] : a[0], axial * along_scale_);
         note(sure_value_sign(h0, h1, clamped_axial(along, length2)));

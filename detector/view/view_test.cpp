@@ -38,7 +38,8 @@ bool all_positive_at(const Topology& mesh, std::span<const std::int32_t> triangl
   const ViewPrimitive still{{q0, q0}, {q1, q1}};
   ViewCounts counts;
   for (const auto t : triangles) {
-    if (view_sign(moving_triangle(mesh, t, x, x), still, counts) != ViewSign::positive) return false;
+    if (view_sign(moving_triangle(mesh, t, x, x), still, counts) != ViewSign::positive)
+      return false;
   }
   return true;
 }

@@ -14,7 +14,8 @@ struct ViewCounts {
 };
 
 // Exact sign over the step: the filter, then integers for what it leaves open.
-ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive, ViewCounts& counts);
+ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive,
+                   ViewCounts& counts);
 
 // Signs of `triangles` (indices into the mesh) written to signs[triangle].
 void classify(const Topology& mesh, std::span<const std::int32_t> triangles,

@@ -31,7 +31,8 @@ TEST(Detector, L12_NamedErrors) {
   EXPECT_EQ(create_error(tests::triangles({{0, 1, 6}}), x), InputError::index_out_of_range);
   EXPECT_EQ(create_error(tests::triangles({{0, 1, -1}}), x), InputError::index_out_of_range);
   EXPECT_EQ(create_error(tests::triangles({{0, 1, 1}}), x), InputError::repeated_index);
-  EXPECT_EQ(create_error(tests::triangles({{0, 1, 2}, {2, 1, 0}}), x), InputError::same_vertices_twice);
+  EXPECT_EQ(create_error(tests::triangles({{0, 1, 2}, {2, 1, 0}}), x),
+            InputError::same_vertices_twice);
   Positions nan = x;
   nan(3, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(create_error(octahedron(), nan), InputError::non_finite_coordinate);
@@ -47,7 +48,8 @@ TEST(Detector, BadFramesAreErrorsAndLeaveTheState) {
   EXPECT_EQ(refused.answer, Answer::error);
   ASSERT_TRUE(refused.problem.has_value());
   EXPECT_EQ(refused.problem->error, InputError::non_finite_coordinate);
-  EXPECT_EQ(detector.step(octahedron_positions(2), x.topRows(5)).problem->error, InputError::wrong_frame_size);
+  EXPECT_EQ(detector.step(octahedron_positions(2), x.topRows(5)).problem->error,
+            InputError::wrong_frame_size);
   const StepResult next = detector.step(octahedron_positions(2), octahedron_positions(3));
   EXPECT_EQ(next.answer, Answer::free);
   EXPECT_EQ(next.counts.winding_numbers, 0u) << "still known from the first step";
@@ -58,7 +60,8 @@ TEST(Detector, L5_BreathingIsFreeWithoutAnyBoxTest) {
     Detector detector = make(octahedron(), octahedron_positions(1), culling);
     std::uint64_t windings = 0;
     for (int step = 0; step < 5; ++step) {
-      const auto result = detector.step(octahedron_positions(1 + step), octahedron_positions(2 + step));
+      const auto result =
+          detector.step(octahedron_positions(1 + step), octahedron_positions(2 + step));
       EXPECT_EQ(result.answer, Answer::free);
       EXPECT_EQ(result.view_positive, 8u);
       EXPECT_EQ(result.counts.search.box_tests, 0u);
@@ -105,7 +108,8 @@ TEST(Detector, L8_ContactsMakeDirtyAndL5Releases) {
 }
 
 TEST(Detector, L8_StateBelongsToExactPositions) {
-  Detector detector = make(octahedron(), octahedron_positions(2), Culling::view_point, Start::unknown);
+  Detector detector =
+      make(octahedron(), octahedron_positions(2), Culling::view_point, Start::unknown);
   Positions moved = octahedron_positions(3);
   ASSERT_EQ(detector.step(octahedron_positions(2), moved).answer, Answer::free);
   // All positive over the next steps too, but a start elsewhere is not the committed one.
@@ -134,8 +138,10 @@ TEST(Detector, StopMeansUndecidedAndNoState) {
 }
 
 TEST(Detector, PairsFirstHasTheFirstTime) {
-  const auto all = make(octahedron(), octahedron_positions(2)).evaluate(octahedron_positions(2), pushed());
-  Detector first = make(octahedron(), octahedron_positions(2), Culling::view_point, Start::verified, Pairs::first);
+  const auto all =
+      make(octahedron(), octahedron_positions(2)).evaluate(octahedron_positions(2), pushed());
+  Detector first = make(octahedron(), octahedron_positions(2), Culling::view_point, Start::verified,
+                        Pairs::first);
   const auto result = first.step(octahedron_positions(2), pushed());
   EXPECT_EQ(result.first, all.first);
   EXPECT_LE(result.pairs.size(), all.pairs.size());

@@ -13,7 +13,8 @@ namespace {
 
 using tests::still;
 
-const std::array<MovingPoint, 3> unit_triangle = {still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};
+const std::array<MovingPoint, 3> unit_triangle = {still({0, 0, 0}), still({1, 0, 0}),
+                                                  still({0, 1, 0})};
 
 FourPoints vertex_moves(Point from, Point to) {
   return four_points(VertexFace{{from, to}, unit_triangle});
@@ -35,30 +36,74 @@ std::vector<NamedQuery> named_queries() {
       {"far away", vertex_moves({5, 5, 5}, {6, 5, 5}), false, {}, ContactRung::axis},
       {"stays above", vertex_moves({.2, .2, 1}, {.3, .3, 1}), false, {}, ContactRung::axis},
       {"passes beside", vertex_moves({.9, .9, 1}, {.9, .9, -1}), false, {}, ContactRung::filter},
-      {"through the face", vertex_moves({.25, .25, 1}, {.25, .25, -1}), true, {.5, .5}, ContactRung::filter},
+      {"through the face",
+       vertex_moves({.25, .25, 1}, {.25, .25, -1}),
+       true,
+       {.5, .5},
+       ContactRung::filter},
       {"onto an edge", vertex_moves({.5, 0, 1}, {.5, 0, -1}), true, {.5, .5}, ContactRung::exact},
       {"onto a corner", vertex_moves({0, 0, 1}, {0, 0, -1}), true, {.5, .5}, ContactRung::exact},
-      {"touches at t=1", vertex_moves({.25, .25, 1}, {.25, .25, 0}), true, {1, 1}, ContactRung::exact},
-      {"leaves at t=0", vertex_moves({.25, .25, 0}, {.25, .25, 1}), true, {0, 0}, ContactRung::exact},
-      {"no motion, inside", vertex_moves({.25, .25, 0}, {.25, .25, 0}), true, {0, 0}, ContactRung::exact},
-      {"no motion, in the plane outside", vertex_moves({.75, .75, 0}, {.75, .75, 0}), false, {}, ContactRung::filter},
-      {"in the plane, enters", vertex_moves({-1, .25, 0}, {1, .25, 0}), true, {.5, .5}, ContactRung::exact},
+      {"touches at t=1",
+       vertex_moves({.25, .25, 1}, {.25, .25, 0}),
+       true,
+       {1, 1},
+       ContactRung::exact},
+      {"leaves at t=0",
+       vertex_moves({.25, .25, 0}, {.25, .25, 1}),
+       true,
+       {0, 0},
+       ContactRung::exact},
+      {"no motion, inside",
+       vertex_moves({.25, .25, 0}, {.25, .25, 0}),
+       true,
+       {0, 0},
+       ContactRung::exact},
+      {"no motion, in the plane outside",
+       vertex_moves({.75, .75, 0}, {.75, .75, 0}),
+       false,
+       {},
+       ContactRung::filter},
+      {"in the plane, enters",
+       vertex_moves({-1, .25, 0}, {1, .25, 0}),
+       true,
+       {.5, .5},
+       ContactRung::exact},
       {"triangle of one point, met",
-       four_points(VertexFace{{{-1, 0, 0}, {3, 0, 0}}, {still({1, 0, 0}), still({1, 0, 0}), still({1, 0, 0})}}),
-       true, {.5, .5}, ContactRung::exact},
+       four_points(VertexFace{{{-1, 0, 0}, {3, 0, 0}},
+                              {still({1, 0, 0}), still({1, 0, 0}), still({1, 0, 0})}}),
+       true,
+       {.5, .5},
+       ContactRung::exact},
       {"collinear throughout, no contact",
-       four_points(VertexFace{{{5, 0, 0}, {4, 0, 0}}, {still({0, 0, 0}), still({1, 0, 0}), still({2, 0, 0})}}),
-       false, {}, ContactRung::axis},
-      {"crossing edges", ee(still({-1, 0, 0}), still({1, 0, 0}), {{0, -1, 1}, {0, -1, -1}}, {{0, 1, 1}, {0, 1, -1}}),
-       true, {.5, .5}, ContactRung::filter},
-      {"parallel edges meet in a stretch", ee(still({0, 0, 0}), still({2, 0, 0}), {{1, 0, 1}, {1, 0, -1}}, {{3, 0, 1}, {3, 0, -1}}),
-       true, {.5, .5}, ContactRung::exact},
-      {"edges meet at end points", ee(still({0, 0, 0}), still({1, 0, 0}), {{1, 0, 1}, {1, 0, 0}}, {{2, 1, 1}, {2, 1, 0}}),
-       true, {1, 1}, ContactRung::exact},
-      {"zero-length edge meets an edge", ee(still({0, 0, 0}), still({2, 0, 0}), {{1, 1, 0}, {1, -1, 0}}, {{1, 1, 0}, {1, -1, 0}}),
-       true, {.5, .5}, ContactRung::exact},
+       four_points(VertexFace{{{5, 0, 0}, {4, 0, 0}},
+                              {still({0, 0, 0}), still({1, 0, 0}), still({2, 0, 0})}}),
+       false,
+       {},
+       ContactRung::axis},
+      {"crossing edges",
+       ee(still({-1, 0, 0}), still({1, 0, 0}), {{0, -1, 1}, {0, -1, -1}}, {{0, 1, 1}, {0, 1, -1}}),
+       true,
+       {.5, .5},
+       ContactRung::filter},
+      {"parallel edges meet in a stretch",
+       ee(still({0, 0, 0}), still({2, 0, 0}), {{1, 0, 1}, {1, 0, -1}}, {{3, 0, 1}, {3, 0, -1}}),
+       true,
+       {.5, .5},
+       ContactRung::exact},
+      {"edges meet at end points",
+       ee(still({0, 0, 0}), still({1, 0, 0}), {{1, 0, 1}, {1, 0, 0}}, {{2, 1, 1}, {2, 1, 0}}),
+       true,
+       {1, 1},
+       ContactRung::exact},
+      {"zero-length edge meets an edge",
+       ee(still({0, 0, 0}), still({2, 0, 0}), {{1, 1, 0}, {1, -1, 0}}, {{1, 1, 0}, {1, -1, 0}}),
+       true,
+       {.5, .5},
+       ContactRung::exact},
       {"double root: rises, touches, sinks",
-       ee({{-1, -1, 0}, {1, -1, 0}}, {{-1, 1, 0}, {1, 1, 0}}, still({0, 0, 0}), still({0, 0, 1})), true, {.5, .5},
+       ee({{-1, -1, 0}, {1, -1, 0}}, {{-1, 1, 0}, {1, 1, 0}}, still({0, 0, 0}), still({0, 0, 1})),
+       true,
+       {.5, .5},
        ContactRung::exact},
   };
 }
@@ -83,7 +128,8 @@ TEST(ElementaryTest, IrrationalTimeIsEnclosedInAdjacentDoubles) {
                {still({-.5, -1, 0}), still({-.5, 3, 0})}});
   const auto result = test_contact(query, Want::first_time);
   ASSERT_TRUE(result.contact);
-  EXPECT_TRUE(result.time.lo == result.time.hi || result.time.hi == std::nextafter(result.time.lo, 2.0));
+  EXPECT_TRUE(result.time.lo == result.time.hi ||
+              result.time.hi == std::nextafter(result.time.lo, 2.0));
   EXPECT_EQ(exact_first_contact(query), result.time);
 }
 

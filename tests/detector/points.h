@@ -37,7 +37,8 @@ inline detector::Triangles triangles(std::initializer_list<std::array<std::int32
 
 // Outward octahedron of radius `r`: vertices +x -x +y -y +z -z from `first`.
 inline detector::Triangles octahedron() {
-  return triangles({{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}});
+  return triangles(
+      {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}});
 }
 inline detector::Positions octahedron_positions(double r) {
   return positions({{r, 0, 0}, {-r, 0, 0}, {0, r, 0}, {0, -r, 0}, {0, 0, r}, {0, 0, -r}});

@@ -92,8 +92,8 @@ TEST(RealRoot, SignAtAnIrrationalRoot) {
 }
 
 TEST(RealRoot, FindsAllRootsOfAQuintic) {
-  const auto roots = roots_in_unit_interval(factor(1, 7) * factor(1, 5) * factor(1, 3) * factor(2, 3) *
-                                            factor(6, 7));
+  const auto roots = roots_in_unit_interval(factor(1, 7) * factor(1, 5) * factor(1, 3) *
+                                            factor(2, 3) * factor(6, 7));
   ASSERT_EQ(roots.size(), 5u);
   const double expected[] = {1.0 / 7, 0.2, 1.0 / 3, 2.0 / 3, 6.0 / 7};
   for (std::size_t i = 0; i < roots.size(); ++i) expect_between_doubles(roots[i], expected[i]);

@@ -65,7 +65,8 @@ TEST(Winding, FarFromTheOriginAndTiny) {
 TEST(Layers, L9_PiecesNotConnectionDecide) {
   const Triangles t = tests::triangles(
       {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 1}, {0, 1, 5}, {0, 5, 4}, {1, 4, 5}});
-  const Positions x = tests::positions({{0, 0, -4}, {0, 0, 4}, {8, -6, 0}, {8, 6, 0}, {4, -1.5, 0}, {4, 1.5, 0}});
+  const Positions x =
+      tests::positions({{0, 0, -4}, {0, 0, 4}, {8, -6, 0}, {8, 6, 0}, {4, -1.5, 0}, {4, 1.5, 0}});
   const Topology mesh = make_topology(t, 6);
   ASSERT_EQ(mesh.components.size(), 1u);
   ASSERT_TRUE(mesh.components[0].is_cycle);
@@ -85,8 +86,10 @@ TEST(Layers, L9_TouchedTrianglesStayDirty) {
 
 TEST(Start, L5_ReleasesWithWindingOneOnly) {
   const Topology mesh = make_topology(octahedron(), 6);
-  EXPECT_TRUE(released_by_view(mesh, mesh.components[0], octahedron_positions(1), {0, 0, 0}, {0, 0, 0}));
-  EXPECT_FALSE(released_by_view(mesh, mesh.components[0], octahedron_positions(1), {2, 0, 0}, {2, 0, 0}));
+  EXPECT_TRUE(
+      released_by_view(mesh, mesh.components[0], octahedron_positions(1), {0, 0, 0}, {0, 0, 0}));
+  EXPECT_FALSE(
+      released_by_view(mesh, mesh.components[0], octahedron_positions(1), {2, 0, 0}, {2, 0, 0}));
 }
 
 TEST(Start, L9_FindsStaticContactsOfAStartInContact) {

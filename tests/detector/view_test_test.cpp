@@ -33,18 +33,21 @@ TEST(ViewTest, PointSigns) {
 }
 
 TEST(ViewTest, ZeroAreaTriangleHasNoSign) {
-  EXPECT_EQ(sign({still({0, 0, 1}), still({1, 1, 1}), still({2, 2, 1})}, point_at({0, 0, 0})), ViewSign::zero);
+  EXPECT_EQ(sign({still({0, 0, 1}), still({1, 1, 1}), still({2, 2, 1})}, point_at({0, 0, 0})),
+            ViewSign::zero);
 }
 
 TEST(ViewTest, L2_SignsAtTheEndsSayNothing) {
   // Positive at t=0 and t=1; the plane dips below the view point in between.
-  const MovingTriangle dips = {MovingPoint{{0, 0, 1}, {0, 0, 1}}, MovingPoint{{1, 0, 1}, {-1, 0, 1}},
+  const MovingTriangle dips = {MovingPoint{{0, 0, 1}, {0, 0, 1}},
+                               MovingPoint{{1, 0, 1}, {-1, 0, 1}},
                                MovingPoint{{0, 1, 1}, {0, -1, 1}}};
   EXPECT_EQ(sign(dips, point_at({0, 0, 0})), ViewSign::zero) << "N vanishes at t = 1/2";
 }
 
 TEST(ViewTest, L2_TouchingZeroIsNotPositive) {
-  const MovingTriangle touches = {MovingPoint{{0, 0, 1}, {0, 0, 0}}, MovingPoint{{1, 0, 1}, {1, 0, 0}},
+  const MovingTriangle touches = {MovingPoint{{0, 0, 1}, {0, 0, 0}},
+                                  MovingPoint{{1, 0, 1}, {1, 0, 0}},
                                   MovingPoint{{0, 1, 1}, {0, 1, 0}}};
   EXPECT_EQ(sign(touches, point_at({0, 0, 0})), ViewSign::zero);
   EXPECT_EQ(sign(touches, point_at({0, 0, -0x1p-60})), ViewSign::positive);

@@ -29,7 +29,9 @@ oracle::StepJudgement judgement_with(std::vector<PairContact> pairs) {
   return judgement;
 }
 
-PairContact contact(std::int32_t a, std::int32_t b, double time) { return {{a, b}, {time, time}, {}}; }
+PairContact contact(std::int32_t a, std::int32_t b, double time) {
+  return {{a, b}, {time, time}, {}};
+}
 
 StepDiff diff_of(std::vector<PairContact> ours, std::vector<PairContact> theirs,
                  detector::Pairs claimed = detector::Pairs::all) {
@@ -51,7 +53,8 @@ TEST(Agreement, EveryDifferenceIsADefect) {
   const auto spurious = diff_of({contact(0, 1, .5), contact(2, 3, .75)}, {contact(0, 1, .5)});
   EXPECT_EQ(spurious.spurious.size(), 1u);
   EXPECT_EQ(spurious.outcome, Outcome::defect);
-  const auto late = diff_of({contact(0, 1, .5), contact(2, 3, .75)}, {contact(0, 1, .5), contact(2, 3, .7)});
+  const auto late =
+      diff_of({contact(0, 1, .5), contact(2, 3, .75)}, {contact(0, 1, .5), contact(2, 3, .7)});
   EXPECT_EQ(late.late.size(), 1u);
   EXPECT_EQ(late.outcome, Outcome::defect);
   const auto early = diff_of({contact(0, 1, .5)}, {contact(0, 1, .6)});
@@ -75,17 +78,23 @@ TEST(Agreement, StoppedOracleIsUndecidedButItsPairsCount) {
   auto judgement = judgement_with({contact(0, 1, .5)});
   judgement.complete = false;
   judgement.answer = Answer::undecided;
-  EXPECT_EQ(compare(result_with({contact(0, 1, .5), contact(2, 3, .5)}), judgement, detector::Pairs::all).outcome,
-            Outcome::undecided);
-  EXPECT_EQ(compare(result_with({contact(2, 3, .5)}), judgement, detector::Pairs::all).outcome, Outcome::defect);
+  EXPECT_EQ(
+      compare(result_with({contact(0, 1, .5), contact(2, 3, .5)}), judgement, detector::Pairs::all)
+          .outcome,
+      Outcome::undecided);
+  EXPECT_EQ(compare(result_with({contact(2, 3, .5)}), judgement, detector::Pairs::all).outcome,
+            Outcome::defect);
 }
 
 TEST(Agreement, StoppedDetectorIsUndecidedAndSpuriousPairsCount) {
   auto result = result_with({contact(0, 1, .5)});
   result.answer = Answer::undecided;
-  EXPECT_EQ(compare(result, judgement_with({contact(0, 1, .5), contact(2, 3, .5)}), detector::Pairs::all).outcome,
-            Outcome::undecided);
-  EXPECT_EQ(compare(result, judgement_with({contact(2, 3, .5)}), detector::Pairs::all).outcome, Outcome::defect);
+  EXPECT_EQ(
+      compare(result, judgement_with({contact(0, 1, .5), contact(2, 3, .5)}), detector::Pairs::all)
+          .outcome,
+      Outcome::undecided);
+  EXPECT_EQ(compare(result, judgement_with({contact(2, 3, .5)}), detector::Pairs::all).outcome,
+            Outcome::defect);
 }
 
 }  // namespace

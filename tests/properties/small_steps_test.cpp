@@ -83,9 +83,11 @@ void check(const SmallStep& step, Tally& tally) {
         << diff.late.size() << " late, " << diff.early.size() << " early";
     const auto first = run(step, variant, detector::Pairs::first);
     ASSERT_EQ(compare(first, judgement, detector::Pairs::first).outcome, Outcome::holds);
-    const bool has_views = variant.culling == Culling::view_point || variant.culling == Culling::view_line;
+    const bool has_views =
+        variant.culling == Culling::view_point || variant.culling == Culling::view_line;
     if (has_views) {
-      ASSERT_EQ(all.view_positive + all.view_negative + all.view_zero + all.dirty, step.triangles.rows());
+      ASSERT_EQ(all.view_positive + all.view_negative + all.view_zero + all.dirty,
+                step.triangles.rows());
       check_signs(step, all, tally);
     }
   }
@@ -108,13 +110,14 @@ TEST(SmallSteps, L3_L7_L12_EveryCullingAgreesWithTheOracle) {
       return;
     }
   }
-  std::printf("%llu cases, seed %llu: %llu collide (%llu at t=0), %llu pairs, %llu view signs, %llu "
-              "free components; %zu variants\n",
-              static_cast<unsigned long long>(cases), static_cast<unsigned long long>(seed),
-              static_cast<unsigned long long>(tally.collisions),
-              static_cast<unsigned long long>(tally.at_start),
-              static_cast<unsigned long long>(tally.pairs), static_cast<unsigned long long>(tally.signs),
-              static_cast<unsigned long long>(tally.free_components), std::size(variants));
+  std::printf(
+      "%llu cases, seed %llu: %llu collide (%llu at t=0), %llu pairs, %llu view signs, %llu "
+      "free components; %zu variants\n",
+      static_cast<unsigned long long>(cases), static_cast<unsigned long long>(seed),
+      static_cast<unsigned long long>(tally.collisions),
+      static_cast<unsigned long long>(tally.at_start), static_cast<unsigned long long>(tally.pairs),
+      static_cast<unsigned long long>(tally.signs),
+      static_cast<unsigned long long>(tally.free_components), std::size(variants));
   for (const auto& [family, n] : tally.families) {
     std::printf("  %-28s %llu\n", family.c_str(), static_cast<unsigned long long>(n));
   }
@@ -134,11 +137,13 @@ TEST(SmallSteps, L8_StateIsCarriedSoundly) {
     const auto step = make_small_step(seed, i);
     const auto other = make_small_step(seed, i + cases);
     detector::Positions x_t2 = step.x_t1;
-    for (Eigen::Index v = 0; v < std::min(x_t2.rows(), other.x_t1.rows()); ++v) x_t2.row(v) = other.x_t1.row(v);
+    for (Eigen::Index v = 0; v < std::min(x_t2.rows(), other.x_t1.rows()); ++v)
+      x_t2.row(v) = other.x_t1.row(v);
     for (const auto& variant : variants) {
       if (variant.primitive != Variant::own) continue;
-      auto made = detector::Detector::create(step.triangles, step.x_t0,
-                                             {variant.culling, detector::Start::verified, detector::Pairs::all});
+      auto made = detector::Detector::create(
+          step.triangles, step.x_t0,
+          {variant.culling, detector::Start::verified, detector::Pairs::all});
       made.value().step(step.x_t0, step.x_t1);
       const auto result = made.value().step(step.x_t1, x_t2);
       const auto judgement = oracle::judge_step(step.x_t1, x_t2, step.triangles, {1, {}});
@@ -150,7 +155,8 @@ TEST(SmallSteps, L8_StateIsCarriedSoundly) {
   }
   std::printf("%llu cases, seed %llu: %llu second steps collide, %llu dirty triangles carried\n",
               static_cast<unsigned long long>(cases), static_cast<unsigned long long>(seed),
-              static_cast<unsigned long long>(second_collisions), static_cast<unsigned long long>(dirty));
+              static_cast<unsigned long long>(second_collisions),
+              static_cast<unsigned long long>(dirty));
   EXPECT_GT(dirty, cases);
 }
 

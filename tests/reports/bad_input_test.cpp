@@ -1,0 +1,117 @@
+// Bad input gets one clear line on stderr and exit code 2, nothing else.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/reports/program.h"
+
+namespace assay::tests {
+namespace {
+
+const char* const tetrahedron =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+void expect_refused(const std::string& arguments, const std::string& word) {
+  SCOPED_TRACE(arguments);
+  const Outcome outcome = run_assay(arguments);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+  EXPECT_LT(outcome.err.size(), 400u);
+}
+
+class BadInput : public testing::Test {
+ protected:
+  std::string good = scratch.write("good.obj", tetrahedron);
+  std::string check_with_good(const std::string& path) { return "check " + good + " " + path; }
+  // A file given as the second frame.
+  void expect_bad_frame(const std::string& name, const std::string& text, const std::string& word) {
+    expect_refused(check_with_good(scratch.write(name, text)), word);
+  }
+  static inline const Scratch scratch;
+};
+
+TEST_F(BadInput, FilesThatCannotBeRead) {
+  expect_refused(check_with_good(scratch / "missing.obj"), "missing.obj");
+  expect_bad_frame("empty.obj", "", "empty");
+  expect_refused("check " + good + " /tmp", "directory");
+  expect_bad_frame("mesh.xyz", tetrahedron, "mesh.xyz");
+  expect_bad_frame("noise.ply", std::string("\x7f\x01\xfe noise \x00 more", 16), "noise.ply");
+  expect_bad_frame("noise.obj.gz", "this is no gzip", "noise.obj.gz");
+}
+
+TEST_F(BadInput, NoPermission) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  const auto path = scratch.write("secret.obj", tetrahedron);
+  std::filesystem::permissions(path, std::filesystem::perms::none);
+  expect_refused(check_with_good(path), "ermission");
+}
+
+TEST_F(BadInput, TruncatedFiles) {
+  ASSERT_EQ(run_assay("scene breathing-sphere --size 80 --frames 2 --out " + (scratch / "sphere"))
+                .exit_code,
+            0);
+  const std::string frame = scratch / "sphere/frame_0000.ply", whole = read_text(frame);
+  const auto cut = scratch.write("cut.ply", whole.substr(0, whole.size() - 20));
+  expect_refused("check " + frame + " " + cut, "cut.ply");
+  ASSERT_EQ(std::system(("gzip -kf " + frame).c_str()), 0);
+  const std::string packed = read_text(frame + ".gz");
+  const auto cut_gz = scratch.write("cut.ply.gz", packed.substr(0, packed.size() / 2));
+  expect_refused("check " + frame + " " + cut_gz, "cut.ply.gz");
+}
+
+TEST_F(BadInput, MeshesThatDoNotFit) {
+  expect_bad_frame("five.obj", std::string(tetrahedron) + "v 9 9 9\n", "vert");
+  std::string other = tetrahedron;
+  other.replace(other.find("f 1 3 2"), 7, "f 1 2 3");
+  expect_bad_frame("other.obj", other, "triangles");
+  expect_refused("check " + good, "one frame only");
+  expect_bad_frame("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\n", "nan.obj");
+  expect_bad_frame("huge.obj", "v 1e999 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\n", "huge.obj");
+  expect_bad_frame("range.obj", std::string(tetrahedron) + "f 1 2 9\n", "range.obj");
+  expect_bad_frame("repeated.obj", std::string(tetrahedron) + "f 1 2 2\n", "repeated.obj");
+  const auto twice = scratch.write("twice.obj", std::string(tetrahedron) + "f 3 1 2\n");
+  expect_refused("check " + twice + " " + twice, "same three vertices");
+}
+
+TEST_F(BadInput, QueryFiles) {
+  std::string row = "0,1,0,1,0,1\n", seven, letters;
+  for (int i = 0; i < 7; ++i) seven += row;
+  for (int i = 0; i < 8; ++i) letters += "a,b,c,d,e,f\n";
+  expect_refused("check-queries " + scratch.write("7ee.csv", seven), "7ee.csv");
+  expect_refused("check-queries " + scratch.write("letters_vf.csv", letters), "letters_vf.csv");
+  expect_refused("check-queries " + scratch.write("unnamed.csv", seven + row), "unnamed.csv");
+  const auto eight = scratch.write("8ee.csv", seven + row);
+  const auto truths = scratch.write("truth.json", "[true,false]");
+  expect_refused("check-queries " + eight + " --truth " + truths, "truth.json");
+  expect_refused("check-queries " + eight + " --truth " + truths + " " + truths, "2 truth files");
+  expect_refused("check-queries " + eight + " --method guess", "guess");
+}
+
+TEST_F(BadInput, CaseFiles) {
+  expect_refused("check " + scratch.write("other.json", "{\"schema\": \"assay-case/2\"}"),
+                 "assay-case");
+  expect_refused("check " + scratch.write("broken.json", "{\"schema\": "), "broken.json");
+}
+
+TEST_F(BadInput, Options) {
+  expect_refused("", "subcommand");
+  expect_refused("frobnicate", "frobnicate");
+  expect_refused("check " + good + " " + good + " --culling fast",
+                 "view-point, view-line, bvh, none");
+  expect_refused("check " + good + " " + good + " --start maybe", "maybe");
+  expect_refused("check " + good + " " + good + " --pairs some", "some");
+  expect_refused("check " + good + " " + good + " --jobs 0", "jobs");
+  expect_refused("check " + good + " " + good + " --time -3", "time");
+  expect_refused("check " + good + " " + good + " --memory lots", "memory");
+  expect_refused("check " + good + " " + good + " --json /nowhere/report.json", "/nowhere");
+  expect_refused("scene nowhere --out " + (scratch / "x"), "breathing-sphere");
+  expect_refused("scene bend", "--out");
+  expect_refused("scene bend --frames 0 --out " + (scratch / "x"), "frames");
+  expect_refused("scene open-tube --mesh " + good + " --out " + (scratch / "x"), "open-tube");
+  expect_refused("list laws", "laws");
+}
+
+}  // namespace
+}  // namespace assay::tests

@@ -1,0 +1,159 @@
+// The verbs on scenes, as a user runs them: output, exit codes, JSON.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/reports/program.h"
+
+namespace assay::tests {
+namespace {
+
+using nlohmann::json;
+
+class Commands : public testing::Test {
+ protected:
+  std::string make_scene(const std::string& name, int size, int frames) {
+    const std::string folder = scratch / name;
+    const auto made = run_assay("scene " + name + " --size " + std::to_string(size) + " --frames " +
+                                std::to_string(frames) + " --out " + folder);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return folder + "/frame_*.ply";
+  }
+  const Scratch scratch;
+};
+
+TEST_F(Commands, L5_BreathingSphereIsFreeAllPositiveWithoutBoxTests) {
+  const auto frames = make_scene("breathing-sphere", 1280, 6);
+  for (const std::string culling : {"view-point", "view-line"}) {
+    const auto outcome = run_assay("check " + frames + " --culling " + culling + " --json " +
+                                   (scratch / "report.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("no collision; detector and oracle agree"), std::string::npos);
+    const auto report = json::parse(read_text(scratch / "report.json"));
+    EXPECT_EQ(report["schema"], "assay-check/1");
+    ASSERT_EQ(report["steps"].size(), 5u);
+    for (const auto& step : report["steps"]) {
+      EXPECT_EQ(step["answer"], "free");
+      EXPECT_EQ(step["first_time"], nullptr);
+      EXPECT_EQ(step["view_positive"], report["triangles"]);
+      EXPECT_EQ(step["box_tests"], 0);
+      EXPECT_EQ(step["diff"]["outcome"], "holds");
+    }
+  }
+}
+
+TEST_F(Commands, EverySceneAgreesAndSaysWhetherItCollides) {
+  const std::vector<std::pair<std::string, bool>> expected = {{"breathing-sphere", false},
+                                                              {"two-spheres", false},
+                                                              {"dented-sphere", true},
+                                                              {"bend", true},
+                                                              {"twist", false},
+                                                              {"open-tube", false},
+                                                              {"pinching-torus", true},
+                                                              {"folding-sheet", true},
+                                                              {"crumpling-sphere", true},
+                                                              {"arm-in-box", false}};
+  for (const auto& [name, collides] : expected) {
+    SCOPED_TRACE(name);
+    const auto outcome = run_assay("check " + make_scene(name, 500, 8) + " --fail-on-collision");
+    EXPECT_EQ(outcome.exit_code, collides ? 5 : 0) << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("detector and oracle agree"), std::string::npos);
+  }
+}
+
+TEST_F(Commands, ReportHoldsTheContactsAndTimes) {
+  const auto frames = make_scene("folding-sheet", 200, 6);
+  const auto outcome = run_assay("check " + frames + " --json " + (scratch / "r.json"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const auto report = json::parse(read_text(scratch / "r.json"));
+  bool collided = false;
+  for (const auto& step : report["steps"]) {
+    if (step["answer"] != "collision") continue;
+    collided = true;
+    EXPECT_EQ(step["pairs"].size(), step["oracle"]["pairs"]);
+    EXPECT_EQ(step["first_time"], step["oracle"]["first_time"]);
+    for (const auto& pair : step["pairs"]) {
+      EXPECT_GE(pair["time"][0], step["first_time"][0]);
+      EXPECT_LT(pair["triangles"][0], pair["triangles"][1]);
+    }
+    for (const char* key :
+         {"view_positive", "view_negative", "view_zero", "violated", "dirty", "box_tests",
+          "candidate_pairs", "elementary_tests", "closure_rounds", "times_ms"}) {
+      EXPECT_TRUE(step.contains(key)) << key;
+    }
+  }
+  EXPECT_TRUE(collided);
+}
+
+TEST_F(Commands, WithoutAnOracleNothingIsJudged) {
+  const auto outcome = run_assay("check " + make_scene("bend", 300, 3) + " --no-oracle");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("not judged"), std::string::npos);
+  EXPECT_EQ(outcome.out.find("agree"), std::string::npos);
+}
+
+TEST_F(Commands, LimitsEndInUndecided) {
+  const auto frames = make_scene("crumpling-sphere", 5000, 3);
+  for (const std::string limit : {"--time 0.000001", "--memory 1KB"}) {
+    const auto outcome =
+        run_assay("check " + frames + " " + limit + " --json " + (scratch / "u.json"));
+    EXPECT_EQ(outcome.exit_code, 3) << limit << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("undecided"), std::string::npos);
+    const auto report = json::parse(read_text(scratch / "u.json"));
+    EXPECT_EQ(report["outcome"], "undecided");
+    EXPECT_TRUE(report["limit_reached"].is_string());
+    EXPECT_EQ(report["steps"].back()["diff"]["partial"], true);
+  }
+}
+
+TEST_F(Commands, ResultDoesNotDependOnJobs) {
+  const auto frames = make_scene("crumpling-sphere", 1000, 4);
+  const auto without_times = [&](const std::string& jobs) {
+    EXPECT_EQ(run_assay("check " + frames + " --jobs " + jobs + " --json " + (scratch / "j.json"))
+                  .exit_code,
+              0);
+    auto report = json::parse(read_text(scratch / "j.json"));
+    report.erase("peak_memory_bytes");
+    for (auto& step : report["steps"]) {
+      step.erase("times_ms");
+      step["oracle"].erase("time_ms");
+    }
+    return report;
+  };
+  EXPECT_EQ(without_times("1"), without_times("3"));
+}
+
+TEST_F(Commands, CaseFilesAreChecked) {
+  const std::string cases = std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/";
+  const auto outcome = run_assay("check " + cases + "B1_one_vertex_own_nearest.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("collision at t = 0.91509"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Commands, SceneFromAMeshAndBack) {
+  const auto frames = make_scene("breathing-sphere", 320, 2);
+  const auto mesh = scratch / "breathing-sphere/frame_0000.ply";
+  const auto made =
+      run_assay("scene bend --mesh " + mesh + " --frames 4 --out " + (scratch / "bent"));
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.out.find("next: assay check"), std::string::npos);
+  EXPECT_EQ(run_assay("check " + (scratch / "bent") + "/frame_*.ply").exit_code, 0);
+}
+
+TEST_F(Commands, VersionNamesTheLibraries) {
+  const auto outcome = run_assay("--version");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* library :
+       {"assay 0.", "CGAL 5", "GMP ", "MPFR ", "MPFI ", "Eigen 3", "Boost 1", "fmt ", "CLI11 "}) {
+    EXPECT_NE(outcome.out.find(library), std::string::npos) << library;
+  }
+}
+
+TEST_F(Commands, ListNamesEveryScene) {
+  const auto outcome = run_assay("list scenes");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("arm-in-box"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace assay::tests

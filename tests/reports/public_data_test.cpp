@@ -1,0 +1,129 @@
+// The public data sets through the program: real meshes and every labelled query. Skipped where
+// ASSAY_DATA names no folder.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/query_csv.h"
+#include "detector/contact/contact_exact.h"
+#include "detector/contact/elementary_test.h"
+#include "oracle/contact.h"
+#include "tests/reports/program.h"
+
+namespace assay::tests {
+namespace {
+
+using nlohmann::json;
+
+class PublicMeshes : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* folder = std::getenv("ASSAY_DATA");
+    if (!folder || !std::filesystem::is_directory(folder)) {
+      GTEST_SKIP() << "no public data: ASSAY_DATA is " << (folder ? folder : "not set");
+    }
+    data = folder;
+  }
+  json check(const std::string& arguments) {
+    const auto outcome =
+        run_assay("check " + arguments + " --time 280 --memory 6GB --json " + (scratch / "r.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("detector and oracle agree"), std::string::npos);
+    return json::parse(read_text(scratch / "r.json"));
+  }
+  std::string data;
+  const Scratch scratch;
+};
+
+TEST_F(PublicMeshes, RodTwist) {
+  const std::string frames = data + "/scalable-ccd/rod-twist/frames/3036.ply " + data +
+                             "/scalable-ccd/rod-twist/frames/3037.ply";
+  for (const std::string culling : {"view-point", "view-line", "bvh"}) {
+    const auto report = check(frames + " --culling " + culling);
+    ASSERT_EQ(report["steps"].size(), 1u);
+    EXPECT_EQ(report["steps"][0]["pairs"].size(), 13145u) << culling;
+  }
+}
+
+TEST_F(PublicMeshes, ClothedDancer) {
+  const auto report = check(data + "/codim-ipc-kick/shell*.obj.gz");
+  EXPECT_EQ(report["steps"].size(), 6u);
+  EXPECT_EQ(report["components"], 8);
+}
+
+TEST_F(PublicMeshes, ThickCloth) {
+  check(data + "/ipc-toolkit/thick-cloth/t0.ply " + data + "/ipc-toolkit/thick-cloth/t1.ply");
+}
+
+TEST_F(PublicMeshes, TwoCubes) {
+  const std::string cubes = data + "/ipc-toolkit/two-cubes-";
+  check(cubes + "close.ply " + cubes + "intersecting.ply");
+  check(cubes + "intersecting.ply " + cubes + "intersecting.ply");
+}
+
+TEST_F(PublicMeshes, BentBunny) {
+  const auto made = run_assay("scene bend --mesh " + data +
+                              "/ipc-toolkit/bunny.ply --frames 6 --out " + (scratch / "bunny"));
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  for (const std::string culling : {"view-point", "view-line"}) {
+    check((scratch / "bunny") + "/frame_*.ply --culling " + culling);
+  }
+}
+
+class PublicQueries : public PublicMeshes {};
+
+TEST_F(PublicQueries, NoDifferenceFromTheTruth) {
+  for (const std::string method : {"oracle", "detector-exact"}) {
+    const std::string json_file = scratch / "q.json";
+    const auto outcome = run_assay("check-queries --method " + method + " " + data +
+                                   "/sample-queries/*/*/*.csv --json " + json_file);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    EXPECT_EQ(json::parse(read_text(json_file))["count"], 2324);
+    EXPECT_EQ(json::parse(read_text(json_file))["differences"].size(), 0u) << outcome.out;
+    const std::string rods = data + "/scalable-ccd/rod-twist/";
+    const auto simulation =
+        run_assay("check-queries --method " + method + " " + rods + "queries/3036ee.csv " + rods +
+                  "queries/3036vf.csv --truth " + rods + "mma_bool/3036ee_mma_bool.json " + rods +
+                  "mma_bool/3036vf_mma_bool.json --json " + json_file);
+    EXPECT_EQ(simulation.exit_code, 0) << simulation.out << simulation.err;
+    const auto report = json::parse(read_text(json_file));
+    EXPECT_EQ(report["count"], 5171);
+    EXPECT_EQ(report["unlabelled"], 0);
+    EXPECT_EQ(report["differences"].size(), 0u) << simulation.out;
+  }
+}
+
+// Labels of queries that are coplanar for the whole step were never checked by their makers. Both
+// exact methods settle each of them, and confirm every label.
+TEST_F(PublicQueries, CoplanarThroughoutAreSettled) {
+  int coplanar = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(data + "/sample-queries")) {
+    if (entry.path().extension() != ".csv") continue;
+    const auto queries = corpus::read_queries(entry.path());
+    ASSERT_TRUE(queries.has_value()) << queries.error().message;
+    for (std::size_t i = 0; i < queries.value().size(); ++i) {
+      const auto& q = queries.value()[i];
+      const auto points =
+          std::visit([](const auto& query) { return detector::four_points(query); }, q.query);
+      if (!detector::coplanar_throughout(points)) continue;
+      ++coplanar;
+      const auto ours = detector::exact_first_contact(points);
+      const auto judged = std::holds_alternative<detector::VertexFace>(q.query)
+                              ? oracle::vertex_face_contact(std::get<detector::VertexFace>(q.query),
+                                                            detector::Want::first_time)
+                              : oracle::edge_edge_contact(std::get<detector::EdgeEdge>(q.query),
+                                                          detector::Want::first_time);
+      EXPECT_EQ(ours.has_value(), judged.contact) << entry.path() << " query " << i;
+      if (ours && judged.contact) {
+        EXPECT_EQ(*ours, judged.first) << entry.path() << " query " << i;
+      }
+      EXPECT_EQ(q.truth, judged.contact) << entry.path() << " query " << i;
+    }
+  }
+  std::printf("%d queries are coplanar throughout\n", coplanar);
+  EXPECT_EQ(coplanar, 33);
+}
+
+}  // namespace
+}  // namespace assay::tests
