@@ -24,6 +24,18 @@ CLI::Validator one_of(const std::string& words, Parse parse) {
       words);
 }
 
+// CLI11's own validator of positive numbers prints the whole range of double.
+CLI::Validator positive() {
+  return CLI::Validator(
+      [](const std::string& word) {
+        double value = 0;
+        const bool is_number = CLI::detail::lexical_cast(word, value);
+        return is_number && value > 0 ? std::string()
+                                      : fmt::format("'{}' is not a number above 0", word);
+      },
+      "NUMBER > 0");
+}
+
 template <class T, class Parse>
 void add_choice(CLI::App* verb, const std::string& flag, std::optional<T>& target,
                 const std::string& words, Parse parse, const std::string& about) {
@@ -52,7 +64,7 @@ void add_check(CLI::App& app, reports::CheckRequest& request) {
   verb->add_flag("!--no-oracle", request.use_oracle, "Detector only; prints `not judged`");
   add_jobs(verb, request.jobs);
   verb->add_option("--time", request.time_limit, "Limit in seconds; what is left is undecided")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   verb->add_option_function<std::uint64_t>(
           "--memory", [&request](const std::uint64_t& bytes) { request.memory_limit = bytes; },
           "Limit of resident memory, such as 6GB or 512MB")
@@ -83,8 +95,8 @@ void add_scene(CLI::App& app, reports::SceneRequest& request) {
   auto* verb = app.add_subcommand("scene", "Write the frames of a kinematic scene");
   verb->add_option("name", request.name, "One of `assay list scenes`")->required();
   verb->add_option("--mesh", request.mesh_file, "Deform this mesh instead of the scene's own");
-  verb->add_option("--size", request.size, "Triangles wanted")->check(CLI::PositiveNumber);
-  verb->add_option("--frames", request.frames, "Frames")->check(CLI::PositiveNumber);
+  verb->add_option("--size", request.size, "Triangles wanted")->check(positive());
+  verb->add_option("--frames", request.frames, "Frames")->check(positive());
   verb->add_option("--out", request.out, "Folder for frame_0000.ply, ...")->required();
 }
 
@@ -115,7 +127,14 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {
     return app.exit(asked);
   } catch (const CLI::ParseError& wrong) {
-    fmt::print(stderr, "assay: {} (assay --help lists verbs and options)\n", wrong.what());
+    const std::string first = argc > 1 ? argv[1] : "";
+    const auto verbs =
+        app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; });
+    const bool is_verb = !verbs.empty();
+    fmt::print(stderr, "assay: {} (assay --help lists verbs and options)\n",
+               first.empty() || first[0] == '-' || is_verb
+                   ? std::string(wrong.what())
+                   : fmt::format("unknown verb '{}'", first));
     return exit_usage;
   }
   if (app.got_subcommand("check")) return reports::run_check(check);

@@ -59,7 +59,7 @@ build_preset() {
   log=build/$preset.log
   mkdir -p build
   echo "building build/$preset (log: $log)"
-  if ! cmake --preset "$preset" -G Ninja >"$log" 2>&1 ||
+  if ! cmake --preset "$preset" >"$log" 2>&1 ||
     ! cmake --build "build/$preset" --target "$@" >>"$log" 2>&1; then
     grep -E 'error|Error|FAILED' "$log" | head -n 20 >&2
     echo "the build failed; see $log" >&2

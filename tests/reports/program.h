@@ -46,10 +46,11 @@ struct Outcome {
   std::string out, err;
 };
 
-inline Outcome run_assay(const std::string& arguments) {
+// `prefix`: a command that runs the program, such as one that gives up rights.
+inline Outcome run_assay(const std::string& arguments, const std::string& prefix = "") {
   const Scratch scratch;
-  const std::string command = std::string(ASSAY_PROGRAM) + " " + arguments + " >" +
-                              (scratch / "out") + " 2>" + (scratch / "err") + " </dev/null";
+  const std::string command = prefix + ASSAY_PROGRAM + " " + arguments + " >" + (scratch / "out") +
+                              " 2>" + (scratch / "err") + " </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(scratch / "out"),
           read_text(scratch / "err")};

@@ -1,0 +1,164 @@
+// The house keeps its own rules: arrows between rooms, no arithmetic shared by oracle and detector,
+// CGAL out of all headers and only its LGPL part, the fixed top level.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace assay::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = ASSAY_SOURCE_DIR;
+
+std::vector<fs::path> sources(const std::string& room) {
+  std::vector<fs::path> out;
+  for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+    const auto extension = entry.path().extension();
+    if (extension == ".h" || extension == ".cpp") out.push_back(entry.path());
+  }
+  EXPECT_FALSE(out.empty()) << room;
+  return out;
+}
+
+std::vector<std::string> includes(const fs::path& file) {
+  static const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<std::string> out;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, include)) out.push_back(match[1]);
+  }
+  return out;
+}
+
+std::string room_of(const std::string& include) { return include.substr(0, include.find('/')); }
+
+TEST(House, ArrowsGoOneWay) {
+  const std::map<std::string, std::set<std::string>> allowed = {
+      {"detector", {"detector"}},
+      {"oracle", {"oracle", "detector"}},
+      {"corpus", {"corpus", "detector"}},
+      {"properties", {"properties", "corpus", "oracle", "detector"}},
+      {"reports", {"reports", "properties", "corpus", "oracle", "detector"}}};
+  const std::set<std::string> rooms = {"detector",   "oracle",  "corpus",
+                                       "properties", "reports", "tests"};
+  for (const auto& [room, may_use] : allowed) {
+    for (const auto& file : sources(room)) {
+      for (const auto& include : includes(file)) {
+        if (!rooms.count(room_of(include))) continue;
+        EXPECT_TRUE(may_use.count(room_of(include))) << file << " includes " << include;
+      }
+    }
+  }
+}
+
+TEST(House, OracleAndDetectorShareOnlyPlainTypes) {
+  const std::set<std::string> plain = {"detector/mesh/types.h", "detector/mesh/step_types.h"};
+  for (const auto& file : sources("oracle")) {
+    for (const auto& include : includes(file)) {
+      if (room_of(include) == "detector") {
+        EXPECT_TRUE(plain.count(include)) << file << " includes " << include;
+      }
+    }
+  }
+}
+
+TEST(House, DetectorNeedsOnlyEigenAndBoost) {
+  const std::regex foreign("^(CGAL|gmp|mpf|nlohmann|fmt|CLI|zlib|gtest|tbb)");
+  for (const auto& file : sources("detector")) {
+    for (const auto& include : includes(file)) {
+      EXPECT_FALSE(std::regex_search(include, foreign)) << file << " includes " << include;
+    }
+  }
+}
+
+TEST(House, CgalStaysOutOfHeadersAndInFewFiles) {
+  std::set<std::string> users;
+  for (const auto* room : {"detector", "oracle", "corpus", "properties", "reports"}) {
+    for (const auto& file : sources(room)) {
+      for (const auto& include : includes(file)) {
+        if (room_of(include) != "CGAL") continue;
+        EXPECT_EQ(file.extension(), ".cpp") << file << " includes " << include;
+        users.insert(file.filename().string());
+      }
+    }
+  }
+  EXPECT_LE(users.size(), 4u);
+}
+
+// Headers of CGAL that the compiler read for the oracle, from the dependencies that Ninja keeps.
+std::set<std::string> cgal_headers_read() {
+  std::set<std::string> headers;
+  FILE* deps = popen("ninja -C " ASSAY_BINARY_DIR " -t deps 2>/dev/null", "r");
+  if (!deps) return headers;
+  char line[4096];
+  while (fgets(line, sizeof line, deps)) {
+    std::string path = line;
+    path.erase(path.find_last_not_of(" \n") + 1);
+    path.erase(0, path.find_first_not_of(' '));
+    if (path.find("/CGAL/") != std::string::npos) headers.insert(path);
+  }
+  pclose(deps);
+  return headers;
+}
+
+TEST(House, OnlyLgplHeadersOfCgal) {
+  const auto headers = cgal_headers_read();
+  ASSERT_GT(headers.size(), 100u) << "no dependency output in " << ASSAY_BINARY_DIR;
+  std::size_t without_licence_line = 0;
+  for (const auto& header : headers) {
+    std::ifstream in(header);
+    std::string line, licence;
+    while (licence.empty() && std::getline(in, line)) {
+      if (line.find("SPDX-License-Identifier") != std::string::npos) licence = line;
+    }
+    // Two headers of CGAL 5.5 come from elsewhere and carry their licence in prose.
+    without_licence_line += licence.empty() ? 1 : 0;
+    const bool permissive = licence.find("LGPL") != std::string::npos ||
+                            licence.find("BSL") != std::string::npos ||
+                            licence.find("MIT") != std::string::npos;
+    EXPECT_TRUE(permissive || licence.empty()) << header << ": " << licence;
+    if (licence.empty()) std::printf("no licence line: %s\n", header.c_str());
+  }
+  EXPECT_LE(without_licence_line, 2u);
+  std::printf("%zu headers of CGAL read, none GPL\n", headers.size());
+}
+
+TEST(House, TopLevelIsFixed) {
+  const std::set<std::string> fixed = {
+      "CMakeLists.txt", "CMakePresets.json", "detector",  "oracle",  "properties",  "corpus",
+      "tests",          "reports",           "README.md", "LICENSE", "THIRD_PARTY", "build"};
+  for (const auto& entry : fs::directory_iterator(root)) {
+    const auto name = entry.path().filename().string();
+    EXPECT_TRUE(name[0] == '.' || fixed.count(name)) << name;
+  }
+}
+
+TEST(House, NoFastMathAndNoFusedArithmetic) {
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    if (entry.path().string().find("/build/") != std::string::npos) continue;
+    if (entry.path().filename() != "CMakeLists.txt" &&
+        entry.path().filename() != "CMakePresets.json")
+      continue;
+    std::ifstream in(entry.path());
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    EXPECT_EQ(text.find("-ffast-math"), std::string::npos) << entry.path();
+    EXPECT_EQ(text.find("NDEBUG "), std::string::npos) << entry.path();
+  }
+}
+
+TEST(House, EveryRoomHasAReadme) {
+  for (const auto* room : {"detector", "oracle", "corpus", "properties", "reports", "tests"}) {
+    EXPECT_TRUE(fs::exists(root / room / "README.md")) << room;
+  }
+}
+
+}  // namespace
+}  // namespace assay::tests
