@@ -6,69 +6,19 @@
 // At a root of F: one L_k,i > 0 and another < 0 for some axis k -> no contact; all of one sign, not
 // all zero, for some axis -> contact.
 //
-// Error bounds, to first order in u = 2^-53 (second-order terms are below the slack of one or two
-// u in the constants):
-//   entries     |fl(x) - x| <= u M, for x = u_jk
-//   minors      x y - z w: two products, each off by 2u M M (entries) + u M M (rounding), and the
-//               difference, at most 2 M M, rounded: 8u M M
-//   middle      (minor + minor) / 2, sum at most 4 M M rounded: 8u + 2u = 10u M M
+// Error bounds (bernstein.h has the steps), all M alike, u = 2^-53:
+//   lam_1..3    10u M M (cross)
 //   lam_0       three of those: 30u, sums at most 4 and 6 M M rounded: 10u; 40u M M
-//   u . n       each of 3 terms: M 10u M M + 2 M M u M (entry) + 2u M M M (rounding) = 14u;
-//               sums at most 4 and 6: 10u; 52u MxMyMz
-//   (2x + y)/3  52u, the sum at most 18 rounded: 6u, the quotient at most 6 rounded: 6u; 64u
-//   halving     (x + y) / 2 rounded: u max|coefficient|, at most 6u (cubic) and 6u (lam_0); the
-//               older error is averaged, not added; three levels for a cubic: 18u, two for a
-//               quadratic: 12u
+//   F           22u S with S = 3 MxMyMz: 66u MxMyMz
+//   halving     coefficients of F are at most 6 MxMyMz, those of lam_0 6 M M: 18u and 12u a level
 #include "detector/contact/contact_filter.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "detector/bernstein/bernstein.h"
 
 namespace assay::detector {
 namespace {
-
-using Vector = std::array<double, 3>;
-using Cubic = std::array<double, 4>;
-using Quadratic = std::array<double, 3>;
-
-double dot(const Vector& x, const Vector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
-
-Vector cross(const Vector& x, const Vector& y) {
-  return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-}
-
-struct MovingVector {
-  Vector t0, t1;
-};
-
-// Bernstein coefficients of the cross product of two linear vectors.
-struct CrossQuadratic {
-  Vector b0, b1, b2;
-};
-
-CrossQuadratic cross(const MovingVector& x, const MovingVector& y) {
-  const Vector mixed_a = cross(x.t0, y.t1), mixed_b = cross(x.t1, y.t0);
-  return {
-      cross(x.t0, y.t0),
-      {(mixed_a[0] + mixed_b[0]) / 2, (mixed_a[1] + mixed_b[1]) / 2, (mixed_a[2] + mixed_b[2]) / 2},
-      cross(x.t1, y.t1)};
-}
-
-Cubic triple_product(const MovingVector& x, const CrossQuadratic& n) {
-  return {dot(x.t0, n.b0), (2 * dot(x.t0, n.b1) + dot(x.t1, n.b0)) / 3,
-          (dot(x.t0, n.b2) + 2 * dot(x.t1, n.b1)) / 3, dot(x.t1, n.b2)};
-}
-
-template <std::size_t n>
-void halve(const std::array<double, n>& b, std::array<double, n>& left,
-           std::array<double, n>& right) {
-  std::array<double, n> row = b;
-  for (std::size_t level = 0; level < n; ++level) {
-    left[level] = row[0];
-    right[n - 1 - level] = row[n - 1 - level];
-    for (std::size_t i = 0; i + 1 + level < n; ++i) row[i] = (row[i] + row[i + 1]) / 2;
-  }
-}
 
 // 1 or -1 when all coefficients are beyond the bound on that side, else 0.
 template <std::size_t n>
@@ -83,18 +33,13 @@ class Filter {
  public:
   explicit Filter(const FourPoints& query) : query_(query) {
     for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        u_[j].t0[k] = query.points[j + 1].t0[k] - query.points[0].t0[k];
-        u_[j].t1[k] = query.points[j + 1].t1[k] - query.points[0].t1[k];
-        magnitude_[k] = std::max({magnitude_[k], std::abs(u_[j].t0[k]), std::abs(u_[j].t1[k])});
-      }
+      u_[j] = difference(query.points[j + 1], query.points[0]);
+      grow(magnitude_, u_[j]);
     }
   }
 
   FilterResult run() {
-    for (const double m : magnitude_) {
-      if (m != 0 && !(m > least_magnitude && m < greatest_magnitude)) return {};
-    }
+    if (!in_range(magnitude_)) return {};
     const CrossQuadratic n = cross(u_[1], u_[2]);
     const Cubic f = triple_product(u_[0], n);
     f_scale_ = magnitude_[0] * magnitude_[1] * magnitude_[2];

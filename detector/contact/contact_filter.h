@@ -2,6 +2,7 @@
 // Neither ever decides wrongly; what they cannot tell is `unsure`. No allocation.
 #pragma once
 
+#include "detector/bernstein/bernstein.h"
 #include "detector/contact/four_points.h"
 
 namespace assay::detector {
@@ -24,18 +25,12 @@ struct FilterResult {
 // Rung 1. Bernstein coefficients over pieces of [0,1] in time order. 0.1 to 1.5 us.
 FilterResult filter_contact(const FourPoints& query);
 
-// Derived in contact_filter.cpp; u = 2^-53, M_k = largest |coordinate k of x_j(0) - x_0(0),
-// x_j(1) - x_0(1)|. After `depth` halvings a computed coefficient of the cubic is off by less than
-// cubic_error(depth) * MxMyMz, one of a barycentric quadratic by quadratic_error(depth) * MpMq.
-inline constexpr double unit_roundoff = 0x1p-53;
+// Derived in contact_filter.cpp; M_k = largest |coordinate k of x_j(0) - x_0(0), x_j(1) - x_0(1)|,
+// all 0 or within least_magnitude and greatest_magnitude (else the query is `unsure`). After
+// `depth` halvings a computed coefficient of the cubic is off by less than cubic_error(depth) *
+// MxMyMz, one of a barycentric quadratic by less than quadratic_error(depth) * MpMq.
 inline constexpr int max_filter_depth = 4;
-constexpr double cubic_error(int depth) { return (66 + 18 * depth) * unit_roundoff; }
+constexpr double cubic_error(int depth) { return (67 + 18 * depth) * unit_roundoff; }
 constexpr double quadratic_error(int depth) { return (41 + 12 * depth) * unit_roundoff; }
-
-// The bounds hold for M_k = 0 and for M_k in this open range: products neither overflow nor lose
-// more to underflow than the bounds allow (an underflow costs at most 2^-1074 an operation, the
-// least bound is 2^-53 * 2^-900).
-inline constexpr double least_magnitude = 0x1p-300;
-inline constexpr double greatest_magnitude = 0x1p300;
 
 }  // namespace assay::detector

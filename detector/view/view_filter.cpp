@@ -8,66 +8,21 @@
 // coefficients, bounds each vertex's s likewise, and bounds the value from these; pieces that stay
 // open are halved. Moving ends need no other treatment.
 //
-// Error bounds, first order in u = 2^-53; E_k, W_k, D_k bound coordinate k of the edges p1-p0,
-// p2-p0, of p0-q, and of d, over both ends of the step:
-//   N          minor: 8u EE; middle coefficient: 10u EE (see contact_filter.cpp)
-//   w . N      each term 14u W E E, partial sums at most 2 S, twice, rounded: 18u S,
-//              S = W_x E_y E_z + W_y E_z E_x + W_z E_x E_y
-//   (2x+y)/3   18u S; the sum at most 6 S rounded: 2u; the quotient at most 2 S rounded: 2u; 22u S
-//   halving    three levels of averages of values at most 2 S: 6u S
-//   (p-q0).d   each term 3u W D, two sums: 5u G, middle coefficient 6u G, halving 2u G,
-//              G = sum of W_k D_k with W over all three vertices; d.d likewise with W = D
+// Error bounds (bernstein.h has the steps), u = 2^-53; E_k, W_k, D_k bound coordinate k of the
+// edges p1-p0, p2-p0, of p-q, and of d, over both ends of the step:
+//   h0, h1      22u S, S = W_x E_y E_z + W_y E_z E_x + W_z E_x E_y; coefficients are at most 2 S,
+//   so
+//               halving adds 6u S a level
+//   (p-q0).d    6u G, G = sum of W_k D_k; coefficients at most G: halving adds 2u G; d.d likewise
 #include "detector/view/view_filter.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "detector/contact/contact_filter.h"
+#include "detector/bernstein/bernstein.h"
 
 namespace assay::detector {
 namespace {
-
-using Vector = std::array<double, 3>;
-using Cubic = std::array<double, 4>;
-using Quadratic = std::array<double, 3>;
-
-struct MovingVector {
-  Vector t0, t1;
-};
-
-MovingVector difference(const MovingPoint& p, const MovingPoint& q) {
-  return {{p.t0[0] - q.t0[0], p.t0[1] - q.t0[1], p.t0[2] - q.t0[2]},
-          {p.t1[0] - q.t1[0], p.t1[1] - q.t1[1], p.t1[2] - q.t1[2]}};
-}
-
-double dot(const Vector& x, const Vector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
-
-Vector cross(const Vector& x, const Vector& y) {
-  return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-}
-
-void grow(Vector& magnitude, const MovingVector& v) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    magnitude[k] = std::max({magnitude[k], std::abs(v.t0[k]), std::abs(v.t1[k])});
-  }
-}
-
-bool in_range(const Vector& magnitude) {
-  return std::all_of(magnitude.begin(), magnitude.end(), [](double m) {
-    return m == 0 || (m > least_magnitude && m < greatest_magnitude);
-  });
-}
-
-template <std::size_t n>
-void halve(const std::array<double, n>& b, std::array<double, n>& left,
-           std::array<double, n>& right) {
-  std::array<double, n> row = b;
-  for (std::size_t level = 0; level < n; ++level) {
-    left[level] = row[0];
-    right[n - 1 - level] = row[n - 1 - level];
-    for (std::size_t i = 0; i + 1 + level < n; ++i) row[i] = (row[i] + row[i + 1]) / 2;
-  }
-}
 
 struct Range {
   double lo, hi;
@@ -110,7 +65,7 @@ class ViewFilter {
     Vector edge = {0, 0, 0};
     grow(edge, e1);
     grow(edge, e2);
-    make_normal(e1, e2);
+    normal_ = cross(e1, e2);
     usable_ =
         in_range(edge) && make_cubic(difference(triangle[0], primitive.q0), edge, h0_, scale0_);
     if (is_point_ || !usable_) return;
@@ -134,19 +89,11 @@ class ViewFilter {
     Quadratic length2;               // d.d
   };
 
-  void make_normal(const MovingVector& e1, const MovingVector& e2) {
-    const Vector a = cross(e1.t0, e2.t1), b = cross(e1.t1, e2.t0);
-    n0_ = cross(e1.t0, e2.t0);
-    n1_ = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
-    n2_ = cross(e1.t1, e2.t1);
-  }
-
   bool make_cubic(const MovingVector& w, const Vector& edge, Cubic& h, double& scale) {
     Vector reach = {0, 0, 0};
     grow(reach, w);
     if (!in_range(reach)) return false;
-    h = {dot(w.t0, n0_), (2 * dot(w.t0, n1_) + dot(w.t1, n0_)) / 3,
-         (dot(w.t0, n2_) + 2 * dot(w.t1, n1_)) / 3, dot(w.t1, n2_)};
+    h = triple_product(w, normal_);
     scale =
         reach[0] * edge[1] * edge[2] + reach[1] * edge[2] * edge[0] + reach[2] * edge[0] * edge[1];
     return true;
@@ -156,19 +103,15 @@ class ViewFilter {
     const MovingVector d = difference(primitive.q1, primitive.q0);
     Vector reach = {0, 0, 0}, line = {0, 0, 0};
     grow(line, d);
-    length2_ = product(d, d);
+    length2_ = dot(d, d);
     for (std::size_t i = 0; i < 3; ++i) {
       const MovingVector w = difference(triangle[i], primitive.q0);
       grow(reach, w);
-      along_[i] = product(w, d);
+      along_[i] = dot(w, d);
     }
     along_scale_ = dot(reach, line);
     length2_scale_ = dot(line, line);
     return in_range(reach) && in_range(line);
-  }
-
-  static Quadratic product(const MovingVector& x, const MovingVector& y) {
-    return {dot(x.t0, y.t0), (dot(x.t0, y.t1) + dot(x.t1, y.t0)) / 2, dot(x.t1, y.t1)};
   }
 
   // Marks what is sure of the piece; true: two signs were seen, nothing more to learn.
@@ -236,7 +179,7 @@ class ViewFilter {
   }
 
   bool is_point_, usable_ = false;
-  Vector n0_, n1_, n2_;
+  CrossQuadratic normal_{};
   Cubic h0_{}, h1_{};
   std::array<Quadratic, 3> along_{};
   Quadratic length2_{};
