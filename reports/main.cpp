@@ -100,6 +100,20 @@ void add_scene(CLI::App& app, reports::SceneRequest& request) {
   verb->add_option("--out", request.out, "Folder for frame_0000.ply, ...")->required();
 }
 
+void add_self_test(CLI::App& app, reports::SelfTestRequest& request) {
+  auto* verb = app.add_subcommand("self-test",
+                                  "The oracle against every other method on elementary queries");
+  verb->add_option("--seed", request.seed, "Of all random queries")->capture_default_str();
+  verb->add_option("--queries", request.queries,
+                   "Random small-integer queries; the other families follow this number")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+      ->capture_default_str();
+  verb->add_option("--time", request.time_limit, "Limit in seconds; what is left is undecided")
+      ->check(positive());
+  add_jobs(verb, request.jobs);
+  verb->add_option("--replay", request.replay, "One case again, by its name family:seed:index");
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Assay certifies continuous self-collision detectors for deforming triangle meshes.");
@@ -110,11 +124,14 @@ int run(int argc, char** argv) {
   reports::CheckQueriesRequest queries;
   reports::SceneRequest scene;
   reports::CertifyRequest certify;
+  reports::SelfTestRequest self_test;
   std::string listed = "scenes";
-  check.jobs = certify.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  check.jobs = certify.jobs = self_test.jobs =
+      static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   add_check(app, check);
   add_check_queries(app, queries);
   add_scene(app, scene);
+  add_self_test(app, self_test);
   auto* list = app.add_subcommand("list", "List what is shipped: scenes");
   list->add_option("what", listed, "scenes")->check(CLI::IsMember({"scenes"}));
   auto* certify_verb =
@@ -141,6 +158,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("check-queries")) return reports::run_check_queries(queries);
   if (app.got_subcommand("scene")) return reports::run_scene(scene);
   if (app.got_subcommand("certify")) return reports::run_certify(certify);
+  if (app.got_subcommand("self-test")) return reports::run_self_test(self_test);
   return reports::run_list_scenes();
 }
 
