@@ -40,6 +40,10 @@ Problem open_problem(const std::filesystem::path& path, int error) {
 Expected<std::string> read_raw(const std::filesystem::path& path, std::size_t limit) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return open_problem(path, EISDIR);
+  // A pipe or a device may never end.
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
+    return problem_in(FileProblem::cannot_open, path, "is not a regular file");
+  }
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) return open_problem(path, errno);
   std::string bytes;

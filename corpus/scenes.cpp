@@ -181,7 +181,17 @@ std::span<const SceneInfo> scenes() { return infos; }
 
 Expected<Sequence> make_scene(std::string_view name, const SceneOptions& options) try {
   for (std::size_t i = 0; i < infos.size(); ++i) {
-    if (infos[i].name == name) return make(i, options);
+    if (infos[i].name != name) continue;
+    // All frames are held at once; a closed mesh has half as many vertices as triangles.
+    const double vertices = options.mesh ? static_cast<double>(options.mesh->positions.rows())
+                                         : 0.5 * std::max(options.size, infos[i].default_size);
+    const double frames = options.frames > 0 ? options.frames : infos[i].default_frames;
+    constexpr double bytes_a_vertex = 24, most_bytes = 8e9;
+    if (vertices * frames * bytes_a_vertex > most_bytes) {
+      return wrong_option(name, fmt::format("{:.0f} vertices in {:.0f} frames are more than 8 GB",
+                                            vertices, frames));
+    }
+    return make(i, options);
   }
   return unknown_scene(name);
 } catch (const std::bad_alloc&) {

@@ -57,15 +57,8 @@ std::string time_text(const detector::TimeEnclosure& t) {
 class CaseChecker {
  public:
   CaseChecker(const corpus::Case& c, std::optional<Culling> culling, int jobs)
-      : case_(c), jobs_(jobs) {
-    const auto word = [&](const char* name) -> std::string_view {
-      const auto found = c.options.find(name);
-      return found == c.options.end() ? std::string_view{} : found->second;
-    };
-    options_.culling =
-        culling ? *culling : culling_named(word("culling")).value_or(Culling::view_point);
-    options_.start = start_named(word("start")).value_or(detector::Start::verified);
-    options_.pairs = pairs_named(word("pairs")).value_or(detector::Pairs::all);
+      : case_(c), jobs_(jobs), options_(options_of(c)) {
+    if (culling) options_.culling = *culling;
   }
 
   CaseReport run() {
@@ -187,6 +180,26 @@ class CaseChecker {
 };
 
 }  // namespace
+
+detector::Options options_of(const corpus::Case& c) {
+  detector::Options options;
+  for (const auto& [name, word] : c.options) {
+    if (name == "culling") options.culling = culling_named(word).value_or(options.culling);
+    if (name == "start") options.start = start_named(word).value_or(options.start);
+    if (name == "pairs") options.pairs = pairs_named(word).value_or(options.pairs);
+  }
+  return options;
+}
+
+std::optional<std::string> wrong_option(const corpus::Case& c) {
+  for (const auto& [name, word] : c.options) {
+    const bool known = (name == "culling" && culling_named(word)) ||
+                       (name == "start" && start_named(word)) ||
+                       (name == "pairs" && pairs_named(word));
+    if (!known) return fmt::format("option {} = '{}' is not known", name, word);
+  }
+  return std::nullopt;
+}
 
 CaseReport check_case(const corpus::Case& c, std::optional<Culling> culling, int jobs) {
   return CaseChecker(c, culling, jobs).run();

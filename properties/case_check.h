@@ -28,6 +28,13 @@ struct CaseReport {
 CaseReport check_case(const corpus::Case& c, std::optional<detector::Culling> culling = {},
                       int jobs = 1);
 
+// What is wrong with a case's options (an unknown name or word), as one line; nothing when they are
+// understood.
+std::optional<std::string> wrong_option(const corpus::Case& c);
+
+// Options of a case that wrong_option accepts.
+detector::Options options_of(const corpus::Case& c);
+
 // Command-line words for options: nothing for an unknown word.
 std::optional<detector::Culling> culling_named(std::string_view word);
 std::optional<detector::Start> start_named(std::string_view word);

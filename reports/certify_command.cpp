@@ -12,7 +12,7 @@
 #include "detector/detector.h"
 #include "properties/case_check.h"
 #include "reports/commands.h"
-#include "reports/exit_code.h"
+#include "reports/complaint.h"
 #include "reports/json_output.h"
 
 namespace assay::reports {
@@ -109,6 +109,10 @@ corpus::Expected<Row> run_scene_row(std::string_view name, Culling culling, int 
   return row;
 }
 
+bool uses_views(Culling culling) {
+  return culling == Culling::view_point || culling == Culling::view_line;
+}
+
 void print_header() {
   fmt::print("{:<18} {:<11} {:>6} {:>6} {:>11} {:>7} {:>6} {:>12} {:>10} {:>8}\n", "input",
              "culling", "cases", "steps", "collisions", "pairs", "V+ %", "detector ms", "oracle ms",
@@ -116,11 +120,10 @@ void print_header() {
 }
 
 void print(const Row& row) {
-  const bool views = row.culling == Culling::view_point || row.culling == Culling::view_line;
   fmt::print("{:<18} {:<11} {:>6} {:>6} {:>11} {:>7} {:>6} {:>12.1f} {:>10.1f} {:>8}\n", row.what,
              properties::name_of(row.culling), row.cases, row.steps, row.collisions, row.pairs,
-             views ? fmt::format("{:.0f}", 100 * row.view_positive_share) : "-", row.detector_ms,
-             row.oracle_ms, row.defects);
+             uses_views(row.culling) ? fmt::format("{:.0f}", 100 * row.view_positive_share) : "-",
+             row.detector_ms, row.oracle_ms, row.defects);
   for (const auto& line : row.failed) fmt::print("  {}\n", line);
   std::fflush(stdout);
 }
@@ -128,17 +131,19 @@ void print(const Row& row) {
 nlohmann::ordered_json json_of(const std::vector<Row>& rows, std::size_t defects) {
   nlohmann::ordered_json table = nlohmann::ordered_json::array();
   for (const auto& row : rows) {
-    table.push_back({{"input", row.what},
-                     {"culling", properties::name_of(row.culling)},
-                     {"cases", row.cases},
-                     {"steps", row.steps},
-                     {"collisions", row.collisions},
-                     {"pairs", row.pairs},
-                     {"view_positive_share", row.view_positive_share},
-                     {"detector_ms", row.detector_ms},
-                     {"oracle_ms", row.oracle_ms},
-                     {"defects", row.defects},
-                     {"failed", row.failed}});
+    table.push_back(
+        {{"input", row.what},
+         {"culling", properties::name_of(row.culling)},
+         {"cases", row.cases},
+         {"steps", row.steps},
+         {"collisions", row.collisions},
+         {"pairs", row.pairs},
+         {"view_positive_share",
+          uses_views(row.culling) ? nlohmann::ordered_json(row.view_positive_share) : nullptr},
+         {"detector_ms", row.detector_ms},
+         {"oracle_ms", row.oracle_ms},
+         {"defects", row.defects},
+         {"failed", row.failed}});
   }
   return {{"schema", "assay-certify/1"}, {"version", version_text()},
           {"verdict", "incomplete"},     {"why", "no random campaign was run"},
@@ -148,10 +153,6 @@ nlohmann::ordered_json json_of(const std::vector<Row>& rows, std::size_t defects
 }  // namespace
 
 int run_certify(const CertifyRequest& request) {
-  const auto refuse = [](const std::string& message) {
-    fmt::print(stderr, "assay: {}\n", message);
-    return exit_usage;
-  };
   std::error_code error;
   std::filesystem::create_directories(request.out, error);
   if (error) return refuse(fmt::format("{}: cannot be made: {}", request.out, error.message()));

@@ -13,7 +13,7 @@
 #include "detector/detector.h"
 #include "properties/case_check.h"
 #include "reports/commands.h"
-#include "reports/exit_code.h"
+#include "reports/complaint.h"
 #include "reports/json_output.h"
 #include "reports/limits.h"
 #include "reports/progress.h"
@@ -25,11 +25,6 @@ namespace {
 using detector::Answer;
 using properties::Outcome;
 
-int refuse(const std::string& message) {
-  fmt::print(stderr, "assay: {}\n", message);
-  return exit_usage;
-}
-
 struct Input {
   corpus::Sequence sequence;
   std::optional<corpus::Case> as_case;  // when the input was a case file
@@ -39,6 +34,9 @@ corpus::Expected<Input> read_input(const std::vector<std::string>& files) {
   if (files.size() == 1 && std::filesystem::path(files[0]).extension() == ".json") {
     auto c = corpus::read_case(files[0]);
     if (!c) return c.error();
+    if (auto wrong = properties::wrong_option(c.value())) {
+      return corpus::problem_in(corpus::FileProblem::wrong_type, files[0], *wrong);
+    }
     return Input{{c.value().triangles, c.value().frames}, c.value()};
   }
   const std::vector<std::filesystem::path> paths(files.begin(), files.end());
@@ -49,16 +47,7 @@ corpus::Expected<Input> read_input(const std::vector<std::string>& files) {
 
 detector::Options options_of(const CheckRequest& request, const Input& input) {
   detector::Options options;
-  if (input.as_case) {
-    const auto& words = input.as_case->options;
-    const auto word = [&](const char* name) {
-      const auto found = words.find(name);
-      return found == words.end() ? std::string() : found->second;
-    };
-    options.culling = properties::culling_named(word("culling")).value_or(options.culling);
-    options.start = properties::start_named(word("start")).value_or(options.start);
-    options.pairs = properties::pairs_named(word("pairs")).value_or(options.pairs);
-  }
+  if (input.as_case) options = properties::options_of(*input.as_case);
   options.culling = request.culling.value_or(options.culling);
   options.start = request.start.value_or(options.start);
   options.pairs = request.pairs.value_or(options.pairs);
@@ -82,6 +71,7 @@ class Check {
       steps.push_back(run_step(s));
       if (refused_) return refuse(*refused_);
     }
+    if (input_.as_case && request_.use_oracle && !undecided_) check_facts();
     summarise();
     if (!request_.json_file.empty()) {
       if (auto problem = write_json(std::move(steps))) return refuse(*problem);
@@ -187,13 +177,23 @@ class Check {
                                            input_.sequence.frames[s + 1], lost.pair));
   }
 
+  // A case states what is true of it: an answer that differs is a defect.
+  void check_facts() {
+    const auto report = properties::check_case(*input_.as_case, request_.culling, request_.jobs);
+    for (const auto& line : report.failed) fmt::print("expected facts: {}\n", line);
+    facts_differ_ = !report.failed.empty();
+    defect_ |= facts_differ_;
+  }
+
   void summarise() const {
     const std::string what =
         collision_step_ ? fmt::format("collision at t = {} of step {}", time_text(collision_time_),
                                       *collision_step_ + 1)
                         : std::string(undecided_ ? "no collision found so far" : "no collision");
     if (defect_) {
-      fmt::print("{}; DEFECT: detector and oracle differ\n", what);
+      fmt::print(
+          "{}; DEFECT: {}\n", what,
+          facts_differ_ ? "the case's expected facts do not hold" : "detector and oracle differ");
     } else if (undecided_) {
       fmt::print("{}; undecided: {} reached\n", what,
                  limits_.reached().empty() ? "a limit" : limits_.reached());
@@ -213,12 +213,14 @@ class Check {
         {"components", detector_.topology().components.size()},
         {"culling", properties::name_of(options_.culling)},
         {"judged", request_.use_oracle},
-        {"outcome", properties::name_of(outcome())},
+        {"outcome", request_.use_oracle ? properties::name_of(outcome()) : "not judged"},
         {"limit_reached", limits_.reached().empty() ? nlohmann::ordered_json()
                                                     : nlohmann::ordered_json(limits_.reached())},
         {"peak_memory_bytes", peak_resident_bytes()},
         {"steps", std::move(steps)}};
-    return write_text_file(request_.json_file, report.dump(1) + "\n");
+    return write_text_file(
+        request_.json_file,
+        report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
 
   Outcome outcome() const {
@@ -238,7 +240,7 @@ class Check {
   detector::Options options_;
   Limits limits_;
   std::optional<std::string> refused_;
-  bool defect_ = false, undecided_ = false;
+  bool defect_ = false, undecided_ = false, facts_differ_ = false;
   std::optional<std::size_t> collision_step_;
   detector::TimeEnclosure collision_time_;
 };
@@ -247,7 +249,7 @@ class Check {
 
 int run_check(const CheckRequest& request) {
   // Before the work, not after it.
-  if (auto problem = cannot_write(request.json_file)) return refuse(*problem);
+  if (auto problem = cannot_write(request.json_file, request.files)) return refuse(*problem);
   auto input = read_input(request.files);
   if (!input) return refuse(input.error().message);
   if (input.value().sequence.frames.size() < 2) {

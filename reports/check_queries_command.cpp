@@ -11,7 +11,7 @@
 #include "detector/contact/elementary_test.h"
 #include "oracle/contact.h"
 #include "reports/commands.h"
-#include "reports/exit_code.h"
+#include "reports/complaint.h"
 #include "reports/json_output.h"
 
 namespace assay::reports {
@@ -178,16 +178,12 @@ class Score {
 }  // namespace
 
 int run_check_queries(const CheckQueriesRequest& request) {
-  const auto refuse = [](const std::string& message) {
-    fmt::print(stderr, "assay: {}\n", message);
-    return exit_usage;
-  };
   if (!request.truths.empty() && request.truths.size() != request.files.size()) {
     return refuse(
         fmt::format("{} truth files for {} query files: give one for each, in the same order",
                     request.truths.size(), request.files.size()));
   }
-  if (auto problem = cannot_write(request.json_file)) return refuse(*problem);
+  if (auto problem = cannot_write(request.json_file, request.files)) return refuse(*problem);
   std::vector<std::vector<LabelledQuery>> sets;
   for (std::size_t i = 0; i < request.files.size(); ++i) {
     std::optional<std::filesystem::path> truth;
@@ -201,7 +197,10 @@ int run_check_queries(const CheckQueriesRequest& request) {
   score.print();
   if (!request.json_file.empty()) {
     if (auto problem =
-            write_text_file(request.json_file, score.json(request.files).dump(1) + "\n")) {
+            write_text_file(request.json_file,
+                            score.json(request.files)
+                                    .dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
+                                "\n")) {
       return refuse(*problem);
     }
     fmt::print("wrote {}\n", request.json_file);

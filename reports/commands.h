@@ -49,6 +49,15 @@ struct CertifyRequest {
 };
 int run_certify(const CertifyRequest& request);
 
+struct SelfTestRequest {
+  std::uint64_t seed = 1;
+  std::uint64_t queries = 20'000;    // random small-integer queries
+  std::optional<double> time_limit;  // seconds
+  int jobs = 1;
+  std::string replay;  // "family:seed:index"; empty: the whole self-test
+};
+int run_self_test(const SelfTestRequest& request);
+
 // "assay 0.1.0 (CGAL 5.5.1, GMP ..., ...)"
 std::string version_text();
 

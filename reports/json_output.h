@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "properties/agreement.h"
 
@@ -18,8 +19,10 @@ nlohmann::ordered_json step_json(const detector::StepResult& result,
                                  const oracle::StepJudgement* judgement, double oracle_ms,
                                  const properties::StepDiff* diff);
 
-// A line for the user when a file could not be written at `path` (empty: no file is wanted).
-std::optional<std::string> cannot_write(const std::string& path);
+// A line for the user when a file could not be written at `path` (empty: no file is wanted), or
+// should not: it is a device, or one of the inputs.
+std::optional<std::string> cannot_write(const std::string& path,
+                                        const std::vector<std::string>& inputs);
 
 // Writes a whole file or leaves the old one: a line for the user when that fails.
 std::optional<std::string> write_text_file(const std::string& path, const std::string& text);

@@ -2,17 +2,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
 #include <exception>
+#include <system_error>
 #include <thread>
 
 #include "properties/case_check.h"
 #include "reports/commands.h"
-#include "reports/exit_code.h"
+#include "reports/complaint.h"
 
 namespace {
 
 using namespace assay;
-using reports::exit_usage;
 
 // A word of a fixed set, or one clear line.
 template <class Parse>
@@ -30,10 +32,28 @@ CLI::Validator positive() {
       [](const std::string& word) {
         double value = 0;
         const bool is_number = CLI::detail::lexical_cast(word, value);
-        return is_number && value > 0 ? std::string()
-                                      : fmt::format("'{}' is not a number above 0", word);
+        return is_number && value > 0 && std::isfinite(value)
+                   ? std::string()
+                   : fmt::format("'{}' is not a number above 0", word);
       },
       "NUMBER > 0");
+}
+
+// "6GB", "512MB", "1000" (bytes); KB, MB, GB are 2^10, 2^20, 2^30 bytes. Nothing for other words.
+std::optional<std::uint64_t> parse_size(const std::string& word) {
+  const auto digits = word.find_first_not_of("0123456789");
+  const std::string number = word.substr(0, digits);
+  const std::string unit = digits == std::string::npos ? "" : word.substr(digits);
+  constexpr std::size_t most_digits = 9;
+  if (number.empty() || number.size() > most_digits) return std::nullopt;
+  const std::array<std::pair<const char*, int>, 5> shifts = {
+      {{"", 0}, {"B", 0}, {"KB", 10}, {"MB", 20}, {"GB", 30}}};
+  for (const auto& [name, shift] : shifts) {
+    if (unit != name) continue;
+    const std::uint64_t bytes = std::stoull(number) << shift;
+    return bytes > 0 ? std::optional(bytes) : std::nullopt;
+  }
+  return std::nullopt;
 }
 
 template <class T, class Parse>
@@ -61,14 +81,17 @@ void add_check(CLI::App& app, reports::CheckRequest& request) {
              "What is known of the first frame (default verified)");
   add_choice(verb, "--pairs", request.pairs, "all, first", properties::pairs_named,
              "Which pairs are asked for (default all)");
-  verb->add_flag("!--no-oracle", request.use_oracle, "Detector only; prints `not judged`");
+  verb->add_flag_callback(
+      "--no-oracle", [&request] { request.use_oracle = false; },
+      "Detector only; prints `not judged`");
   add_jobs(verb, request.jobs);
   verb->add_option("--time", request.time_limit, "Limit in seconds; what is left is undecided")
       ->check(positive());
-  verb->add_option_function<std::uint64_t>(
-          "--memory", [&request](const std::uint64_t& bytes) { request.memory_limit = bytes; },
-          "Limit of resident memory, such as 6GB or 512MB")
-      ->transform(CLI::AsSizeValue(false));
+  verb->add_option_function<std::string>(
+          "--memory",
+          [&request](const std::string& word) { request.memory_limit = parse_size(word); },
+          "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)")
+      ->check(one_of("a number above 0 with B, KB, MB or GB", parse_size));
   verb->add_flag("--fail-on-collision", request.fail_on_collision,
                  "Exit code 5 when they agree on a collision");
   verb->add_option("--json", request.json_file, "Write the report here (assay-check/1)");
@@ -100,6 +123,20 @@ void add_scene(CLI::App& app, reports::SceneRequest& request) {
   verb->add_option("--out", request.out, "Folder for frame_0000.ply, ...")->required();
 }
 
+void add_self_test(CLI::App& app, reports::SelfTestRequest& request) {
+  auto* verb = app.add_subcommand("self-test",
+                                  "The oracle against every other method on elementary queries");
+  verb->add_option("--seed", request.seed, "Of all random queries")->capture_default_str();
+  verb->add_option("--queries", request.queries,
+                   "Random small-integer queries; the other families follow this number")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+      ->capture_default_str();
+  verb->add_option("--time", request.time_limit, "Limit in seconds; what is left is undecided")
+      ->check(positive());
+  add_jobs(verb, request.jobs);
+  verb->add_option("--replay", request.replay, "One case again, by its name family:seed:index");
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Assay certifies continuous self-collision detectors for deforming triangle meshes.");
@@ -110,11 +147,14 @@ int run(int argc, char** argv) {
   reports::CheckQueriesRequest queries;
   reports::SceneRequest scene;
   reports::CertifyRequest certify;
+  reports::SelfTestRequest self_test;
   std::string listed = "scenes";
-  check.jobs = certify.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  check.jobs = certify.jobs = self_test.jobs =
+      static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   add_check(app, check);
   add_check_queries(app, queries);
   add_scene(app, scene);
+  add_self_test(app, self_test);
   auto* list = app.add_subcommand("list", "List what is shipped: scenes");
   list->add_option("what", listed, "scenes")->check(CLI::IsMember({"scenes"}));
   auto* certify_verb =
@@ -131,16 +171,16 @@ int run(int argc, char** argv) {
     const auto verbs =
         app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; });
     const bool is_verb = !verbs.empty();
-    fmt::print(stderr, "assay: {} (assay --help lists verbs and options)\n",
-               first.empty() || first[0] == '-' || is_verb
-                   ? std::string(wrong.what())
-                   : fmt::format("unknown verb '{}'", first));
-    return exit_usage;
+    return reports::refuse((first.empty() || first[0] == '-' || is_verb
+                                ? std::string(wrong.what())
+                                : fmt::format("unknown verb '{}'", first)) +
+                           " (assay --help lists verbs and options)");
   }
   if (app.got_subcommand("check")) return reports::run_check(check);
   if (app.got_subcommand("check-queries")) return reports::run_check_queries(queries);
   if (app.got_subcommand("scene")) return reports::run_scene(scene);
   if (app.got_subcommand("certify")) return reports::run_certify(certify);
+  if (app.got_subcommand("self-test")) return reports::run_self_test(self_test);
   return reports::run_list_scenes();
 }
 
@@ -148,12 +188,14 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    return reports::output_was_written() ? code : reports::exit_usage;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "assay: not enough memory for this input\n");
-    return reports::exit_usage;
+    return reports::refuse("not enough memory for this input");
+  } catch (const std::system_error& failure) {
+    return reports::refuse(failure.what());
   } catch (const std::exception& failure) {
-    fmt::print(stderr, "assay: {}\n", failure.what());
+    reports::refuse(failure.what());
     return reports::exit_unsound;
   }
 }

@@ -1,17 +1,26 @@
 // `assay scene` and `assay list scenes`.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "corpus/mesh_writer.h"
 #include "corpus/scenes.h"
 #include "reports/commands.h"
-#include "reports/exit_code.h"
+#include "reports/complaint.h"
 
 namespace assay::reports {
 namespace {
 
-int refuse(const corpus::Problem& problem) {
-  fmt::print(stderr, "assay: {}\n", problem.message);
-  return exit_usage;
+int refuse(const corpus::Problem& problem) { return reports::refuse(problem.message); }
+
+// Frames of an earlier run with more of them would be taken for steps of this one.
+std::optional<std::string> stale_frame(const std::string& folder, std::size_t frames) {
+  const auto next = std::filesystem::path(folder) / fmt::format("frame_{:04}.ply", frames);
+  std::error_code ignored;
+  if (!std::filesystem::exists(next, ignored)) return std::nullopt;
+  return fmt::format(
+      "{} holds more frames of an earlier run ({}): remove them or choose another folder", folder,
+      next.filename().string());
 }
 
 }  // namespace
@@ -32,18 +41,24 @@ int run_scene(const SceneRequest& request) {
   options.size = request.size;
   options.frames = request.frames;
   if (!request.mesh_file.empty()) {
+    if (request.size > 0) return reports::refuse("--size has no meaning with --mesh");
     auto mesh = corpus::read_mesh(request.mesh_file);
     if (!mesh) return refuse(mesh.error());
     options.mesh = std::move(mesh.value());
   }
   auto sequence = corpus::make_scene(request.name, options);
   if (!sequence) return refuse(sequence.error());
+  if (auto stale = stale_frame(request.out, sequence.value().frames.size())) {
+    return reports::refuse(*stale);
+  }
   auto written = corpus::write_sequence(request.out, sequence.value());
   if (!written) return refuse(written.error());
-  fmt::print("{}: {} frames of {} triangles, {} vertices, in {}\n", request.name,
+  fmt::print("{}: {} frame(s) of {} triangles, {} vertices, in {}\n", request.name,
              sequence.value().frames.size(), sequence.value().triangles.rows(),
              sequence.value().frames[0].rows(), request.out);
-  fmt::print("next: assay check {}/frame_*.ply\n", request.out);
+  if (sequence.value().frames.size() > 1) {
+    fmt::print("next: assay check {}/frame_*.ply\n", request.out);
+  }
   return exit_holds;
 }
 

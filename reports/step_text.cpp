@@ -56,7 +56,13 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
     out += fmt::format(" at t = {}, {} pairs in contact", time_text(result.first),
                        result.pairs.size());
   }
-  out += diff ? fmt::format("; {}\n", verdict_text(*diff)) : "; not judged\n";
+  if (!diff) {
+    out += "; not judged\n";
+  } else if (result.answer == Answer::undecided && diff->outcome == Outcome::undecided) {
+    out += "\n";
+  } else {
+    out += fmt::format("; {}\n", verdict_text(*diff));
+  }
   out += fmt::format(
       "  sets: V+ {}  V- {}  V0 {}  violated {}  dirty {}\n"
       "  work: {} box tests, {} candidate pairs, {} elementary tests, {} closure rounds\n"

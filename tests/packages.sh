@@ -10,6 +10,11 @@ assay_packages="g++ cmake ninja-build ccache libcgal-dev libgmp-dev libmpfr-dev 
 ensure_packages() {
   local yes=$1 missing=() package answer
   shift
+  if ! command -v dpkg-query >/dev/null; then
+    # shellcheck disable=SC2086
+    echo "no dpkg-query here: cannot tell which of these are installed:" $assay_packages "$@" >&2
+    return 2
+  fi
   # shellcheck disable=SC2086
   for package in $assay_packages "$@"; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' ||

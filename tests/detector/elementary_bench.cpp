@@ -20,8 +20,8 @@ std::vector<FourPoints> queries(double drop, double jitter) {
       return MovingPoint{p, p};
     };
     const Point above = {.3 + noise(engine), .3 + noise(engine), 1};
-    out.push_back(four_points(
-        VertexFace{{above, {above[0], above[1], 1 - drop}}, {still(0, 0), still(1, 0), still(0, 1)}}));
+    out.push_back(four_points(VertexFace{{above, {above[0], above[1], 1 - drop}},
+                                         {still(0, 0), still(1, 0), still(0, 1)}}));
   }
   return out;
 }

@@ -1,0 +1,35 @@
+// The methods that answer an elementary contact query, as a list: what one says of a query all
+// others must say too.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "detector/contact/four_points.h"
+#include "oracle/contact.h"
+
+namespace assay::properties {
+
+// A query in the order of both rooms: vertex-face {0}|{1,2,3}, edge-edge {0,1}|{2,3}.
+using Query = detector::FourPoints;
+
+enum class QueryVerdict : std::uint8_t { no_contact, contact, open };
+
+struct MethodAnswer {
+  QueryVerdict verdict = QueryVerdict::open;     // open: the method cannot tell
+  std::optional<detector::TimeEnclosure> first;  // set when it answers with a time
+};
+
+struct QueryMethod {
+  const char* name;
+  MethodAnswer (*answer)(const Query& query);
+};
+
+// All but the oracle's timed answer, which they are compared with: the oracle asked for yes or no,
+// the detector's ladder (yes or no, and timed), the detector's integers alone, and the second
+// referee, which has no times and leaves touches open.
+std::span<const QueryMethod> query_methods();
+
+oracle::ContactAnswer ask_oracle(const Query& query, detector::Want want);
+
+}  // namespace assay::properties

@@ -1,0 +1,28 @@
+// The self-test up to its first contradiction, in one thread so that the count is always the same.
+// Linked with the oracle as it is, and with an oracle in which one line is wrong (*.fault).
+// Exit code as of `assay self-test`: 0, or 4 on a contradiction.
+#include <cstdio>
+
+#include "properties/self_test.h"
+#include "reports/exit_code.h"
+
+int main() {
+  using namespace assay;
+  properties::SelfTestOptions options;
+  options.queries = ASSAY_PLANTED_QUERIES;
+  options.stop_at_contradiction = true;
+  std::uint64_t queries = 0;
+  for (const auto& family : properties::self_test_families()) {
+    const auto result = properties::run_family(*family, options, {});
+    queries += result.tally.queries;
+    if (result.failures.empty()) continue;
+    const auto& failure = result.failures.front();
+    std::printf("contradiction after %llu queries, %s:%llu:%llu\n%s\n",
+                static_cast<unsigned long long>(queries), family->name().c_str(),
+                static_cast<unsigned long long>(options.seed),
+                static_cast<unsigned long long>(failure.index), failure.what.c_str());
+    return reports::exit_unsound;
+  }
+  std::printf("no contradiction in %llu queries\n", static_cast<unsigned long long>(queries));
+  return reports::exit_holds;
+}
