@@ -60,6 +60,31 @@ TEST_F(BadInput, NoPermission) {
   EXPECT_NE(outcome.err.find("ermission"), std::string::npos) << outcome.err;
 }
 
+TEST_F(BadInput, PipesAndDevices) {
+  expect_refused(check_with_good("/dev/zero"), "not a regular file");
+  const std::string pipe = scratch / "pipe.obj";
+  ASSERT_EQ(std::system(("mkfifo " + pipe).c_str()), 0);
+  expect_refused(check_with_good(pipe), "not a regular file");
+}
+
+TEST_F(BadInput, OutputThatCannotBeWritten) {
+  const std::string program = ASSAY_PROGRAM;
+  const auto code = [](const std::string& command) {
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  EXPECT_EQ(code(program + " list scenes >/dev/full 2>/dev/null"), 2);
+  EXPECT_EQ(code(program + " frobnicate 2>/dev/full"), 2);
+  EXPECT_EQ(code(program + " frobnicate 2>&-"), 2);
+}
+
+TEST_F(BadInput, StaleFramesOfALongerScene) {
+  const std::string folder = scratch / "stale";
+  ASSERT_EQ(run_assay("scene bend --size 100 --frames 4 --out " + folder).exit_code, 0);
+  ASSERT_EQ(run_assay("scene bend --size 100 --frames 4 --out " + folder).exit_code, 0);
+  expect_refused("scene bend --size 100 --frames 2 --out " + folder, "earlier run");
+}
+
 TEST_F(BadInput, TruncatedFiles) {
   ASSERT_EQ(run_assay("scene breathing-sphere --size 80 --frames 2 --out " + (scratch / "sphere"))
                 .exit_code,
@@ -104,6 +129,12 @@ TEST_F(BadInput, QueryFiles) {
 TEST_F(BadInput, CaseFiles) {
   expect_refused("check " + scratch.write("other.json", "{\"schema\": \"assay-case/2\"}"),
                  "assay-case");
+  std::string text =
+      read_text(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/A4_endpoints_only.json");
+  const std::string known = "\"culling\": \"view-point\"";
+  ASSERT_NE(text.find(known), std::string::npos);
+  text.replace(text.find(known), known.size(), "\"culling\": \"fast\"");
+  expect_refused("check " + scratch.write("option.json", text), "fast");
   expect_refused("check " + scratch.write("broken.json", "{\"schema\": "), "broken.json");
 }
 
@@ -118,6 +149,16 @@ TEST_F(BadInput, Options) {
   expect_refused("check " + good + " " + good + " --time -3", "time");
   expect_refused("check " + good + " " + good + " --memory lots", "memory");
   expect_refused("check " + good + " " + good + " --json /nowhere/report.json", "/nowhere");
+  for (const std::string size : {"-1", "0", "GB", "1.5GB", "99999999999999999999", "6TB"}) {
+    expect_refused("check " + good + " " + good + " --memory " + size, "memory");
+  }
+  expect_refused("check " + good + " " + good + " --time inf", "time");
+  expect_refused("check " + good + " " + good + " --json " + good, "input");
+  expect_refused("check " + good + " " + good + " --json /dev/null", "regular file");
+  expect_refused("check " + good + " " + good + " --no-oracle=banana", "no-oracle");
+  expect_refused("'two\nlines'", "two?lines");
+  expect_refused("scene bend --size 100000000 --frames 1000 --out " + (scratch / "x"), "8 GB");
+  expect_refused("scene bend --mesh " + good + " --size 10 --out " + (scratch / "x"), "--size");
   expect_refused("scene nowhere --out " + (scratch / "x"), "breathing-sphere");
   expect_refused("scene bend", "--out");
   expect_refused("scene bend --frames 0 --out " + (scratch / "x"), "frames");

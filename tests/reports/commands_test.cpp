@@ -130,6 +130,36 @@ TEST_F(Commands, CaseFilesAreChecked) {
   EXPECT_NE(outcome.out.find("collision at t = 0.91509"), std::string::npos) << outcome.out;
 }
 
+TEST_F(Commands, ACaseWhoseFactsDoNotHoldIsADefect) {
+  std::string text =
+      read_text(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/A4_endpoints_only.json");
+  for (std::size_t at; (at = text.find("\"collision\"")) != std::string::npos;)
+    text.replace(at, 11, "\"free\"");
+  const auto outcome = run_assay("check " + scratch.write("wrong.json", text));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("expected facts"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Commands, QueriesAreScored) {
+  const std::string queries = std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv";
+  for (const std::string method : {"oracle", "detector-exact"}) {
+    const auto outcome = run_assay("check-queries " + queries + " --method " + method + " --json " +
+                                   (scratch / "q.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    const auto report = json::parse(read_text(scratch / "q.json"));
+    EXPECT_EQ(report["schema"], "assay-queries/1");
+    EXPECT_EQ(report["count"], 5);
+    EXPECT_EQ(report["yes"], 3);
+  }
+  std::string wrong = read_text(queries);
+  for (std::size_t at = 0; (at = wrong.find(",1\n", at)) != std::string::npos; at += 3)
+    wrong.replace(at, 3, ",0\n");
+  const auto outcome = run_assay("check-queries " + scratch.write("wrong_vf.csv", wrong));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("2 false positives, 0 false negatives, 1 disputed"), std::string::npos)
+      << outcome.out;
+}
+
 TEST_F(Commands, SceneFromAMeshAndBack) {
   const auto frames = make_scene("breathing-sphere", 320, 2);
   const auto mesh = scratch / "breathing-sphere/frame_0000.ply";
