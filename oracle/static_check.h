@@ -30,7 +30,8 @@ int compare(const StaticTime& time, double t);
 // is that; a repeated index counts once.
 // Two triangles with the same three vertices are in contact at t=0 by convention, which is no
 // question of geometry: for them the answer is true at t=0, and geometry's later.
-// REQUIRES a != b, indices in range, finite positions, a time in [0,1]. Some 10 to 100 us.
+// REQUIRES a != b, indices in range, finite positions, a time in [0,1]. 1 us where boxes are apart
+// at that time, else some 100 us.
 bool triangles_meet(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
                     const detector::TrianglesView& triangles, detector::TrianglePair pair,
                     const StaticTime& time);
