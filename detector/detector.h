@@ -38,7 +38,8 @@ class Detector {
                       std::span<const ViewPrimitive> primitives = {},
                       const StopFunction& stop = {});
 
-  // Advances the state to the end of the last evaluated step; nothing_to_commit without one.
+  // Advances the state to the end of the step evaluated last; nothing_to_commit without one, or
+  // when that evaluate had no answer (error, undecided).
   std::optional<Problem> commit();
 
   // evaluate, and commit where there is an answer.

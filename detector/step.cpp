@@ -7,7 +7,7 @@
 //   mark, and traverse (V+,V-), (U,V0), (U,Vv) and pairs of two components
 //   elementary tests, each feature pair once                       search (L3, L10)
 //   closure: (U,H) until H is stable                               close (L7)
-//   what is clean at the end                                       make_next_state (L8)
+//   what is clean at the end                                       state_at_end (L8)
 //
 // Unclosed components have no view test: all their triangles are dirty, so in (U,Vv).
 #include "detector/step.h"
@@ -60,7 +60,7 @@ class Step {
       result_.answer = Answer::undecided;
     } else {
       result_.answer = result_.pairs.empty() ? Answer::free : Answer::collision;
-      make_next_state(next);
+      next = state_at_end();  // whole or not at all, should memory fail
     }
     for (const auto& contact : result_.pairs) {
       if (&contact == &result_.pairs.front() || contact.time < result_.first)
@@ -209,9 +209,7 @@ class Step {
       constexpr std::uint64_t pairs_between_stops = 4096;
       if (counts.candidate_pairs % pairs_between_stops == 0 && stop_ && stop_()) return false;
       // A clean triangle is in no contact with its own component at t=0.
-      const bool may_pierce =
-          mesh_.component_of_triangle[at(a)] != mesh_.component_of_triangle[at(b)] ||
-          (!clean_[at(a)] && !clean_[at(b)]);
+      const bool may_pierce = !same_component(a, b) || (!clean_[at(a)] && !clean_[at(b)]);
       contacts.add_candidate(a, b, may_pierce);
       return true;
     };
@@ -232,6 +230,8 @@ class Step {
       for (auto& flags : marks.triangle_flags) flags &= static_cast<std::uint8_t>(~flag::grown);
       for (; seen < contacts.contacts().size(); ++seen) {
         for (const auto& pair : contacts.contacts()[seen].pairs) {
+          // All pairs of two components were tested, and layers count the own component (L10).
+          if (!same_component(pair.a, pair.b)) continue;
           for (const auto t : {pair.a, pair.b}) {
             if (in_h[at(t)]) continue;
             in_h[at(t)] = 1;
@@ -248,24 +248,28 @@ class Step {
     }
   }
 
-  void make_next_state(std::optional<StepState>& next) const {
-    next.emplace();
-    next->positions = x_t1_;
-    next->clean = clean_;
-    next->inside.resize(mesh_.components.size());
+  StepState state_at_end() const {
+    StepState state;
+    state.positions = x_t1_;
+    state.clean = clean_;
+    state.inside.resize(mesh_.components.size());
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      if (free_[c]) next->inside[c] = {result_.primitives[c].q0.t1, result_.primitives[c].q1.t1};
+      if (free_[c]) state.inside[c] = {result_.primitives[c].q0.t1, result_.primitives[c].q1.t1};
     }
     // Without the complete contact set nothing is known after a collision.
     const bool complete = !uses_views() || context_.options.pairs == Pairs::all;
     for (const auto& contact : result_.pairs) {
-      const auto c = mesh_.component_of_triangle[at(contact.pair.a)];
       if (!complete) {
-        std::fill(next->clean.begin(), next->clean.end(), 0);
-      } else if (c == mesh_.component_of_triangle[at(contact.pair.b)]) {
-        next->clean[at(contact.pair.a)] = next->clean[at(contact.pair.b)] = 0;
+        std::fill(state.clean.begin(), state.clean.end(), 0);
+      } else if (same_component(contact.pair.a, contact.pair.b)) {
+        state.clean[at(contact.pair.a)] = state.clean[at(contact.pair.b)] = 0;
       }
     }
+    return state;
+  }
+
+  bool same_component(std::int32_t a, std::int32_t b) const {
+    return mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
   }
 
   StepContext& context_;

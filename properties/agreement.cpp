@@ -118,10 +118,11 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
       if (detector_complete) diff.missing.push_back(*theirs);
       ++theirs;
     } else {
-      // A stopped run has not seen every feature of a pair: its time may be too late.
-      if (!diff.partial && ours->time != theirs->time) {
-        (theirs->time < ours->time ? diff.late : diff.early)
-            .push_back({ours->pair, ours->time, theirs->time});
+      // A stopped run may know only later contacts of a pair than its first.
+      if (theirs->time < ours->time && detector_complete) {
+        diff.late.push_back({ours->pair, ours->time, theirs->time});
+      } else if (ours->time < theirs->time && judgement.complete) {
+        diff.early.push_back({ours->pair, ours->time, theirs->time});
       }
       ++ours;
       ++theirs;
@@ -132,6 +133,13 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
     diff.late.clear();
     if (judgement.complete && judgement.answer == Answer::collision) {
       excuse_later_pairs(judgement, diff);
+    } else if (result.answer == Answer::collision) {
+      // Of a stopped oracle only what is earlier than the detector's first time is a miss for sure.
+      const auto later = std::stable_partition(
+          diff.missing.begin(), diff.missing.end(),
+          [&](const PairContact& contact) { return contact.time < result.first; });
+      diff.excused.assign(later, diff.missing.end());
+      diff.missing.erase(later, diff.missing.end());
     }
   }
   if (!diff.partial) {

@@ -33,8 +33,9 @@ using Cubic = std::array<double, 4>;
 
 inline constexpr double unit_roundoff = 0x1p-53;
 
-// An underflow costs at most 2^-1074 an operation; within this range the least bound, 2^-53 times a
-// product of three magnitudes, is above 2^-953.
+// An underflow costs at most 2^-1074 an operation, and at most 2^-1074 2^300 where a product that
+// underflowed is multiplied once more by M_k; within this range the bounds there are above
+// 2^-53 2^-600 M_k, far more.
 inline constexpr double least_magnitude = 0x1p-300;
 inline constexpr double greatest_magnitude = 0x1p300;
 

@@ -9,7 +9,7 @@
 namespace assay::detector {
 
 // The first contact time, or nothing. Exact for all finite inputs. 6 to 50 us for coordinates of
-// similar magnitude; grows with the spread of their exponents.
+// similar magnitude; grows with the spread of their exponents, to tens of ms over all doubles.
 std::optional<TimeEnclosure> exact_first_contact(const FourPoints& query);
 
 // The time of a contact of which the filter knows that it is the only root of the coplanarity cubic

@@ -1,5 +1,5 @@
-// Polynomials in the step's time with exact integer coefficients, degree at most 9 (the
-// quintic of the view-line times the derivative that a sign at its root needs).
+// Polynomials in the step's time with exact integer coefficients, degree at most 6 (the
+// derivative of the view-line's quintic times the quadratic whose sign is asked for at its root).
 #pragma once
 
 #include <boost/container/small_vector.hpp>
@@ -50,7 +50,7 @@ class Polynomial {
   Polynomial quotient(const Polynomial& divisor) const;
 
  private:
-  static constexpr std::size_t inline_coefficients = 6;
+  static constexpr std::size_t inline_coefficients = 7;
   void trim();
   // Ascending powers, the last one not zero.
   boost::container::small_vector<Integer, inline_coefficients> coefficients_;

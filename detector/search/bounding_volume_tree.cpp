@@ -6,13 +6,13 @@
 namespace assay::detector {
 namespace {
 
-Box swept_box(const std::array<std::int32_t, 3>& vertices, const double* x_t0, const double* x_t1) {
+Box swept_box(const std::array<std::int32_t, 3>& vertices, const PositionsView& x_t0,
+              const PositionsView& x_t1) {
   Box box;
   for (int k = 0; k < 3; ++k) {
-    double lo = x_t0[3 * vertices[0] + k], hi = lo;
+    double lo = x_t0(vertices[0], k), hi = lo;
     for (const auto v : vertices) {
-      for (const double* x : {x_t0, x_t1}) {
-        const double value = x[3 * static_cast<std::ptrdiff_t>(v) + k];
+      for (const double value : {x_t0(v, k), x_t1(v, k)}) {
         lo = std::min(lo, value);
         hi = std::max(hi, value);
       }
@@ -90,10 +90,9 @@ std::int32_t BoundingVolumeTree::build(std::vector<std::int32_t>& order,
 
 void BoundingVolumeTree::refit(const Topology& mesh, const PositionsView& x_t0,
                                const PositionsView& x_t1) {
-  const double *p0 = x_t0.data(), *p1 = x_t1.data();
   for (std::size_t n = triangle_.size(); n-- > 0;) {
     boxes_[n] = triangle_[n] >= 0
-                    ? swept_box(mesh.triangles[static_cast<std::size_t>(triangle_[n])], p0, p1)
+                    ? swept_box(mesh.triangles[static_cast<std::size_t>(triangle_[n])], x_t0, x_t1)
                     : join(boxes_[n + 1], boxes_[static_cast<std::size_t>(right_[n])]);
   }
 }

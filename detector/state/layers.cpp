@@ -38,20 +38,18 @@ struct LayerClass {
 }  // namespace
 
 void mark_clean_by_layers(const Topology& mesh, const Component& component, const PositionsView& x,
-                          const std::vector<std::uint8_t>& touched,
+                          const std::vector<std::uint8_t>& touched, std::vector<std::uint8_t>& seen,
                           std::vector<std::uint8_t>& clean) {
   for (const auto t : component.triangles) clean[at(t)] = 0;
-  std::vector<std::uint8_t> seen(mesh.triangles.size(), 0);
   std::map<int, LayerClass> by_layer;  // key: winding number outside
   for (const auto seed : component.triangles) {
     if (touched[at(seed)] || seen[at(seed)]) continue;
     const auto piece = grow_piece(mesh, seed, touched, seen);
-    std::optional<int> outside;
-    for (const auto t : piece) {
-      outside = winding_number_outside(mesh, component.triangles, x, t);
-      if (outside) break;
-    }
-    if (!outside) continue;  // no area anywhere: stays dirty
+    const auto with_area = std::find_if(piece.begin(), piece.end(),
+                                        [&](std::int32_t t) { return !has_zero_area(mesh, x, t); });
+    if (with_area == piece.end()) continue;  // stays dirty
+    const auto outside = winding_number_outside(mesh, component.triangles, x, *with_area);
+    if (!outside) continue;
     auto [entry, is_new] = by_layer.try_emplace(*outside);
     // Seeds ascend, so the first piece of a layer holds its lowest triangle.
     if (is_new) entry->second.lowest = piece.front();

@@ -8,6 +8,7 @@
 
 namespace assay::detector {
 
+// `seen` is scratch by mesh triangle, 0 for those of the component. O(component) for each piece.
 // Marks clean[t] for the triangles of `component`, a cycle. `touched[t]` (indexed by mesh triangle)
 // says that t meets another triangle of the component, beyond what they share, at x.
 //
@@ -17,7 +18,7 @@ namespace assay::detector {
 // the one that holds the lowest triangle index). "Connected" would not be enough: two tetrahedra,
 // one inside the other, may share an edge (case L9_shared_edge_two_layers).
 void mark_clean_by_layers(const Topology& mesh, const Component& component, const PositionsView& x,
-                          const std::vector<std::uint8_t>& touched,
+                          const std::vector<std::uint8_t>& touched, std::vector<std::uint8_t>& seen,
                           std::vector<std::uint8_t>& clean);
 
 }  // namespace assay::detector

@@ -40,8 +40,11 @@ bool verify_start(const Topology& mesh, BoundingVolumeTree& tree, const Position
       touched[static_cast<std::size_t>(pair.a)] = touched[static_cast<std::size_t>(pair.b)] = 1;
     }
   }
+  std::vector<std::uint8_t> seen(mesh.triangles.size(), 0);
   for (const auto c : components) {
-    mark_clean_by_layers(mesh, mesh.components[static_cast<std::size_t>(c)], x, touched, clean);
+    if (stop && stop()) return false;
+    mark_clean_by_layers(mesh, mesh.components[static_cast<std::size_t>(c)], x, touched, seen,
+                         clean);
   }
   return true;
 }

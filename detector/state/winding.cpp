@@ -124,6 +124,10 @@ RayOutcome count_along(const Topology& mesh, std::span<const std::int32_t> trian
     const bool some_positive = s[0] > 0 || s[1] > 0 || s[2] > 0;
     const bool some_negative = s[0] < 0 || s[1] < 0 || s[2] < 0;
     if (some_positive && some_negative) continue;  // the line passes by
+    const bool all_zero = s[0] == 0 && s[1] == 0 && s[2] == 0;
+    // Nothing is crossed there; where the line meets what is left of it, it meets an edge of a
+    // neighbour too, which gives the direction up. A point would give up every direction.
+    if (all_zero && has_zero_area(mesh, x, t)) continue;
     const bool strictly_inside = s[0] != 0 && s[1] != 0 && s[2] != 0;
     if (!strictly_inside) return RayOutcome::bad_direction;
     if (s[3] == 0) return RayOutcome::on_surface;
@@ -157,6 +161,23 @@ std::optional<int> count_crossings(const Topology& mesh, std::span<const std::in
 }
 
 }  // namespace
+
+bool has_zero_area(const Topology& mesh, const PositionsView& x, std::int32_t triangle) {
+  const auto& v = mesh.triangles[static_cast<std::size_t>(triangle)];
+  std::array<double, 9> values;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) values[3 * i + k] = x(v[i], static_cast<Eigen::Index>(k));
+  }
+  std::array<Integer, 9> p;
+  to_common_integers(values, p);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const Integer normal =
+        (p[3 + i] - p[i]) * (p[6 + j] - p[j]) - (p[3 + j] - p[j]) * (p[6 + i] - p[i]);
+    if (!normal.is_zero()) return false;
+  }
+  return true;
+}
 
 std::optional<int> winding_number(const Topology& mesh, std::span<const std::int32_t> triangles,
                                   const PositionsView& x, const Point& point) {

@@ -9,15 +9,19 @@
 namespace assay::detector {
 
 // Winding number of the cycle formed by `triangles` around `point`; outward spheres have 1 inside.
-// Nothing when the point lies on the surface. Exact; one pass over the triangles, about 30 ns each.
+// Nothing when the point lies on the surface. Exact; about 30 ns a triangle, once for each ray
+// tried (a ray that meets an edge or a corner is given up; the first one nearly always does).
 std::optional<int> winding_number(const Topology& mesh, std::span<const std::int32_t> triangles,
                                   const PositionsView& x, const Point& point);
 
 // Winding number just outside `triangle` (on the side of its normal), which must touch no other
 // triangle of `triangles` beyond shared vertices: the layer of the triangle is (w + 1, w).
-// Nothing for a zero-area triangle. Exact; about 100 ns a triangle.
+// Nothing for a zero-area triangle. Exact; about 100 ns a triangle and ray.
 std::optional<int> winding_number_outside(const Topology& mesh,
                                           std::span<const std::int32_t> triangles,
                                           const PositionsView& x, std::int32_t triangle);
+
+// Whether the triangle is a point or a segment at x. Exact.
+bool has_zero_area(const Topology& mesh, const PositionsView& x, std::int32_t triangle);
 
 }  // namespace assay::detector

@@ -7,11 +7,18 @@ namespace assay::detector {
 namespace {
 
 Point mean(const std::vector<std::int32_t>& vertices, const PositionsView& x) {
-  // Scaled before the sum, so that it cannot overflow.
+  // Scaled before the sum and kept among the values, so that rounding cannot make it overflow.
   const double weight = 1.0 / static_cast<double>(vertices.size());
   Point sum = {0, 0, 0};
-  for (const auto v : vertices) {
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += weight * x(v, static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    double lo = x(vertices[0], axis), hi = lo;
+    for (const auto v : vertices) {
+      sum[k] += weight * x(v, axis);
+      lo = std::min(lo, x(v, axis));
+      hi = std::max(hi, x(v, axis));
+    }
+    sum[k] = std::clamp(sum[k], lo, hi);
   }
   return sum;
 }

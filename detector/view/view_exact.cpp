@@ -75,11 +75,10 @@ class ExactView {
     }
     const auto result = static_cast<ViewSign>(sign);
     // One strict sign of both cubics settles every vertex.
-    const bool h0_has_root = h0_.is_zero() || has_root_in_unit_interval(h0_);
-    const bool h1_has_root = h1_.is_zero() || has_root_in_unit_interval(h1_);
-    if (!h0_has_root && !h1_has_root && h0_.sign_at_zero() == sign && h1_.sign_at_zero() == sign) {
-      return result;
-    }
+    const auto keeps_sign = [sign](const Polynomial& h) {
+      return h.sign_at_zero() == sign && !has_root_in_unit_interval(h);
+    };
+    if (keeps_sign(h0_) && keeps_sign(h1_)) return result;
     for (std::size_t i = 0; i < 3; ++i) {
       if (vanishes(i)) return ViewSign::zero;
     }

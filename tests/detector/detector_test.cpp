@@ -156,6 +156,40 @@ TEST(Detector, WrongNumberOfPrimitivesIsRefused) {
   EXPECT_EQ(result.problem->error, InputError::wrong_primitive_count);
 }
 
+TEST(Detector, PositionsMayHaveAnyRowStride) {
+  using Wide = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+  Wide wide_t0 = Wide::Constant(6, 6, 77), wide_t1 = wide_t0;
+  wide_t0.leftCols<3>() = octahedron_positions(2);
+  wide_t1.leftCols<3>() = pushed();
+  const auto expected =
+      make(octahedron(), octahedron_positions(2)).evaluate(octahedron_positions(2), pushed());
+  for (const auto culling : {Culling::view_point, Culling::bvh}) {
+    const auto result = make(octahedron(), octahedron_positions(2), culling)
+                            .evaluate(wide_t0.leftCols<3>(), wide_t1.leftCols<3>());
+    EXPECT_EQ(result.answer, Answer::collision);
+    EXPECT_EQ(result.first, expected.first);
+    EXPECT_EQ(result.pairs.size(), expected.pairs.size());
+  }
+}
+
+TEST(Detector, GreatestCoordinatesAreAnswered) {
+  // The mean of many equal greatest doubles must not round up to infinity.
+  constexpr int sides = 9;
+  Triangles t(2 * sides, 3);
+  Positions x(sides + 2, 3);
+  for (int i = 0; i < sides; ++i) {
+    const int j = (i + 1) % sides;
+    t.row(2 * i) << i, j, sides;
+    t.row(2 * i + 1) << j, i, sides + 1;
+    x.row(i) << std::numeric_limits<double>::max(), i, i * i;
+  }
+  x.row(sides) << std::numeric_limits<double>::max(), 1, -1;
+  x.row(sides + 1) << std::numeric_limits<double>::max(), 2, 100;
+  for (const auto culling : {Culling::view_point, Culling::view_line}) {
+    EXPECT_NE(make(t, x, culling).evaluate(x, x).answer, Answer::error);
+  }
+}
+
 TEST(Detector, SeparateComponentsAreTestedAgainstEachOther) {
   // Two octahedra; the second flies through the first.
   Triangles t(16, 3);

@@ -70,18 +70,30 @@ TEST(Layers, L9_PiecesNotConnectionDecide) {
   const Topology mesh = make_topology(t, 6);
   ASSERT_EQ(mesh.components.size(), 1u);
   ASSERT_TRUE(mesh.components[0].is_cycle);
-  std::vector<std::uint8_t> clean(8, 2);
-  mark_clean_by_layers(mesh, mesh.components[0], x, std::vector<std::uint8_t>(8, 0), clean);
+  std::vector<std::uint8_t> clean(8, 2), seen(8, 0);
+  mark_clean_by_layers(mesh, mesh.components[0], x, std::vector<std::uint8_t>(8, 0), seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 0}))
       << "as many triangles in each layer: the one with triangle 0 is common";
 }
 
 TEST(Layers, L9_TouchedTrianglesStayDirty) {
   const Topology mesh = make_topology(octahedron(), 6);
-  std::vector<std::uint8_t> touched(8, 0), clean(8, 0);
+  std::vector<std::uint8_t> touched(8, 0), clean(8, 0), seen(8, 0);
   touched[2] = 1;
-  mark_clean_by_layers(mesh, mesh.components[0], octahedron_positions(1), touched, clean);
+  mark_clean_by_layers(mesh, mesh.components[0], octahedron_positions(1), touched, seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 1, 1, 1}));
+}
+
+// A triangle that has become a point crosses no ray, and must not spoil every one.
+TEST(Winding, CollapsedTrianglesDoNotCount) {
+  const Topology mesh = make_topology(octahedron(), 6);
+  Positions x = octahedron_positions(2);
+  x.row(0) = x.row(2) = x.row(4);  // triangle 0 is a point, its neighbours are segments
+  const auto& all = mesh.components[0].triangles;
+  EXPECT_TRUE(has_zero_area(mesh, x, 0));
+  EXPECT_FALSE(has_zero_area(mesh, x, 6));
+  EXPECT_EQ(winding_number(mesh, all, x, {-.1, -.1, 0}), 1);
+  EXPECT_EQ(winding_number(mesh, all, x, {-5, 0, 0}), 0);
 }
 
 TEST(Start, L5_ReleasesWithWindingOneOnly) {

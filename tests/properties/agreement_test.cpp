@@ -86,6 +86,27 @@ TEST(Agreement, StoppedOracleIsUndecidedButItsPairsCount) {
             Outcome::defect);
 }
 
+TEST(Agreement, StoppedOracleAndPairsFirst) {
+  auto judgement = judgement_with({contact(0, 1, .5), contact(2, 3, .75)});
+  judgement.complete = false;
+  judgement.answer = Answer::undecided;
+  const auto later = compare(result_with({contact(0, 1, .5)}), judgement, detector::Pairs::first);
+  EXPECT_EQ(later.outcome, Outcome::undecided);
+  EXPECT_EQ(later.excused.size(), 1u);
+  EXPECT_EQ(compare(result_with({contact(4, 5, .6)}), judgement, detector::Pairs::first).outcome,
+            Outcome::defect);
+}
+
+TEST(Agreement, StoppedOracleStillShowsATimeThatIsTooLate) {
+  auto judgement = judgement_with({contact(0, 1, .5)});
+  judgement.complete = false;
+  judgement.answer = Answer::undecided;
+  EXPECT_EQ(compare(result_with({contact(0, 1, .6)}), judgement, detector::Pairs::all).outcome,
+            Outcome::defect);
+  EXPECT_EQ(compare(result_with({contact(0, 1, .4)}), judgement, detector::Pairs::all).outcome,
+            Outcome::undecided);
+}
+
 TEST(Agreement, StoppedDetectorIsUndecidedAndSpuriousPairsCount) {
   auto result = result_with({contact(0, 1, .5)});
   result.answer = Answer::undecided;
