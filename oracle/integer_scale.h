@@ -16,6 +16,8 @@ class IntegerScale {
 
   // coordinate must be one of those given.
   Integer operator()(double coordinate) const;
+  // The coordinate is the integer times 2^exponent().
+  int exponent() const { return exponent_; }
 
  private:
   int exponent_ = 0;  // every coordinate is a multiple of 2^exponent_

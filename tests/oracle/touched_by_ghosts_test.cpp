@@ -1,0 +1,181 @@
+#include "oracle/touched_by_ghosts.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "oracle/loops.h"
+#include "oracle/step.h"
+#include "tests/oracle/random_points.h"
+#include "tests/oracle/small_meshes.h"
+
+namespace assay::oracle {
+namespace {
+
+using detector::Positions;
+using detector::Triangles;
+using test::positions;
+using test::triangles;
+using Flags = std::vector<std::uint8_t>;
+
+// An open box without its top (triangles 0 to 9), 8 vertices, and ghosts over the loop 4 5 6 7.
+const Triangles kBox = triangles({{0, 2, 1},
+                                  {0, 3, 2},
+                                  {0, 1, 5},
+                                  {0, 5, 4},
+                                  {1, 2, 6},
+                                  {1, 6, 5},
+                                  {2, 3, 7},
+                                  {2, 7, 6},
+                                  {3, 0, 4},
+                                  {3, 4, 7}});
+
+Positions box() {
+  return positions({{-4, -4, -4},
+                    {4, -4, -4},
+                    {4, 4, -4},
+                    {-4, 4, -4},
+                    {-4, -4, 4},
+                    {4, -4, 4},
+                    {4, 4, 4},
+                    {-4, 4, 4}});
+}
+
+Flags touched(const Positions& x_t0, const Positions& x_t1, const Triangles& f,
+              const Positions& apex_t0, const Positions& apex_t1, bool static_at_start = false) {
+  const auto vertices = static_cast<std::int32_t>(x_t0.rows());
+  const Triangles ghosts = ghost_triangles(boundary_loops(f), vertices);
+  return touched_by_ghosts(x_t0, x_t1, f, apex_t0, apex_t1, ghosts, {1, static_at_start});
+}
+
+int count(const Flags& flags) {
+  int n = 0;
+  for (const auto flag : flags) n += flag;
+  return n;
+}
+
+TEST(TouchedByGhosts, LidTouchesNothing) {
+  const auto apex = positions({{0, 0, 4}});
+  EXPECT_EQ(count(touched(box(), box(), kBox, apex, apex, true)), 0);
+}
+
+TEST(TouchedByGhosts, ApexThroughTheBottom) {
+  // Touched from t=8/9 on, when the apex comes through.
+  const Flags flags = touched(box(), box(), kBox, positions({{1, 0, 4}}), positions({{1, 0, -5}}));
+  EXPECT_EQ(flags, (Flags{1, 1, 0, 0, 0, 0, 0, 0, 0, 0}));
+}
+
+TEST(TouchedByGhosts, InThePlaneOfTheLoop) {
+  // The apex leaves the box in the plane of its top: the ghosts cross the edge 56 of the loop,
+  // which the triangle 165 holds, through features that they do not share with it.
+  const auto inside = positions({{0, 3, 4}}), outside = positions({{9, 3, 4}});
+  EXPECT_EQ(count(touched(box(), box(), kBox, inside, inside)), 0);
+  const Flags flags = touched(box(), box(), kBox, inside, outside);
+  EXPECT_EQ(flags[5], 1);
+  EXPECT_EQ(flags[0], 0);
+}
+
+TEST(TouchedByGhosts, OnlyDuringTheStep) {
+  // A small triangle passes through the lid and back out beside the box: clear at both ends.
+  Positions x_t0(11, 3), x_t1(11, 3);
+  x_t0 << box(), positions({{-2, 0, 5}, {-1.5, 0, 5}, {-2, 0.5, 5}});
+  x_t1 << box(), positions({{6, 0, -1}, {6.5, 0, -1}, {6, 0.5, -1}});
+  Triangles f(11, 3);
+  f << kBox, triangles({{8, 9, 10}});
+  const Triangles ghosts = ghost_triangles({{4, 7, 6, 5}}, 11);
+  const auto apex = positions({{0, 0, 4}});
+  EXPECT_EQ(count(touched_by_ghosts(x_t0, x_t0, f, apex, apex, ghosts, {1, true})), 0);
+  EXPECT_EQ(count(touched_by_ghosts(x_t1, x_t1, f, apex, apex, ghosts, {1, true})), 0);
+  const Flags flags = touched_by_ghosts(x_t0, x_t1, f, apex, apex, ghosts);
+  EXPECT_EQ(count(flags), 1);
+  EXPECT_EQ(flags[10], 1);
+}
+
+TEST(TouchedByGhosts, NextToTheLoop) {
+  // One triangle and its three ghosts; the apex passes through it. Each ghost shares an edge with
+  // it, and touches it with its apex alone.
+  const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
+  const Triangles f = triangles({{0, 1, 2}});
+  EXPECT_EQ(touched(x, x, f, positions({{1, 1, 1}}), positions({{1, 1, -1}})), Flags{1});
+  EXPECT_EQ(touched(x, x, f, positions({{5, 5, 1}}), positions({{5, 5, 9}})), Flags{0});
+  EXPECT_EQ(touched(x, x, f, positions({{1, 1, 1}}), positions({{1, 1, 0}})), Flags{1});
+}
+
+TEST(TouchedByGhosts, DegenerateGhosts) {
+  // The apex lies on an edge of the loop: one ghost is a segment, which touches the triangle.
+  const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
+  const Triangles f = triangles({{0, 1, 2}});
+  const auto on_edge = positions({{2, 0, 0}});
+  EXPECT_EQ(touched(x, x, f, on_edge, on_edge), Flags{1});
+  const auto on_corner = positions({{4, 0, 0}});
+  EXPECT_EQ(touched(x, x, f, on_corner, on_corner), Flags{1});
+  const auto beside = positions({{6, 0, 0}});  // in line with an edge, beyond its end
+  EXPECT_EQ(touched(x, x, f, beside, beside), Flags{1});
+}
+
+TEST(TouchedByGhosts, PiercingAtTheStartOnRequest) {
+  // A spike through the lid, at rest: no vertex and no edge of one touches the other.
+  Positions x(11, 3);
+  x << box(), positions({{1, 0.2, 0}, {1, 0.2, 8}, {1.5, 0.3, 8}});
+  Triangles f(11, 3);
+  f << kBox, triangles({{8, 9, 10}});
+  const Triangles ghosts = ghost_triangles({{4, 7, 6, 5}}, 11);
+  const auto apex = positions({{0, 0, 4}});
+  EXPECT_EQ(count(touched_by_ghosts(x, x, f, apex, apex, ghosts)), 0);
+  const Flags flags = touched_by_ghosts(x, x, f, apex, apex, ghosts, {1, true});
+  EXPECT_EQ(count(flags), 1);
+  EXPECT_EQ(flags[10], 1);
+}
+
+// Against judge_step on mesh and ghosts as one mesh: the same triangles, for every kind of numbers.
+TEST(TouchedByGhosts, L11_AreThoseInContactWithAGhost) {
+  test::Random random(41);
+  int some = 0;
+  for (int i = 0; i < 400; ++i) {
+    const auto kind = static_cast<test::Coordinates>(i % test::kCoordinateKinds);
+    const int vertices = 8, triangle_count = 5;
+    Triangles f(triangle_count, 3);
+    for (int t = 0; t < triangle_count; ++t) {
+      do {
+        for (int k = 0; k < 3; ++k) f(t, k) = random.below(vertices);
+      } while (f(t, 0) == f(t, 1) || f(t, 1) == f(t, 2) || f(t, 2) == f(t, 0));
+    }
+    const auto loops = boundary_loops(f);
+    const Triangles ghosts = ghost_triangles(loops, vertices);
+    const auto apexes = static_cast<Eigen::Index>(loops.size());
+    Positions all_t0(vertices + apexes, 3), all_t1(vertices + apexes, 3);
+    for (Eigen::Index v = 0; v < all_t0.rows(); ++v) {
+      const auto p = test::random_point(random, kind);
+      const bool rests = random.below(3) == 0;
+      for (int k = 0; k < 3; ++k) {
+        all_t0(v, k) = p.t0[k];
+        all_t1(v, k) = rests ? p.t0[k] : p.t1[k];
+      }
+    }
+    Triangles all(f.rows() + ghosts.rows(), 3);
+    all << f, ghosts;
+    Flags with_piercing(triangle_count, 0);
+    Flags swept_at_least(triangle_count, 0);
+    for (const auto& contact : judge_step(all_t0, all_t1, all, {}).pairs) {
+      if (contact.pair.a >= triangle_count || contact.pair.b < triangle_count) continue;
+      with_piercing[contact.pair.a] = 1;
+      if (contact.feature.kind != detector::FeatureKind::piercing) {
+        swept_at_least[contact.pair.a] = 1;
+      }
+    }
+    const Positions x_t0 = all_t0.topRows(vertices), x_t1 = all_t1.topRows(vertices);
+    const Positions apex_t0 = all_t0.bottomRows(apexes), apex_t1 = all_t1.bottomRows(apexes);
+    EXPECT_EQ(touched_by_ghosts(x_t0, x_t1, f, apex_t0, apex_t1, ghosts, {2, true}), with_piercing);
+    const Flags swept = touched_by_ghosts(x_t0, x_t1, f, apex_t0, apex_t1, ghosts);
+    for (int t = 0; t < triangle_count; ++t) {
+      EXPECT_LE(swept_at_least[t], swept[t]);
+      EXPECT_LE(swept[t], with_piercing[t]);
+    }
+    some += count(swept) > 0 && count(swept) < triangle_count;
+  }
+  std::printf("%d meshes with some triangles touched and some not\n", some);
+  EXPECT_GT(some, 40);
+}
+
+}  // namespace
+}  // namespace assay::oracle
