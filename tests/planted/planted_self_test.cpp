@@ -9,7 +9,6 @@
 int main() {
   using namespace assay;
   properties::SelfTestOptions options;
-  options.queries = ASSAY_PLANTED_QUERIES;
   options.stop_at_contradiction = true;
   std::uint64_t queries = 0;
   for (const auto& family : properties::self_test_families()) {
