@@ -17,6 +17,7 @@
 #include "reports/json_output.h"
 #include "reports/limits.h"
 #include "reports/progress.h"
+#include "reports/second_opinion_text.h"
 #include "reports/step_text.h"
 
 namespace assay::reports {
@@ -81,6 +82,7 @@ class Check {
     for (std::size_t s = 0; s < step_count(); ++s) {
       steps.push_back(run_step(s));
       if (refused_) return refuse(*refused_);
+      if (unsound_) break;
     }
     summarise();
     if (!request_.json_file.empty()) {
@@ -143,7 +145,47 @@ class Check {
     fmt::print("{}", step_text(s + 1, result, &judgement, oracle_ms, &diff));
     if (diff.outcome == Outcome::defect) print_defect(s, diff);
     std::fflush(stdout);
-    return step_json(result, &judgement, oracle_ms, &diff);
+    auto json = step_json(result, &judgement, oracle_ms, &diff);
+    if (request_.second_opinion) {
+      progress.phase("second opinion");
+      json["second_opinion"] = ask_second_opinion(s, judgement, stop, progress);
+    }
+    return json;
+  }
+
+  nlohmann::ordered_json ask_second_opinion(std::size_t s, const oracle::StepJudgement& judgement,
+                                            const detector::StopFunction& stop,
+                                            Progress& progress) {
+    const double share = *request_.second_opinion;
+    const auto begin = std::chrono::steady_clock::now();
+    oracle::SecondOpinion opinion;
+    try {
+      opinion = oracle::second_opinion(input_.sequence.frames[s], input_.sequence.frames[s + 1],
+                                       input_.sequence.triangles, judgement,
+                                       {share, request_.jobs, stop, {}});
+    } catch (const std::bad_alloc&) {
+      limits_.memory_failed();
+    }
+    const double milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    progress.finish();
+    fmt::print("{}", second_opinion_text(opinion, milliseconds));
+    undecided_ |= !opinion.complete;
+    unsound_ = !opinion.contradictions.empty();
+    if (unsound_) fmt::print("  replay: {}\n", replay_line(s));
+    std::fflush(stdout);
+    return second_opinion_json(opinion, share, milliseconds);
+  }
+
+  // The step alone, where each frame is a file of its own; the same queries are chosen again.
+  std::string replay_line(std::size_t s) const {
+    const auto& files = request_.files;
+    const bool file_a_frame = files.size() == input_.sequence.frames.size();
+    std::string input;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (!file_a_frame || i == s || i == s + 1) input += " " + files[i];
+    }
+    return fmt::format("assay check{} --second-opinion {}", input, *request_.second_opinion);
   }
 
   detector::StepResult detect(std::size_t s, const detector::Positions& x_t0,
@@ -192,7 +234,9 @@ class Check {
         collision_step_ ? fmt::format("collision at t = {} of step {}", time_text(collision_time_),
                                       *collision_step_ + 1)
                         : std::string(undecided_ ? "no collision found so far" : "no collision");
-    if (defect_) {
+    if (unsound_) {
+      fmt::print("{}; UNSOUND: oracle and second opinion contradict each other\n", what);
+    } else if (defect_) {
       fmt::print("{}; DEFECT: detector and oracle differ\n", what);
     } else if (undecided_) {
       fmt::print("{}; undecided: {} reached\n", what,
@@ -213,7 +257,7 @@ class Check {
         {"components", detector_.topology().components.size()},
         {"culling", properties::name_of(options_.culling)},
         {"judged", request_.use_oracle},
-        {"outcome", properties::name_of(outcome())},
+        {"outcome", unsound_ ? "unsound" : properties::name_of(outcome())},
         {"limit_reached", limits_.reached().empty() ? nlohmann::ordered_json()
                                                     : nlohmann::ordered_json(limits_.reached())},
         {"peak_memory_bytes", peak_resident_bytes()},
@@ -226,6 +270,7 @@ class Check {
   }
 
   int exit_code() const {
+    if (unsound_) return exit_unsound;
     if (defect_) return exit_defect;
     if (undecided_) return exit_undecided;
     if (request_.fail_on_collision && collision_step_) return exit_collision;
@@ -238,7 +283,7 @@ class Check {
   detector::Options options_;
   Limits limits_;
   std::optional<std::string> refused_;
-  bool defect_ = false, undecided_ = false;
+  bool defect_ = false, undecided_ = false, unsound_ = false;
   std::optional<std::size_t> collision_step_;
   detector::TimeEnclosure collision_time_;
 };

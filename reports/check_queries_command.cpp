@@ -10,6 +10,7 @@
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary_test.h"
 #include "oracle/contact.h"
+#include "oracle/referee.h"
 #include "reports/commands.h"
 #include "reports/exit_code.h"
 #include "reports/json_output.h"
@@ -21,7 +22,8 @@ using corpus::LabelledQuery;
 
 struct Answered {
   bool contact = false;
-  int rung = 0;  // 0 axis, 1 interval or filter, 2 algebraic or exact
+  int rung = 0;       // 0 axis, 1 interval or filter, 2 algebraic or exact; 0 for the referee
+  bool open = false;  // by the referee: not decided
 };
 
 detector::FourPoints four_points_of(const LabelledQuery& q) {
@@ -42,8 +44,22 @@ Answered answer_by_detector(const LabelledQuery& q) {
   return {answer.contact, static_cast<int>(answer.rung)};
 }
 
+Answered answer_by_referee(const LabelledQuery& q) {
+  const auto verdict =
+      std::visit([](const auto& query) { return oracle::referee(query); }, q.query);
+  return {verdict == oracle::RefereeVerdict::contact, 0, verdict == oracle::RefereeVerdict::open};
+}
+
 Answered answer(QueryMethod method, const LabelledQuery& q) {
-  return method == QueryMethod::oracle ? answer_by_oracle(q) : answer_by_detector(q);
+  switch (method) {
+    case QueryMethod::oracle:
+      return answer_by_oracle(q);
+    case QueryMethod::referee:
+      return answer_by_referee(q);
+    case QueryMethod::detector_exact:
+      break;
+  }
+  return answer_by_detector(q);
 }
 
 QueryMethod other(QueryMethod method) {
@@ -51,8 +67,18 @@ QueryMethod other(QueryMethod method) {
 }
 
 const char* name_of(QueryMethod method) {
-  return method == QueryMethod::oracle ? "oracle" : "detector-exact";
+  switch (method) {
+    case QueryMethod::oracle:
+      return "oracle";
+    case QueryMethod::referee:
+      return "referee";
+    case QueryMethod::detector_exact:
+      break;
+  }
+  return "detector-exact";
 }
+
+bool has_rungs(QueryMethod method) { return method != QueryMethod::referee; }
 
 // A query where the answer is not the label.
 struct Difference {
@@ -74,7 +100,16 @@ class Score {
       const Answered answered = answer(method_, queries[i]);
       const auto end = std::chrono::steady_clock::now();
       microseconds_.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
+      if (answered.open) {
+        ++open_;
+        if (!queries[i].truth) ++unlabelled_;
+        continue;
+      }
       yes_ += answered.contact ? 1 : 0;
+      if (method_ == QueryMethod::referee &&
+          answer_by_oracle(queries[i]).contact != answered.contact) {
+        contradictions_.push_back({file, i, answered.contact, false});
+      }
       ++rungs_[static_cast<std::size_t>(answered.rung)];
       if (!queries[i].truth) {
         ++unlabelled_;
@@ -89,8 +124,15 @@ class Score {
     std::sort(microseconds_.begin(), microseconds_.end());
     const auto middle_rung = method_ == QueryMethod::oracle ? "interval" : "filter";
     const auto last_rung = method_ == QueryMethod::oracle ? "algebraic" : "exact";
-    fmt::print("{}: {} queries, {} yes, {} without a label\n", name_of(method_), count(), yes_,
-               unlabelled_);
+    fmt::print("{}: {} queries, {} yes, {} without a label{}\n", name_of(method_), count(), yes_,
+               unlabelled_,
+               method_ == QueryMethod::referee
+                   ? fmt::format(", {} open, {} contradictions", open_, contradictions_.size())
+                   : "");
+    for (const auto& d : contradictions_) {
+      fmt::print("  CONTRADICTION: {} query {}: referee {}, oracle {}\n", d.file, d.index, d.answer,
+                 !d.answer);
+    }
     fmt::print(
         "differences from the truth: {} false positives, {} false negatives, {} disputed labels\n",
         false_positives_, false_negatives_, disputed());
@@ -102,6 +144,7 @@ class Score {
     }
     fmt::print("us a query: mean {:.2f}, median {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.2f}\n",
                mean(), quantile(0.5), quantile(0.99), quantile(0.999), quantile(1));
+    if (!has_rungs(method_)) return;
     fmt::print("rungs: axis {:.1f} %, {} {:.1f} %, {} {:.1f} %\n", share(0), middle_rung, share(1),
                last_rung, share(2));
   }
@@ -116,6 +159,12 @@ class Score {
                              {"label_disputed", d.label_disputed}});
     }
     const bool oracle = method_ == QueryMethod::oracle;
+    nlohmann::ordered_json rungs;
+    if (has_rungs(method_)) {
+      rungs = {{"axis", rungs_[0]},
+               {oracle ? "interval" : "filter", rungs_[1]},
+               {oracle ? "algebraic" : "exact", rungs_[2]}};
+    }
     return {{"schema", "assay-queries/1"},
             {"version", version_text()},
             {"method", name_of(method_)},
@@ -132,12 +181,12 @@ class Score {
             {"p99_us", quantile(0.99)},
             {"p999_us", quantile(0.999)},
             {"max_us", quantile(1)},
-            {"rungs",
-             {{"axis", rungs_[0]},
-              {oracle ? "interval" : "filter", rungs_[1]},
-              {oracle ? "algebraic" : "exact", rungs_[2]}}}};
+            {"open", open_},
+            {"contradictions", contradictions_.size()},
+            {"rungs", rungs}};
   }
 
+  bool is_unsound() const { return !contradictions_.empty(); }
   bool is_wrong() const { return false_positives_ + false_negatives_ > 0; }
 
  private:
@@ -172,7 +221,8 @@ class Score {
   std::vector<double> microseconds_;
   std::size_t yes_ = 0, unlabelled_ = 0, false_positives_ = 0, false_negatives_ = 0;
   std::array<std::size_t, 3> rungs_ = {0, 0, 0};
-  std::vector<Difference> differences_;
+  std::size_t open_ = 0;  // by the referee; neither yes nor a difference
+  std::vector<Difference> differences_, contradictions_;
 };
 
 }  // namespace
@@ -206,6 +256,7 @@ int run_check_queries(const CheckQueriesRequest& request) {
     }
     fmt::print("wrote {}\n", request.json_file);
   }
+  if (score.is_unsound()) return exit_unsound;
   return score.is_wrong() ? exit_defect : exit_holds;
 }
 

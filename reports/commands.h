@@ -16,6 +16,7 @@ struct CheckRequest {
   std::optional<detector::Start> start;
   std::optional<detector::Pairs> pairs;
   bool use_oracle = true;
+  std::optional<double> second_opinion;  // share in (0,1]; needs the oracle
   int jobs = 1;
   std::optional<double> time_limit;           // seconds
   std::optional<std::uint64_t> memory_limit;  // bytes
@@ -24,7 +25,7 @@ struct CheckRequest {
 };
 int run_check(const CheckRequest& request);
 
-enum class QueryMethod : std::uint8_t { oracle, detector_exact };
+enum class QueryMethod : std::uint8_t { oracle, referee, detector_exact };
 struct CheckQueriesRequest {
   std::vector<std::string> files;
   std::vector<std::string> truths;  // none, or one a file

@@ -85,6 +85,7 @@ Json step_json(const detector::StepResult& result, const oracle::StepJudgement* 
         {"narrow_phase", result.times.narrow_phase},
         {"closure", result.times.closure},
         {"total", result.times.total}}}};
+  step["second_opinion"] = nullptr;
   if (!judgement) {
     step["oracle"] = nullptr;
     step["diff"] = nullptr;

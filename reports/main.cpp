@@ -36,6 +36,18 @@ CLI::Validator positive() {
       "NUMBER > 0");
 }
 
+CLI::Validator share() {
+  return CLI::Validator(
+      [](const std::string& word) {
+        double value = 0;
+        const bool is_number = CLI::detail::lexical_cast(word, value);
+        return is_number && value > 0 && value <= 1
+                   ? std::string()
+                   : fmt::format("'{}' is not a number above 0, at most 1", word);
+      },
+      "0 < SHARE <= 1");
+}
+
 template <class T, class Parse>
 void add_choice(CLI::App* verb, const std::string& flag, std::optional<T>& target,
                 const std::string& words, Parse parse, const std::string& about) {
@@ -61,7 +73,12 @@ void add_check(CLI::App& app, reports::CheckRequest& request) {
              "What is known of the first frame (default verified)");
   add_choice(verb, "--pairs", request.pairs, "all, first", properties::pairs_named,
              "Which pairs are asked for (default all)");
-  verb->add_flag("!--no-oracle", request.use_oracle, "Detector only; prints `not judged`");
+  auto* no_oracle =
+      verb->add_flag("!--no-oracle", request.use_oracle, "Detector only; prints `not judged`");
+  verb->add_option("--second-opinion", request.second_opinion,
+                   "Check the oracle itself by other methods, on this share of its questions")
+      ->check(share())
+      ->excludes(no_oracle);
   add_jobs(verb, request.jobs);
   verb->add_option("--time", request.time_limit, "Limit in seconds; what is left is undecided")
       ->check(positive());
@@ -81,13 +98,14 @@ void add_check_queries(CLI::App& app, reports::CheckQueriesRequest& request) {
   verb->add_option("--truth", request.truths, "Labels (.json), one file for each query file");
   const auto parse = [](std::string_view word) -> std::optional<reports::QueryMethod> {
     if (word == "oracle") return reports::QueryMethod::oracle;
+    if (word == "referee") return reports::QueryMethod::referee;
     if (word == "detector-exact") return reports::QueryMethod::detector_exact;
     return std::nullopt;
   };
   verb->add_option_function<std::string>(
           "--method", [&request, parse](const std::string& word) { request.method = *parse(word); },
           "Who answers (default oracle)")
-      ->check(one_of("oracle, detector-exact", parse));
+      ->check(one_of("oracle, referee, detector-exact", parse));
   verb->add_option("--json", request.json_file, "Write the report here (assay-queries/1)");
 }
 

@@ -93,6 +93,24 @@ TEST_F(PublicQueries, NoDifferenceFromTheTruth) {
   }
 }
 
+TEST_F(PublicQueries, RefereeContradictsNothing) {
+  const std::string rods = data + "/scalable-ccd/rod-twist/";
+  const std::string truths = " --truth " + rods + "mma_bool/3036ee_mma_bool.json " + rods +
+                             "mma_bool/3036vf_mma_bool.json";
+  for (const std::string& files :
+       {data + "/sample-queries/*/*/*.csv",
+        rods + "queries/3036ee.csv " + rods + "queries/3036vf.csv" + truths}) {
+    const auto outcome =
+        run_assay("check-queries --method referee " + files + " --json " + (scratch / "q.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    const auto report = json::parse(read_text(scratch / "q.json"));
+    EXPECT_GT(report["count"], 2000);
+    EXPECT_EQ(report["contradictions"], 0);
+    EXPECT_EQ(report["differences"].size(), 0u) << outcome.out;
+    std::printf("%s", outcome.out.c_str());
+  }
+}
+
 // Labels of queries that are coplanar for the whole step were never checked by their makers. Both
 // exact methods settle each of them, and confirm every label.
 TEST_F(PublicQueries, CoplanarThroughoutAreSettled) {

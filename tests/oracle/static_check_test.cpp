@@ -1,0 +1,128 @@
+// Triangles at rest at rational times: what they share and what they have become.
+#include "oracle/static_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "oracle/step.h"
+#include "tests/oracle/random_points.h"
+#include "tests/oracle/small_meshes.h"
+
+namespace assay::oracle {
+namespace {
+
+using test::positions;
+using test::Rows;
+using test::Step;
+using test::triangles;
+
+bool meet_at(const Step& step, const StaticTime& time) {
+  return triangles_meet(step.x_t0, step.x_t1, step.f, {0, 1}, time);
+}
+
+bool meet_at_rest(Rows rows, test::Corners corners) {
+  const auto x = positions(rows);
+  return meet_at({x, x, triangles(corners)}, RationalTime{1, 3});
+}
+
+TEST(StaticCheck, NoCommonVertex) {
+  const auto meet = [](double z) {
+    return meet_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, z}, {1, 1, 5}, {2, 1, 5}},
+                        {{0, 1, 2}, {3, 4, 5}});
+  };
+  EXPECT_TRUE(meet(-1));
+  EXPECT_TRUE(meet(0));
+  EXPECT_FALSE(meet(0x1p-1074));
+}
+
+TEST(StaticCheck, ACommonVertexAloneIsNoMeeting) {
+  EXPECT_FALSE(meet_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {-1, 0, 1}, {0, -1, 1}},
+                            {{0, 1, 2}, {0, 3, 4}}));
+  // The edge opposite vertex 0 goes through the first triangle.
+  EXPECT_TRUE(meet_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}},
+                           {{0, 1, 2}, {0, 3, 4}}));
+}
+
+TEST(StaticCheck, ACommonEdgeAloneIsNoMeeting) {
+  const auto meet = [](double y) {
+    return meet_at_rest({{0, 0, 0}, {4, 0, 0}, {2, 4, 0}, {2, y, 0}}, {{0, 1, 2}, {1, 0, 3}});
+  };
+  EXPECT_FALSE(meet(-1));
+  EXPECT_TRUE(meet(1));  // folded onto the other
+  EXPECT_TRUE(meet(9));
+  EXPECT_TRUE(meet(0));  // on the common edge, which belongs to the other triangle
+}
+
+TEST(StaticCheck, FlatTrianglesAreSegmentsAndPoints) {
+  EXPECT_TRUE(meet_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 0}, {1, 1, 1}},
+                           {{0, 1, 2}, {3, 4, 5}}));
+  EXPECT_TRUE(meet_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {1, 1, 0}, {1, 1, 0}},
+                           {{0, 1, 2}, {3, 4, 5}}));
+  EXPECT_FALSE(meet_at_rest({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}},
+                            {{0, 1, 2}, {3, 4, 5}}));
+  EXPECT_TRUE(meet_at_rest({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {3, -1, 0}, {3, 0, 0}, {3, 1, 0}},
+                           {{0, 1, 2}, {3, 4, 5}}));
+  EXPECT_TRUE(meet_at_rest({{0, 0, 0}, {4, 0, 0}, {2, -1, 0}, {2, 1, 0}}, {{0, 0, 1}, {2, 2, 3}}));
+}
+
+TEST(StaticCheck, TimesAreExact) {
+  // Vertex 3 reaches the other triangle at t = 1/3, which is no double.
+  const auto x_t0 = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, 5}, {2, 1, 5}});
+  const auto x_t1 = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -2}, {1, 1, 5}, {2, 1, 5}});
+  const Step step = {x_t0, x_t1, triangles({{0, 1, 2}, {3, 4, 5}})};
+  constexpr double below = 1.0 / 3;  // the nearest double is below
+  EXPECT_FALSE(meet_at(step, below));
+  EXPECT_TRUE(meet_at(step, std::nextafter(below, 1.0)));
+  EXPECT_TRUE(meet_at(step, RationalTime{1, 3}));
+  EXPECT_FALSE(meet_at(step, RationalTime{333333333, 1000000000}));
+  EXPECT_EQ(compare(RationalTime{1, 3}, below), 1);
+  EXPECT_EQ(compare(RationalTime{1, 2}, .5), 0);
+  EXPECT_EQ(compare(.25, .5), -1);
+}
+
+TEST(StaticCheck, SameThreeVerticesMeetAtTheStart) {
+  const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
+  const Step step = {x, x, triangles({{0, 1, 2}, {2, 1, 0}})};
+  EXPECT_TRUE(meet_at(step, RationalTime{0, 1}));
+}
+
+// Every meeting at rest is in the pair set of the step, not later, on random tetrahedra pairs.
+TEST(StaticCheck, MeetingsAreInThePairSet) {
+  test::Random random(51);
+  int checks = 0, meetings = 0;
+  for (int i = 0; i < 120; ++i) {
+    const auto kind = static_cast<test::Coordinates>(i % test::kCoordinateKinds);
+    detector::Positions x_t0(6, 3), x_t1(6, 3);
+    for (int v = 0; v < 6; ++v) {
+      for (int k = 0; k < 3; ++k) {
+        x_t0(v, k) = random_coordinate(random, kind);
+        x_t1(v, k) = random_coordinate(random, kind);
+      }
+    }
+    const auto f = triangles({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}, {2, 3, 4}, {1, 4, 5}});
+    const StepJudgement judged = judge_step(x_t0, x_t1, f, {});
+    for (std::int32_t a = 0; a < f.rows(); ++a) {
+      for (std::int32_t b = a + 1; b < f.rows(); ++b) {
+        for (const RationalTime& time : {RationalTime{0, 1}, {2, 7}, {1, 2}, {1, 1}}) {
+          ++checks;
+          if (!triangles_meet(x_t0, x_t1, f, {a, b}, time)) continue;
+          ++meetings;
+          const auto found =
+              std::find_if(judged.pairs.begin(), judged.pairs.end(), [&](const auto& p) {
+                return p.pair == detector::TrianglePair{a, b};
+              });
+          ASSERT_NE(found, judged.pairs.end()) << i << ": " << a << " " << b;
+          EXPECT_GE(compare(time, found->time.lo), 0) << i << ": " << a << " " << b;
+        }
+      }
+    }
+  }
+  std::printf("seed 51: %d static checks, %d meetings\n", checks, meetings);
+  EXPECT_GT(meetings, 100);
+}
+
+}  // namespace
+}  // namespace assay::oracle

@@ -1,0 +1,147 @@
+// The second opinion and the referee as a user asks for them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "reports/second_opinion_text.h"
+#include "tests/reports/program.h"
+
+namespace assay::tests {
+namespace {
+
+using nlohmann::json;
+
+class SecondOpinionRun : public testing::Test {
+ protected:
+  std::string make_scene(const std::string& name, int size, int frames) {
+    const std::string folder = scratch / name;
+    const auto made = run_assay("scene " + name + " --size " + std::to_string(size) + " --frames " +
+                                std::to_string(frames) + " --out " + folder);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return folder + "/frame_*.ply";
+  }
+  json check(const std::string& arguments) {
+    const auto outcome = run_assay("check " + arguments + " --json " + (scratch / "r.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("second opinion: "), std::string::npos) << outcome.out;
+    return json::parse(read_text(scratch / "r.json"));
+  }
+  const Scratch scratch;
+};
+
+TEST_F(SecondOpinionRun, WholeScenesWithoutAContradiction) {
+  for (const std::string scene : {"folding-sheet", "crumpling-sphere", "pinching-torus"}) {
+    const auto report = check(make_scene(scene, 200, 4) + " --second-opinion 1");
+    for (const auto& step : report["steps"]) {
+      const auto& opinion = step["second_opinion"];
+      EXPECT_EQ(opinion["share"], 1.0);
+      EXPECT_EQ(opinion["complete"], true);
+      EXPECT_EQ(opinion["queries"], step["oracle"]["feature_candidates"]);
+      EXPECT_EQ(opinion["contradictions"].size(), 0u);
+      EXPECT_LE(opinion["open"].get<double>(), 0.05 * opinion["queries"].get<double>());
+    }
+  }
+}
+
+TEST_F(SecondOpinionRun, AShareIsTheSameForAnyJobs) {
+  const auto frames = make_scene("crumpling-sphere", 500, 2);
+  const auto ask = [&](const std::string& jobs) {
+    auto opinion =
+        check(frames + " --second-opinion 0.1 --jobs " + jobs)["steps"][0]["second_opinion"];
+    opinion.erase("time_ms");
+    return opinion;
+  };
+  const auto one = ask("1");
+  EXPECT_GT(one["queries"], 0);
+  EXPECT_EQ(one, ask("3"));
+}
+
+TEST_F(SecondOpinionRun, NullWithoutTheOption) {
+  const auto frames = make_scene("bend", 200, 2);
+  ASSERT_EQ(run_assay("check " + frames + " --json " + (scratch / "n.json")).exit_code, 0);
+  const auto report = json::parse(read_text(scratch / "n.json"));
+  EXPECT_TRUE(report["steps"][0].contains("second_opinion"));
+  EXPECT_EQ(report["steps"][0]["second_opinion"], nullptr);
+}
+
+TEST_F(SecondOpinionRun, BadSharesAreRefusedInOneLine) {
+  for (const std::string share : {"0", "-1", "1.5", "nan", "inf", "half", "\"\"", "0.5x"}) {
+    const auto outcome = run_assay("check a.ply b.ply --second-opinion " + share);
+    EXPECT_EQ(outcome.exit_code, 2) << share;
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("second-opinion"), std::string::npos) << outcome.err;
+  }
+  const auto both = run_assay("check a.ply b.ply --second-opinion 1 --no-oracle");
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_EQ(std::count(both.err.begin(), both.err.end(), '\n'), 1) << both.err;
+}
+
+TEST_F(SecondOpinionRun, RefereeAnswersQueries) {
+  // A vertex that falls through a face at t=1/2, and one that misses it, labelled
+  // wrongly as a contact too.
+  const auto rows = [](const std::string& x) {
+    std::string text;
+    for (const char* z : {"1", "-1"}) {
+      text += x;
+      text += ",1,1,1,";
+      text += z;
+      text += ",1,1\n0,1,0,1,0,1,1\n4,1,0,1,0,1,1\n0,1,4,1,0,1,1\n";
+    }
+    return text;
+  };
+  std::filesystem::create_directory(scratch / "vertex-face");
+  const auto file = scratch.write("vertex-face/two.csv", rows("1") + rows("9"));
+  const auto outcome =
+      run_assay("check-queries --method referee " + file + " --json " + (scratch / "q.json"));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.out.find("rungs"), std::string::npos);
+  EXPECT_NE(outcome.out.find("0 open, 0 contradictions"), std::string::npos) << outcome.out;
+  const auto report = json::parse(read_text(scratch / "q.json"));
+  EXPECT_EQ(report["method"], "referee");
+  EXPECT_EQ(report["count"], 2);
+  EXPECT_EQ(report["yes"], 1);
+  EXPECT_EQ(report["open"], 0);
+  EXPECT_EQ(report["contradictions"], 0);
+  EXPECT_EQ(report["false_negatives"], 1);
+  EXPECT_EQ(report["rungs"], nullptr);
+}
+
+// No input makes the two disagree, so what is printed of a contradiction is tested alone.
+TEST(SecondOpinionText, NamesTheContradictions) {
+  oracle::SecondOpinion opinion;
+  opinion.complete = true;
+  opinion.queries = 9;
+  opinion.contact = 3;
+  opinion.no_contact = 5;
+  opinion.open = 1;
+  opinion.static_checks = 20;
+  opinion.contradictions = {{oracle::ContradictionKind::query,
+                             {detector::FeatureKind::vertex_face, {7, 0, 1, 2, -1}},
+                             {-1, -1},
+                             {},
+                             false,
+                             true},
+                            {oracle::ContradictionKind::static_pair,
+                             {},
+                             {4, 6},
+                             oracle::RationalTime{1, 3},
+                             false,
+                             true}};
+  const std::string text = reports::second_opinion_text(opinion, 2);
+  EXPECT_NE(text.find("9 queries (3 contact, 5 no contact, 1 open), 20 static checks, 2 contra"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("vertices 7 0 1 2; oracle: no contact, referee: contact"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("triangles 4 and 6 at t = 1/3"), std::string::npos) << text;
+  const auto report = reports::second_opinion_json(opinion, .25, 2);
+  EXPECT_EQ(report["contradictions"].size(), 2u);
+  EXPECT_EQ(report["contradictions"][0]["kind"], "query");
+  EXPECT_EQ(report["contradictions"][1]["time"], "1/3");
+  EXPECT_EQ(report["share"], .25);
+}
+
+}  // namespace
+}  // namespace assay::tests
