@@ -171,10 +171,10 @@ const std::vector<std::unique_ptr<const SelfTestFamily>>& self_test_families() {
     world("line-3", "all queries on {-1,0,1}", 3, 1, every_point_moves, 0);
     world("plane-2", "all queries on {0,1}^2", 2, 2, every_point_moves, 0);
     world("plane-3-one", "all on {-1,0,1}^2, at most one point moves", 3, 2, one_point_moves, 0);
+    all.push_back(std::make_unique<StepFamily>());
     for (const QueryGenerator& generator : query_generators()) {
       all.push_back(std::make_unique<RandomFamily>(generator));
     }
-    all.push_back(std::make_unique<StepFamily>());
     world("line-4", "all queries on {0,1,2,3}", 4, 1, every_point_moves, 20'000);
     world("cube-2", "all queries on {0,1}^3", 2, 3, every_point_moves, 100'000);
     world("cube-3-one", "all on {-1,0,1}^3, at most one point moves", 3, 3, one_point_moves,

@@ -35,7 +35,7 @@ class SelfTestFamily {
 };
 
 // Cheap and most telling first: named queries with the rung that must decide them, small worlds,
-// random queries, whole small steps, then the larger worlds (only when many queries are asked for).
+// whole small steps, random queries, then the larger worlds (only when many queries are asked for).
 const std::vector<std::unique_ptr<const SelfTestFamily>>& self_test_families();
 
 }  // namespace assay::properties

@@ -1,5 +1,6 @@
 // assay self-test: the oracle's own check, a line a family.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -83,6 +84,8 @@ int run_self_test(const SelfTestRequest& request) {
   if (!request.replay.empty()) return replay(request);
   announce(request);
 
+  constexpr double kSecondsBetweenLines = 30;
+  const bool on_terminal = isatty(STDERR_FILENO) == 1;
   const auto begin = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   properties::SelfTestOptions options{request.seed, request.queries, request.jobs, {}, false};
@@ -90,13 +93,18 @@ int run_self_test(const SelfTestRequest& request) {
     options.stop = [&, limit = *request.time_limit] { return elapsed() >= limit; };
   }
   Progress progress("self-test");
+  double last_line = 0;
   QueryTally total;
   bool complete = true;
   for (const auto& family : properties::self_test_families()) {
     const std::uint64_t indices = family->indices(request.queries);
     if (indices == 0) continue;
     const auto result = properties::run_family(*family, options, [&](std::uint64_t done) {
-      progress.phase(fmt::format("{} {:.0f} %", family->name(), share(done, indices)));
+      const auto phase = fmt::format("{} {:.0f} %", family->name(), share(done, indices));
+      progress.phase(phase);
+      if (on_terminal || elapsed() - last_line < kSecondsBetweenLines) return;
+      last_line = elapsed();
+      fmt::print(stderr, "self-test: {} {:.0f} s\n", phase, last_line);
     });
     progress.finish();
     print_row(family->name(), result.tally, result.seconds);

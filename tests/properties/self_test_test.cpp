@@ -1,0 +1,184 @@
+// The parts of the self-test: small worlds are complete, cases can be made alone, exact conditions
+// of the constructed families hold, results do not depend on the number of threads.
+#include "properties/self_test.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "properties/small_worlds.h"
+
+namespace assay::properties {
+namespace {
+
+// A query's least form under all symmetries of its world, by brute force on coordinates.
+using Form = std::array<std::array<double, 4>, 4>;  // a point: x and y at t=0, x and y at t=1
+
+Form sorted(Form f, int first_group) {
+  for (int i = 0; i < 4; ++i) {
+    for (int j = i + 1; j < 4; ++j) {
+      const bool same_group = (i < first_group) == (j < first_group);
+      if (same_group && f[j] < f[i]) std::swap(f[i], f[j]);
+    }
+  }
+  Form exchanged = {f[2], f[3], f[0], f[1]};
+  return first_group == 2 ? std::min(f, exchanged) : f;
+}
+
+Form least_form(const Form& f, int first_group, int dimensions, double mirror_sum) {
+  Form least = sorted(f, first_group);
+  for (int s = 0; s < (dimensions == 1 ? 2 : 8); ++s) {
+    Form other = f;
+    for (auto& p : other) {
+      for (std::size_t e = 0; e < 4; e += 2) {
+        if (s & 1) p[e] = mirror_sum - p[e];
+        if (s & 2) p[e + 1] = mirror_sum - p[e + 1];
+        if (s & 4) std::swap(p[e], p[e + 1]);
+      }
+    }
+    least = std::min(least, sorted(other, first_group));
+  }
+  return least;
+}
+
+Form form_of(const Query& q) {
+  Form f;
+  for (std::size_t i = 0; i < 4; ++i) {
+    f[i] = {q.points[i].t0[0], q.points[i].t0[1], q.points[i].t1[0], q.points[i].t1[1]};
+  }
+  return f;
+}
+
+// All classes, from all arrangements of all points.
+std::set<std::pair<int, Form>> all_classes(int side, int dimensions, bool one_moves) {
+  const int least = side == 3 ? -1 : 0;
+  const int grid = dimensions == 1 ? side : side * side;
+  std::set<std::pair<int, Form>> classes;
+  const int paths = grid * grid;
+  for (int code = 0; code < paths * paths * paths * paths; ++code) {
+    Form f;
+    int rest = code, moving = 0;
+    for (auto& p : f) {
+      const int from = rest % grid, to = rest / grid % grid;
+      rest /= paths;
+      moving += from != to;
+      const auto y = [&](int at) { return dimensions == 1 ? 0 : at / side + least; };
+      p = {double(from % side + least), double(y(from)), double(to % side + least), double(y(to))};
+    }
+    if (one_moves && moving > 1) continue;
+    for (const int first_group : {1, 2}) {
+      classes.emplace(first_group, least_form(f, first_group, dimensions, side - 1 + 2 * least));
+    }
+  }
+  return classes;
+}
+
+void expect_complete(int side, int dimensions, WorldMotion motion) {
+  const SmallWorld world(side, dimensions, motion);
+  std::set<std::pair<int, Form>> found;
+  std::size_t queries = 0;
+  for (std::uint64_t place = 0; place < world.places(); ++place) {
+    const auto query = world.at(place);
+    if (!query) continue;
+    ++queries;
+    const double mirror_sum = side == 3 ? 0 : side - 1;
+    found.emplace(query->first_group,
+                  least_form(form_of(*query), query->first_group, dimensions, mirror_sum));
+  }
+  EXPECT_EQ(queries, found.size()) << "a class stands twice";
+  EXPECT_EQ(found, all_classes(side, dimensions, motion == WorldMotion::one_point_moves));
+}
+
+TEST(SmallWorld, LineIsComplete) { expect_complete(3, 1, WorldMotion::every_point_moves); }
+TEST(SmallWorld, PlaneIsComplete) { expect_complete(2, 2, WorldMotion::every_point_moves); }
+TEST(SmallWorld, LineWithOneMoverIsComplete) {
+  expect_complete(4, 1, WorldMotion::one_point_moves);
+}
+TEST(SmallWorld, PlaneWithOneMoverIsComplete) {
+  expect_complete(2, 2, WorldMotion::one_point_moves);
+}
+
+// The number of orbits by Burnside's lemma, computed on its own: the mean over the 48 symmetries
+// of the cube of the multisets that each leaves in place.
+TEST(SmallWorld, CubeHoldsAsManyAsBurnsideSays) {
+  const SmallWorld world(2, 3, WorldMotion::every_point_moves);
+  std::uint64_t faces = 0, edges = 0;
+  for (std::uint64_t place = 0; place < world.places(); ++place) {
+    if (const auto query = world.at(place)) ++(query->first_group == 1 ? faces : edges);
+  }
+  std::array<std::size_t, 3> axes = {0, 1, 2};
+  std::uint64_t fixed_faces = 0, fixed_edges = 0;
+  do {
+    for (int mirrored = 0; mirrored < 8; ++mirrored) {
+      std::array<int, 64> image;  // of a path: from + 8 to
+      const auto moved = [&](int p) {
+        int to = 0;
+        for (int k = 0; k < 3; ++k) to |= ((p >> axes[k] & 1) ^ (mirrored >> k & 1)) << k;
+        return to;
+      };
+      for (int p = 0; p < 64; ++p) image[p] = moved(p % 8) + 8 * moved(p / 8);
+      // Paths fixed by the symmetry, its square and its cube give the fixed multisets.
+      const auto fixed_by = [&](int times) {
+        std::uint64_t n = 0;
+        for (int p = 0; p < 64; ++p) {
+          int at = p;
+          for (int i = 0; i < times; ++i) at = image[at];
+          n += at == p;
+        }
+        return n;
+      };
+      const std::uint64_t f1 = fixed_by(1), f2 = fixed_by(2), f3 = fixed_by(3), f4 = fixed_by(4);
+      fixed_faces += f1 * (f1 * f1 * f1 + 3 * f1 * f2 + 2 * f3) / 6;
+      const std::uint64_t pairs = (f1 * f1 + f2) / 2, pairs_of_square = (f2 * f2 + f4) / 2;
+      fixed_edges += (pairs * pairs + pairs_of_square) / 2;
+    }
+  } while (std::next_permutation(axes.begin(), axes.end()));
+  EXPECT_EQ(faces, fixed_faces / 48);
+  EXPECT_EQ(edges, fixed_edges / 48);
+  std::printf("%llu vertex-face, %llu edge-edge\n", static_cast<unsigned long long>(faces),
+              static_cast<unsigned long long>(edges));
+}
+
+TEST(Generators, EveryQueryCanBeMadeAlone) {
+  for (const QueryGenerator& generator : query_generators()) {
+    for (std::uint64_t index = 0; index < 20; ++index) {
+      EXPECT_EQ(exact_text(generator.make(5, index).query),
+                exact_text(generator.make(5, index).query));
+      EXPECT_NE(exact_text(generator.make(5, index).query),
+                exact_text(generator.make(6, index).query));
+      EXPECT_EQ(generator.make(5, index).query.first_group, index % 2 == 0 ? 1 : 2);
+    }
+  }
+}
+
+TEST(SelfTest, ResultDoesNotDependOnJobs) {
+  for (const auto& family : self_test_families()) {
+    if (family->name() != "small-int" && family->name() != "steps") continue;
+    SelfTestOptions options;
+    options.queries = 400;
+    const auto one = run_family(*family, options, {});
+    options.jobs = 3;
+    const auto three = run_family(*family, options, {});
+    EXPECT_TRUE(one.complete && three.complete);
+    EXPECT_EQ(one.tally.queries, three.tally.queries);
+    EXPECT_EQ(one.tally.contacts, three.tally.contacts);
+    EXPECT_EQ(one.tally.rungs.algebraic, three.tally.rungs.algebraic);
+    EXPECT_EQ(one.tally.contradictions, 0u);
+  }
+}
+
+TEST(SelfTest, CasesHaveNames) {
+  const auto named = self_test_case("small-int:7:123");
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->family->name(), "small-int");
+  EXPECT_EQ(named->seed, 7u);
+  EXPECT_EQ(named->index, 123u);
+  for (const char* wrong : {"", "small-int", "small-int:7", "small-int:7:", "small-int:x:1",
+                            "small-int:7:-1", "no-family:1:1", ":1:1", "small-int:7:1 "}) {
+    EXPECT_FALSE(self_test_case(wrong)) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace assay::properties
