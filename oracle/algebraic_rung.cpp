@@ -14,7 +14,8 @@ bool all_zero(const Polynomials& ps) {
   return std::all_of(ps.begin(), ps.end(), [](const IntegerPolynomial& p) { return p.is_zero(); });
 }
 
-// The polynomials among whose zeros a contact begins.
+}  // namespace
+
 std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials) {
   if (!polynomials.coplanarity().is_zero()) return {polynomials.coplanarity()};
   const IntegerPolynomial start = linear(0, 1);  // its zero is t=0
@@ -34,7 +35,6 @@ std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials
   return {start};
 }
 
-// The contact condition at a time where F is zero.
 bool contact_at(ContactPolynomials& polynomials, const AlgebraicTimes& times, int i) {
   for (int axis = 0; axis < 3; ++axis) {
     bool positive = false, negative = false;
@@ -59,8 +59,6 @@ bool contact_at(ContactPolynomials& polynomials, const AlgebraicTimes& times, in
   }
   return true;
 }
-
-}  // namespace
 
 AlgebraicVerdict algebraic_verdict(ContactPolynomials& polynomials, detector::Want want) {
   const AlgebraicTimes times(event_polynomials(polynomials));

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "oracle/algebraic_times.h"
 #include "oracle/contact_polynomials.h"
 
 namespace assay::oracle {
@@ -18,5 +20,11 @@ struct AlgebraicVerdict {
 // are, t=0 and the zeros of the D of such an axis; else t=0. Between these times nothing changes,
 // and the set of contact times is closed, so the first of them with a contact is the answer.
 AlgebraicVerdict algebraic_verdict(ContactPolynomials& polynomials, detector::Want want);
+
+// The polynomials among whose zeros in [0,1] a contact begins; none is identically zero.
+std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials);
+
+// The contact condition at the i-th time, at which F must be zero.
+bool contact_at(ContactPolynomials& polynomials, const AlgebraicTimes& times, int i);
 
 }  // namespace assay::oracle
