@@ -6,39 +6,24 @@
 //   state at the start: last commit, or static contacts and layers find_start (L8, L9)
 //   mark, and traverse (V+,V-), (U,V0), (U,Vv) and pairs of two components
 //   elementary tests, each feature pair once                       search (L3, L10)
-//   closure: (U,H) until H is stable                               close (L7)
+//   closure: (U,H) until H is stable                               (L7)
 //   what is clean at the end                                       state_at_end (L8)
 //
 // Unclosed components have no view test: all their triangles are dirty, so in (U,Vv).
 #include "detector/step.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "detector/mesh/mesh_checks.h"
-#include "detector/search/feature_contacts.h"
+#include "detector/search/candidate_search.h"
 #include "detector/state/winding.h"
+#include "detector/stopwatch.h"
 
 namespace assay::detector {
 namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-class Stopwatch {
- public:
-  explicit Stopwatch(double& milliseconds) : total_(milliseconds) {}
-  ~Stopwatch() {
-    total_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_)
-                  .count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& total_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 class Step {
  public:
@@ -179,73 +164,32 @@ class Step {
   }
 
   bool search() {
-    FeatureContacts contacts(mesh_, x_t0_, x_t1_, Want::first_time);
-    Marks marks;
+    const bool uses_tree = context_.options.culling != Culling::none;
+    std::vector<std::uint8_t> flags(mesh_.triangles.size());
+    for (std::size_t t = 0; t < flags.size(); ++t) flags[t] = flags_of(t);
+    StepTimes& times = result_.times;
     {
-      Stopwatch watch(result_.times.broad_phase);
-      marks.triangle_flags.resize(mesh_.triangles.size());
-      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-        marks.triangle_flags[t] = flags_of(t);
-      if (context_.options.culling != Culling::none) context_.tree.refit(mesh_, x_t0_, x_t1_);
+      Stopwatch watch(times.broad_phase);
+      if (uses_tree) context_.tree.refit(mesh_, x_t0_, x_t1_);
     }
+    CandidateSearch candidates(mesh_, uses_tree ? &context_.tree : nullptr, x_t0_, x_t1_, clean_,
+                               std::move(flags), stop_);
     const PairRule rule = uses_views() ? PairRule::candidates : PairRule::every_pair;
-    bool completed = collect(rule, marks, contacts, result_.times.broad_phase);
-    if (completed) {
-      Stopwatch watch(result_.times.narrow_phase);
-      completed = contacts.run(stop_);
-    }
-    if (completed && uses_views() && context_.options.pairs == Pairs::all) {
-      completed = close(marks, contacts);
-    }
-    result_.pairs = contacts.pair_contacts();
-    result_.counts.narrow = contacts.counts();
+    const bool closes = uses_views() && context_.options.pairs == Pairs::all;
+    const bool completed = timed(times.broad_phase, [&] { return candidates.collect(rule); }) &&
+                           timed(times.narrow_phase, [&] { return candidates.test(); }) &&
+                           (!closes || timed(times.closure, [&] { return candidates.close(); }));
+    result_.pairs = candidates.pair_contacts();
+    result_.counts.search = candidates.search_counts();
+    result_.counts.narrow = candidates.narrow_counts();
+    result_.counts.closure_rounds = candidates.closure_rounds();
     return completed;
   }
 
-  bool collect(PairRule rule, Marks& marks, FeatureContacts& contacts, double& time) {
-    Stopwatch watch(time);
-    SearchCounts& counts = result_.counts.search;
-    const auto sink = [&](std::int32_t a, std::int32_t b) {
-      constexpr std::uint64_t pairs_between_stops = 4096;
-      if (counts.candidate_pairs % pairs_between_stops == 0 && stop_ && stop_()) return false;
-      // A clean triangle is in no contact with its own component at t=0.
-      const bool may_pierce = !same_component(a, b) || (!clean_[at(a)] && !clean_[at(b)]);
-      contacts.add_candidate(a, b, may_pierce);
-      return true;
-    };
-    if (context_.options.culling == Culling::none) {
-      return enumerate_pairs(mesh_, marks, rule, counts, sink);
-    }
-    mark_nodes(context_.tree, mesh_, marks);
-    return search_pairs(context_.tree, marks, rule, counts, sink);
-  }
-
-  // L7. V0 and Vv were already looked at against everything.
-  bool close(Marks& marks, FeatureContacts& contacts) {
-    Stopwatch watch(result_.times.closure);
-    std::vector<std::uint8_t> in_h(mesh_.triangles.size(), 0);
-    std::size_t seen = 0;
-    while (true) {
-      bool grew = false;
-      for (auto& flags : marks.triangle_flags) flags &= static_cast<std::uint8_t>(~flag::grown);
-      for (; seen < contacts.contacts().size(); ++seen) {
-        for (const auto& pair : contacts.contacts()[seen].pairs) {
-          // All pairs of two components were tested, and layers count the own component (L10).
-          if (!same_component(pair.a, pair.b)) continue;
-          for (const auto t : {pair.a, pair.b}) {
-            if (in_h[at(t)]) continue;
-            in_h[at(t)] = 1;
-            if (marks.triangle_flags[at(t)] & flag::full) continue;
-            marks.triangle_flags[at(t)] |= flag::grown;
-            grew = true;
-          }
-        }
-      }
-      if (!grew) return true;
-      ++result_.counts.closure_rounds;
-      double unused = 0;
-      if (!collect(PairRule::grown, marks, contacts, unused) || !contacts.run(stop_)) return false;
-    }
+  template <class Work>
+  static bool timed(double& milliseconds, Work work) {
+    Stopwatch watch(milliseconds);
+    return work();
   }
 
   StepState state_at_end() const {
