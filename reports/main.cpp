@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <iostream>
+#include <sstream>
 #include <system_error>
 #include <thread>
 
@@ -182,7 +184,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {
-    return app.exit(asked);
+    std::ostringstream text;
+    const int code = app.exit(asked, text, text);
+    fmt::print("{}", text.str());
+    return code;
   } catch (const CLI::ParseError& wrong) {
     const std::string first = argc > 1 ? argv[1] : "";
     const auto verbs =
@@ -204,6 +209,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // CGAL's modular gcd remarks on unlucky primes there; this program prints through stdio.
+  std::cout.setstate(std::ios_base::badbit);
   try {
     const int code = run(argc, argv);
     return reports::output_was_written() ? code : reports::exit_usage;
