@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detector/bernstein/bernstein.h"
 #include "detector/exact/integer.h"
 
 namespace assay::detector {
 namespace {
 
 constexpr double orientation_error = 48 * 0x1p-53;
-constexpr double least_magnitude = 0x1p-300, greatest_magnitude = 0x1p300;
 
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
   const std::array<double, 12> values = {a[0], a[1], a[2], b[0], b[1], b[2],

@@ -8,7 +8,6 @@
 
 namespace assay::detector {
 
-// `seen` is scratch by mesh triangle, 0 for those of the component. O(component) for each piece.
 // Marks clean[t] for the triangles of `component`, a cycle. `touched[t]` (indexed by mesh triangle)
 // says that t meets another triangle of the component, beyond what they share, at x.
 //
@@ -17,6 +16,7 @@ namespace assay::detector {
 // piece. Clean are the pieces of the common layer: the layer with most untouched triangles (tie:
 // the one that holds the lowest triangle index). "Connected" would not be enough: two tetrahedra,
 // one inside the other, may share an edge (case L9_shared_edge_two_layers).
+// `seen` is scratch by mesh triangle, 0 for those of the component. O(component) for each piece.
 void mark_clean_by_layers(const Topology& mesh, const Component& component, const PositionsView& x,
                           const std::vector<std::uint8_t>& touched, std::vector<std::uint8_t>& seen,
                           std::vector<std::uint8_t>& clean);
