@@ -5,6 +5,7 @@
 // double.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -28,6 +29,14 @@ struct CaseGhosts {
   detector::Triangles triangles;
 };
 
+// One evaluation of a detector: from frame `from` to frame `to`; with `commit` its state advances
+// to the end of it. A step that starts elsewhere than the last commit ended is a new start.
+struct CaseStep {
+  std::int32_t from = 0, to = 1;
+  bool commit = true;
+  friend bool operator==(const CaseStep&, const CaseStep&) = default;
+};
+
 struct ExpectedPair {
   detector::TrianglePair pair;
   detector::TimeEnclosure time;  // first contact of this pair
@@ -46,7 +55,7 @@ struct ExpectedStep {
 // answer: collision when a step has a contact; error for a mesh that must be refused.
 struct ExpectedFacts {
   detector::Answer answer = detector::Answer::free;
-  std::vector<ExpectedStep> steps;  // one for each pair of consecutive frames, or none
+  std::vector<ExpectedStep> steps;  // one for each step of the case, or none
 };
 
 struct Case {
@@ -54,7 +63,10 @@ struct Case {
   std::string about;   // one line: what it shows
   std::string source;  // where it comes from
   detector::Triangles triangles;
-  std::vector<detector::Positions> frames;  // at least one; two frames are one step
+  std::vector<detector::Positions> frames;  // at least one
+  // The steps in order (a response of the caller to a collision shows here); empty: consecutive
+  // frames, each committed.
+  std::vector<CaseStep> script;
   std::optional<CaseView> view;
   std::optional<CaseGhosts> ghosts;
   std::map<std::string, std::string, std::less<>> options;  // culling, start, ...: as on the
@@ -64,7 +76,13 @@ struct Case {
   std::string pending = "{}";
 };
 
-// The primitive of the step from frame `step` to the next; nothing when the case states none.
+// Consecutive frames, each committed.
+std::vector<CaseStep> consecutive_steps(std::size_t frames);
+
+// The script, or what an empty one stands for.
+std::vector<CaseStep> steps_of(const Case& c);
+
+// The primitive of step `step`; nothing when the case states none.
 std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t step);
 
 // The canonical text of a case.

@@ -26,6 +26,9 @@ class CaseParser {
     BOOST_OUTCOME_TRY(read_text("about", case_.about));
     BOOST_OUTCOME_TRY(read_text("source", case_.source));
     BOOST_OUTCOME_TRY(read_mesh());
+    if (top_.has("script")) {
+      BOOST_OUTCOME_TRY(read_script());
+    }
     if (top_.has("view")) {
       BOOST_OUTCOME_TRY(read_view());
     }
@@ -70,6 +73,29 @@ class CaseParser {
     if (triangles.rows() == 0) return field.problem("none", FileProblem::no_triangles);
     case_.triangles = std::move(triangles);
     return boost::outcome_v2::success();
+  }
+
+  Expected<void> read_script() {
+    BOOST_OUTCOME_TRY(field, top_.at("script"));
+    BOOST_OUTCOME_TRY(steps, read_list<CaseStep>(field, [&](const JsonField& item) {
+                        return read_script_step(item);
+                      }));
+    if (steps.empty()) return field.problem("at least one step expected");
+    case_.script = std::move(steps);
+    return boost::outcome_v2::success();
+  }
+
+  Expected<CaseStep> read_script_step(const JsonField& field) const {
+    BOOST_OUTCOME_TRY(expect_size(field, 3));
+    const auto frames = static_cast<std::int64_t>(case_.frames.size());
+    BOOST_OUTCOME_TRY(from, field.item(0).integer(0, frames));
+    BOOST_OUTCOME_TRY(to, field.item(1).integer(0, frames));
+    BOOST_OUTCOME_TRY(what, field.item(2).text());
+    if (what != "commit" && what != "evaluate") {
+      return field.item(2).problem("commit or evaluate expected");
+    }
+    return CaseStep{static_cast<std::int32_t>(from), static_cast<std::int32_t>(to),
+                    what == "commit"};
   }
 
   Expected<void> read_view() {
@@ -124,7 +150,7 @@ class CaseParser {
     BOOST_OUTCOME_TRY(steps, read_list<ExpectedStep>(
                                  field, [&](const JsonField& item) { return read_step(item); }));
     if (!steps.empty()) {
-      BOOST_OUTCOME_TRY(expect_size(field, case_.frames.size() - 1));
+      BOOST_OUTCOME_TRY(expect_size(field, steps_of(case_).size()));
     }
     case_.expected.steps = std::move(steps);
     return boost::outcome_v2::success();

@@ -76,6 +76,14 @@ void append_frames(std::string& out, const Case& c) {
   });
 }
 
+void append_script(std::string& out, const std::vector<CaseStep>& script) {
+  out += ",\n  \"script\": ";
+  append_rows(out, script.size(), 2, [&](std::size_t i) {
+    return fmt::format("[{}, {}, \"{}\"]", script[i].from, script[i].to,
+                       script[i].commit ? "commit" : "evaluate");
+  });
+}
+
 void append_view(std::string& out, const CaseView& view) {
   out += ",\n  \"view\": {\n    \"q0\": ";
   append_points(out, view.q0, 4);
@@ -142,6 +150,7 @@ std::string case_text(const Case& c) {
   append_triangles(out, c.triangles, 2);
   out += ",\n  \"frames\": ";
   append_frames(out, c);
+  if (!c.script.empty()) append_script(out, c.script);
   if (c.view) append_view(out, *c.view);
   if (c.ghosts) append_ghosts(out, *c.ghosts);
   out += ",\n  \"options\": {";

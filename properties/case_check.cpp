@@ -69,8 +69,9 @@ class CaseChecker {
     }
     if (case_.expected.answer == Answer::error) fail("accepted, expected to be refused");
     bool collision = false;
-    for (std::size_t s = 0; s + 1 < case_.frames.size(); ++s) {
-      check_step(made.value(), s);
+    const auto script = corpus::steps_of(case_);
+    for (std::size_t s = 0; s < script.size(); ++s) {
+      check_step(made.value(), s, script[s]);
       collision |= report_.steps.back().result.answer == Answer::collision;
     }
     if (collision != (case_.expected.answer == Answer::collision)) {
@@ -89,8 +90,9 @@ class CaseChecker {
     return std::move(report_);
   }
 
-  void check_step(detector::Detector& detector, std::size_t s) {
-    const auto &x_t0 = case_.frames[s], &x_t1 = case_.frames[s + 1];
+  void check_step(detector::Detector& detector, std::size_t s, const corpus::CaseStep& script) {
+    const auto& x_t0 = case_.frames[static_cast<std::size_t>(script.from)];
+    const auto& x_t1 = case_.frames[static_cast<std::size_t>(script.to)];
     const auto view = corpus::view_of_step(case_, s);
     std::vector<detector::ViewPrimitive> given;
     const bool uses_views =
@@ -100,9 +102,10 @@ class CaseChecker {
       // A segment serves as a point by its first end.
       if (options_.culling == Culling::view_point) given[0].q1 = given[0].q0;
     }
-    CaseStepReport step{detector.step(x_t0, x_t1, given),
-                        oracle::judge_step(x_t0, x_t1, case_.triangles, {jobs_, {}}),
-                        {}};
+    CaseStepReport step{
+        script.commit ? detector.step(x_t0, x_t1, given) : detector.evaluate(x_t0, x_t1, given),
+        oracle::judge_step(x_t0, x_t1, case_.triangles, {jobs_, {}}),
+        {}};
     step.diff = compare(step.result, step.judgement, options_.pairs);
     const std::string where = fmt::format("step {}: ", s + 1);
     if (step.diff.outcome != Outcome::holds) fail(where + "detector and oracle disagree");
@@ -167,8 +170,11 @@ class CaseChecker {
 
   ViewSign sign_by_oracle(std::size_t s, std::int32_t t,
                           const detector::ViewPrimitive& view) const {
+    const corpus::CaseStep step = corpus::steps_of(case_)[s];
+    const auto& start = case_.frames[static_cast<std::size_t>(step.from)];
+    const auto& end = case_.frames[static_cast<std::size_t>(step.to)];
     const auto corner = [&](int i) {
-      return detector::moving_point(case_.frames[s], case_.frames[s + 1], case_.triangles(t, i));
+      return detector::moving_point(start, end, case_.triangles(t, i));
     };
     return oracle::view_sign({corner(0), corner(1), corner(2)}, view);
   }

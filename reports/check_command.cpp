@@ -63,6 +63,8 @@ class Check {
         input_(input),
         detector_(std::move(detector)),
         options_(options),
+        script_(input.as_case ? corpus::steps_of(*input.as_case)
+                              : corpus::consecutive_steps(input.sequence.frames.size())),
         limits_(request.time_limit, request.memory_limit) {}
 
   int run() {
@@ -82,7 +84,13 @@ class Check {
   }
 
  private:
-  std::size_t step_count() const { return input_.sequence.frames.size() - 1; }
+  std::size_t step_count() const { return script_.size(); }
+  const detector::Positions& start_of(std::size_t s) const {
+    return input_.sequence.frames[static_cast<std::size_t>(script_[s].from)];
+  }
+  const detector::Positions& end_of(std::size_t s) const {
+    return input_.sequence.frames[static_cast<std::size_t>(script_[s].to)];
+  }
 
   void announce() const {
     const auto& mesh = detector_.topology();
@@ -106,7 +114,7 @@ class Check {
       progress.tick();
       return limits_.exceeded();
     };
-    const auto &x_t0 = input_.sequence.frames[s], &x_t1 = input_.sequence.frames[s + 1];
+    const auto &x_t0 = start_of(s), &x_t1 = end_of(s);
 
     progress.phase("detector");
     const detector::StepResult result = detect(s, x_t0, x_t1, stop);
@@ -150,8 +158,7 @@ class Check {
     const auto begin = std::chrono::steady_clock::now();
     oracle::SecondOpinion opinion;
     try {
-      opinion = oracle::second_opinion(input_.sequence.frames[s], input_.sequence.frames[s + 1],
-                                       input_.sequence.triangles, judgement,
+      opinion = oracle::second_opinion(start_of(s), end_of(s), input_.sequence.triangles, judgement,
                                        {share, request_.jobs, stop, {}});
     } catch (const std::bad_alloc&) {
       limits_.memory_failed();
@@ -188,7 +195,8 @@ class Check {
       }
     }
     try {
-      return detector_.step(x_t0, x_t1, given, stop);
+      return script_[s].commit ? detector_.step(x_t0, x_t1, given, stop)
+                               : detector_.evaluate(x_t0, x_t1, given, stop);
     } catch (const std::bad_alloc&) {
       limits_.memory_failed();
       detector::StepResult result;
@@ -214,9 +222,9 @@ class Check {
   void print_defect(std::size_t s, const properties::StepDiff& diff) const {
     if (diff.missing.empty()) return;
     const auto& lost = diff.missing.front();
-    fmt::print("  triangles {} and {} were lost at: {}\n", lost.pair.a, lost.pair.b,
-               properties::stage_that_lost(input_.sequence.triangles, input_.sequence.frames[s],
-                                           input_.sequence.frames[s + 1], lost.pair));
+    fmt::print(
+        "  triangles {} and {} were lost at: {}\n", lost.pair.a, lost.pair.b,
+        properties::stage_that_lost(input_.sequence.triangles, start_of(s), end_of(s), lost.pair));
   }
 
   // A case states what is true of it: an answer that differs is a defect.
@@ -287,6 +295,7 @@ class Check {
   const Input& input_;
   detector::Detector detector_;
   detector::Options options_;
+  std::vector<corpus::CaseStep> script_;
   Limits limits_;
   std::optional<std::string> refused_;
   bool defect_ = false, undecided_ = false, unsound_ = false, facts_differ_ = false;

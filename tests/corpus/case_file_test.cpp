@@ -96,6 +96,19 @@ TEST_F(CaseFile, ViewOfStep) {
   EXPECT_FALSE(view_of_step(c, 0));
 }
 
+TEST_F(CaseFile, AScriptNamesItsSteps) {
+  Case c = full_case();
+  EXPECT_EQ(steps_of(c), (std::vector<CaseStep>{{0, 1, true}, {1, 2, true}}));
+  c.script = {{0, 2, false}, {0, 1, true}};
+  const auto read = parse_case(case_text(c), "x");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read.value().script, c.script);
+  EXPECT_EQ(case_text(read.value()), case_text(c));
+  EXPECT_EQ(view_of_step(c, 0)->q1.t1, (detector::Point{0, 0, 3}));
+  c.script[1].to = 3;
+  EXPECT_FALSE(parse_case(case_text(c), "x"));
+}
+
 TEST_F(CaseFile, SmallestCase) {
   Case c;
   c.triangles.resize(1, 3);
