@@ -28,4 +28,13 @@ ContactResult test_contact(const FourPoints& query, Want want);
 // The same for a query that separated_along_an_axis did not settle.
 ContactResult test_contact_past_axis(const FourPoints& query, Want want);
 
+// The stage of the detector: asked for every feature pair that axis order left open.
+class ElementaryTest {
+ public:
+  virtual ~ElementaryTest() = default;
+  virtual ContactResult test(const FourPoints& query, Want want) const {
+    return test_contact_past_axis(query, want);
+  }
+};
+
 }  // namespace assay::detector

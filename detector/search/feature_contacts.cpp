@@ -44,8 +44,14 @@ constexpr std::size_t first_compaction = std::size_t{1} << 22;
 }  // namespace
 
 FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
-                                 const PositionsView& x_t1, Want want)
-    : mesh_(mesh), x_t0_(x_t0), x_t1_(x_t1), want_(want), compact_at_(first_compaction) {}
+                                 const PositionsView& x_t1, const ElementaryTest& elementary,
+                                 Want want)
+    : mesh_(mesh),
+      x_t0_(x_t0),
+      x_t1_(x_t1),
+      elementary_(elementary),
+      want_(want),
+      compact_at_(first_compaction) {}
 
 FourPoints FeatureContacts::query(std::uint64_t key) const {
   const auto point = [&](std::int32_t v) { return moving_point(x_t0_, x_t1_, v); };
@@ -119,7 +125,7 @@ void FeatureContacts::test(std::uint64_t key) {
     }
   } else {
     ++counts_.elementary_tests;
-    const ContactResult result = test_contact_past_axis(query(key), want_);
+    const ContactResult result = elementary_.test(query(key), want_);
     counts_.rungs.add(result.rung);
     if (!result.contact) return;
     contact.time = result.time;
