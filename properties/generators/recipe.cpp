@@ -145,7 +145,10 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   draft.tag(positive ? "mode:positive" : aimed ? "mode:aimed" : "mode:free");
   draft.tag(size_class(draft.faces.size()));
   draft.tag("steps:" + std::to_string(draft.frames.size() - 1));
-  const bool responds = draft.frames.size() > 2 && draft.faces.size() <= 60 && random.one_in(4);
+  // The response costs judgements: not on meshes where these are slow.
+  const std::size_t most_faces = recipe.far ? 16 : 40;
+  const bool responds =
+      draft.frames.size() > 2 && draft.faces.size() <= most_faces && random.one_in(3);
   if (responds) draft.tag("response");
   GeneratedCase made = finished(std::move(draft), std::move(id));
   if (responds) made.c = with_response(made.c);
