@@ -106,9 +106,9 @@ TEST(Generators, MakeTheseBytesOnEveryMachine) {
   for (const auto& family : families()) {
     Digest digest;
     for (int i = 0; i < 200; ++i) digest.add(make_case(family, id_of(family, i)).c);
-    EXPECT_EQ(digest.value(), wanted.at(family.name)) << family.name;
-    std::printf("      {\"%s\", 0x%016llxu},\n", std::string(family.name).c_str(),
-                static_cast<unsigned long long>(digest.value()));
+    const auto place = wanted.find(family.name);
+    EXPECT_TRUE(place != wanted.end() && place->second == digest.value())
+        << "now: {\"" << family.name << "\", 0x" << std::hex << digest.value() << "u},";
   }
 }
 
