@@ -142,7 +142,6 @@ class CaseChecker {
     auto made = detector::Detector::create(case_.triangles, case_.frames.front(), options_);
     const auto& mesh = made.value().topology();
     for (std::size_t c = 0; c < mesh.components.size(); ++c) {
-      if (!mesh.components[c].is_cycle) continue;
       for (const auto t : mesh.components[c].triangles) {
         const auto exact = sign_by_oracle(s, t, result.primitives[c]);
         if (exact != result.signs[static_cast<std::size_t>(t)]) {

@@ -147,6 +147,8 @@ TEST(House, NoFastMathAndNoFusedArithmetic) {
     if (entry.path().filename() != "CMakeLists.txt" &&
         entry.path().filename() != "CMakePresets.json")
       continue;
+    // A plug-in built that way is there to be found out.
+    if (entry.path() == root / "tests/plugins/CMakeLists.txt") continue;
     std::ifstream in(entry.path());
     const std::string text(std::istreambuf_iterator<char>(in), {});
     EXPECT_EQ(text.find("-ffast-math"), std::string::npos) << entry.path();
