@@ -89,7 +89,9 @@ void make_denormal(Random& random, Draft& draft) {
   // at.
   constexpr std::size_t most_faces_among_others = 40;
   if (random.one_in(2) || draft.faces.size() > most_faces_among_others) {
-    round_to_grid(draft, random.between(2, 64), 0);
+    // A coarse grid on a large mesh makes thousands of degenerate contacts.
+    const int least = draft.faces.size() > most_faces_among_others ? 12 : 1;
+    round_to_grid(draft, std::ldexp(1, random.between(least, 20)), 0);
     for_each_point(draft, [](Point& p) {
       for (double& c : p) c = std::ldexp(c, kLeastExponent);
     });

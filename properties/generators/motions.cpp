@@ -11,6 +11,12 @@ void breathe(Random& random, const Point& centre, Points& x, double amount) {
   for (auto& p : x) p = between(centre, p, 1 + 0.5 * amount * random.signed_unit());
 }
 
+void roughen(Random& random, Points& x, double amount) {
+  for (auto& p : x) {
+    for (double& c : p) c += amount / 32 * random.signed_unit();
+  }
+}
+
 namespace {
 
 Point any_vector(Random& random) {
@@ -163,8 +169,8 @@ constexpr Motion all[] = {
     {"rigid", rigid, 2, false, false},         {"affine", affine, 3, false, false},
     {"quadratic", quadratic, 3, false, false}, {"breathe", breathing, 2, false, false},
     {"jitter", jitter, 3, false, false},       {"bend", bend, 2, false, false},
-    {"twist", twist, 2, false, false},         {"pinch", pinch, 2, false, false},
-    {"fold", fold, 2, false, false},           {"flatten", flatten, 2, false, false},
+    {"twist", twist, 2, false, false},         {"pinch", pinch, 2, false, false, true},
+    {"fold", fold, 2, false, false, true},     {"flatten", flatten, 2, false, false, true},
     {"jump", jump, 5, false, false},           {"poke", poke, 4, false, false},
     {"part", part, 2, false, false},           {"piece", piece, 2, false, false},
     {"zero", zero, 1, false, false},           {"fast", fast, 1, false, true},

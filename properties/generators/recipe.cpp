@@ -55,6 +55,7 @@ void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) 
     Points x = draft.frames.back();
     const double amount = random.one_in(5) ? 1.0 : usual / std::sqrt(static_cast<double>(forward));
     motion.move(random, draft, x, amount);
+    if (motion.level && !recipe.exact) roughen(random, x, amount);
     if (recipe.far && random.one_in(3)) {
       const Point by = {random.signed_unit(), random.signed_unit(), random.signed_unit()};
       for (auto& p : x) p = p + 64 * by;
