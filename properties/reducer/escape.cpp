@@ -19,7 +19,11 @@ namespace {
 
 using corpus::Case;
 
-constexpr std::uint64_t call_budget = 6000;  // without success
+// Calls without success; fewer where each takes long.
+std::uint64_t call_budget(const MeshSize& size) {
+  constexpr std::uint64_t of_small = 6000, least = 500, small = 60;
+  return std::max(least, of_small * small / std::max(small, size.triangles * size.steps));
+}
 
 class Escape {
  public:
@@ -29,9 +33,10 @@ class Escape {
   }
 
   void run() {
-    const std::uint64_t end = search_.calls() + call_budget;
+    const std::uint64_t budget = call_budget(search_.size());
+    const std::uint64_t end = search_.calls() + budget;
     // Proposals that the cache answers cost no call; they end the walk too.
-    for (std::uint64_t rounds = 0; rounds < call_budget && search_.calls() < end; ++rounds) {
+    for (std::uint64_t rounds = 0; rounds < budget && search_.calls() < end; ++rounds) {
       if (search_.ended() || walk() || merge_and_change() || change_small_sphere()) return;
     }
   }
@@ -184,7 +189,8 @@ class Escape {
 }  // namespace
 
 void escape(ReductionSearch& search) {
-  if (search.size().triangles <= 2) return;
+  // Nothing that is closed has fewer triangles than a tetrahedron; dropping faces was tried.
+  if (search.size().triangles <= 4 && search.size().steps == 1) return;
   Escape(search).run();
 }
 

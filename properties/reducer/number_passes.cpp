@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "properties/random.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/numbers.h"
 #include "properties/reducer/passes.h"
@@ -12,9 +13,9 @@ namespace {
 
 using corpus::Case;
 
-double largest_magnitude(Case& c) {
+double largest_magnitude(Case& c, int axis) {
   double largest = 0;
-  for (const double* x : numbers_along(c, -1)) largest = std::max(largest, std::abs(*x));
+  for (const double* x : numbers_along(c, axis)) largest = std::max(largest, std::abs(*x));
   return largest;
 }
 
@@ -37,21 +38,21 @@ void translate(ReductionSearch& search) {
 }
 
 void round_all(ReductionSearch& search) {
-  Case c = search.best();
-  const double largest = largest_magnitude(c);
-  if (largest == 0) return;
-  // Integers up to each of these; what is no smaller than now is not judged.
-  for (const double limit :
-       {1.,    2.,    3.,     4.,  5.,  6.,     7.,     8.,     9.,    12.,  16.,
-        20.,   24.,   32.,    48., 64., 99.,    128.,   256.,   512.,  999., 2048.,
-        4096., 9999., 65536., 1e6, 1e7, 0x1p30, 0x1p36, 0x1p42, 0x1p48}) {
-    Case rounded = c;
-    for (double* x : numbers_along(rounded, -1)) *x = std::round(*x * (limit / largest)) + 0.0;
-    if (search.offer(rounded)) return;
+  // All axes alike, then each by itself: a linear map keeps contacts, and signs seen from a point.
+  for (int axis = -1; axis < 3; ++axis) {
+    Case c = search.best();
+    const double largest = largest_magnitude(c, axis);
+    if (largest == 0) continue;
+    // Integers up to each of these; what is no smaller than now is not judged.
+    for (const double limit :
+         {1.,    2.,    3.,     4.,  5.,  6.,     7.,     8.,     9.,     12.,    16.,
+          20.,   24.,   32.,    48., 64., 99.,    128.,   256.,   512.,   999.,   2048.,
+          4096., 9999., 65536., 1e6, 1e7, 0x1p30, 0x1p36, 0x1p42, 0x1p48, largest}) {
+      Case rounded = c;
+      for (double* x : numbers_along(rounded, axis)) *x = std::round(*x * (limit / largest)) + 0.0;
+      if (search.offer(rounded)) break;
+    }
   }
-  Case rounded = c;
-  for (double* x : numbers_along(rounded, -1)) *x = std::round(*x) + 0.0;
-  search.offer(rounded);
 }
 
 void round_vertices(ReductionSearch& search) {
@@ -79,6 +80,27 @@ void simplify_numbers(ReductionSearch& search) {
       c = search.best();
       break;
     }
+  }
+}
+
+void simplify_together(ReductionSearch& search) {
+  constexpr int failures = 400;
+  Random random(0x70e7, search.calls());
+  for (int failed = 0; failed < failures && !search.ended(); ++failed) {
+    Case c = search.best();
+    const auto groups = number_groups(c);
+    for (int n = random.between(2, 4); n > 0; --n) {
+      const auto& group =
+          groups[static_cast<std::size_t>(random.below(static_cast<int>(groups.size())))];
+      const auto values = simpler_values(*group.front());
+      // A small integer may be no simpler by itself: the sum decides.
+      const double value =
+          values.empty() || random.below(3) == 0
+              ? random.between(-9, 9)
+              : values[static_cast<std::size_t>(random.below(static_cast<int>(values.size())))];
+      for (double* x : group) *x = value;
+    }
+    if (search.offer(c)) failed = 0;
   }
 }
 

@@ -95,6 +95,9 @@ std::vector<double> simpler_values(double value) {
     values.push_back(sign * magnitude);
     values.push_back(-sign * magnitude);
   }
+  for (const double magnitude : {10., 12., 15., 20., 30., 50., 75., 99., 200., 500., 999.}) {
+    values.push_back(sign * magnitude);
+  }
   values.push_back(std::round(value));
   values.push_back(std::trunc(value));
   values.push_back(std::trunc(value / 2));

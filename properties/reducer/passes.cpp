@@ -31,8 +31,15 @@ std::span<const Pass> simplifying_passes() {
       {"view", simplify_view},
       {"round all", round_all},
       {"translate", translate},
+  };
+  return passes;
+}
+
+std::span<const Pass> number_passes() {
+  static constexpr Pass passes[] = {
       {"round vertices", round_vertices},
       {"simplify numbers", simplify_numbers},
+      {"simplify together", simplify_together},
   };
   return passes;
 }

@@ -38,13 +38,15 @@ void try_small_spheres(ReductionSearch& search);
 void freeze_vertices(ReductionSearch& search);  // halves, then one by one; at either end's place
 
 // view_passes.cpp: the view primitive that the case gives.
-void simplify_view(ReductionSearch& search);  // fixed, a point, at the origin; at last none
+void simplify_view(ReductionSearch& search);  // fixed, a point, at the origin
+void drop_view(ReductionSearch& search);      // at the end: the detector's own serves as well
 
 // number_passes.cpp: simpler coordinates.
-void translate(ReductionSearch& search);         // along each axis, so that many become 0
-void round_all(ReductionSearch& search);         // all to a grid of few integers
-void round_vertices(ReductionSearch& search);    // one vertex at a time, fewer digits
-void simplify_numbers(ReductionSearch& search);  // one coordinate at a time, towards 0
+void translate(ReductionSearch& search);          // along each axis, so that many become 0
+void round_all(ReductionSearch& search);          // all to a grid of few integers
+void round_vertices(ReductionSearch& search);     // one vertex at a time, fewer digits
+void simplify_numbers(ReductionSearch& search);   // one coordinate at a time, towards 0
+void simplify_together(ReductionSearch& search);  // a few coordinates at once, at random
 
 // escape.cpp: random changes (the same ones for the same case) from which a smaller mesh is
 // reached; when all other passes are stuck.
@@ -58,9 +60,11 @@ struct Pass {
   void (*run)(ReductionSearch& search);
 };
 
-// Those that make the mesh and the sequence shorter; those that make it simpler; the last resort.
+// Those that make the mesh and the sequence shorter; those that make the whole simpler, and single
+// numbers; the last resort.
 std::span<const Pass> shortening_passes();
 std::span<const Pass> simplifying_passes();
+std::span<const Pass> number_passes();
 std::span<const Pass> escaping_passes();
 
 }  // namespace assay::properties

@@ -23,13 +23,30 @@ bool run_to_fixed_point(std::span<const Pass> passes, ReductionSearch& search) {
   return any;
 }
 
+// Where there are few numbers, simple ones help the passes that shorten; where there are many, the
+// mesh is stuck at a large size and they would take all the time.
+bool has_few_numbers(const ReductionSearch& search) {
+  constexpr std::size_t few = 300;
+  return 3 * search.size().vertices * search.size().frames <= few;
+}
+
 // After a pass of a later list has found something, the earlier lists may again: from the start.
 void run_all(ReductionSearch& search) {
-  do {
-    do {
-      run_to_fixed_point(shortening_passes(), search);
-    } while (run(simplifying_passes(), search));
-  } while (run(escaping_passes(), search));
+  bool smaller = true;
+  while (smaller) {
+    run_to_fixed_point(shortening_passes(), search);
+    smaller = run(simplifying_passes(), search);
+    if (!smaller && has_few_numbers(search)) smaller = run(number_passes(), search);
+    if (!smaller) smaller = run(escaping_passes(), search);
+    if (!smaller && !has_few_numbers(search)) smaller = run(number_passes(), search);
+  }
+}
+
+void drop_view_at_the_end(ReductionSearch& search) {
+  const MeshSize before = search.size();
+  search.begin_pass("drop view");
+  drop_view(search);
+  if (search.size() < before) run_all(search);
 }
 
 }  // namespace
@@ -46,6 +63,7 @@ Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLi
       if (const auto with_view = make_view_explicit(search.best())) search.replace(*with_view);
     }
     run_all(search);
+    drop_view_at_the_end(search);
     search.begin_pass("canonical order");
     canonical_order(search);
   }

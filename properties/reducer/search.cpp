@@ -123,6 +123,9 @@ bool ReductionSearch::replace(const Case& candidate) {
 }
 
 void ReductionSearch::begin_pass(const std::string& name) {
+  const double now = seconds();
+  if (!statistics_.empty()) statistics_[pass_].seconds += now - pass_start_;
+  pass_start_ = now;
   for (std::size_t p = 0; p < statistics_.size(); ++p) {
     if (statistics_[p].name == name) {
       pass_ = p;

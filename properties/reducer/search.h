@@ -55,6 +55,7 @@ class ReductionSearch {
   std::unordered_map<std::uint64_t, std::optional<Finding>> judged_;
   std::vector<PassStatistics> statistics_;
   std::size_t pass_ = 0;
+  double pass_start_ = 0;
 };
 
 }  // namespace assay::properties

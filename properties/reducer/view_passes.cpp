@@ -41,9 +41,7 @@ Case moved(const Case& c, const detector::Point& origin) {
 
 void simplify_view(ReductionSearch& search) {
   if (!search.best().view) return;
-  offer_view(search, std::nullopt);
   const auto view = [&] { return *search.best().view; };
-  if (!search.best().view) return;
   for (const Places& end : {view().q0, view().q1}) {
     if (!view().q1.empty()) offer_view(search, CaseView{end, {}});
   }
@@ -54,6 +52,10 @@ void simplify_view(ReductionSearch& search) {
   offer_view(search, CaseView{at_origin, view().q1});
   if (!view().q1.empty()) offer_view(search, CaseView{view().q0, at_origin});
   search.offer(moved(search.best(), view().q0.front()));
+}
+
+void drop_view(ReductionSearch& search) {
+  if (search.best().view) offer_view(search, std::nullopt);
 }
 
 }  // namespace assay::properties

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   for (const auto& fault : toys::toy_faults()) {
     if (!only.empty() && fault.name != only) continue;
     try {
-      const auto start = toys::large_failing_case(fault, 200, fault.steps, seed);
+      const auto start = toys::large_failing_case(fault, 200, 8, seed);
       const auto reduction = reduce(start, fault.judge, {});
       const auto size = size_of(reduction.smallest);
       std::printf(

@@ -17,7 +17,7 @@ struct ToyFault {
   Judge judge;
   Start start = Start::closed;
   std::size_t vertices = 4;  // of the smallest mesh known
-  int steps = 8;
+  std::string known;         // the curated case that has it; none: found by random motion alone
 };
 
 const std::vector<ToyFault>& toy_faults();
