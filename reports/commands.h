@@ -16,6 +16,7 @@ struct CheckRequest {
   std::optional<detector::Culling> culling;  // default: the case's own, or view-point
   std::optional<detector::Start> start;
   std::optional<detector::Pairs> pairs;
+  std::string plugin_library;  // empty: the built-in detector
   bool use_oracle = true;
   std::optional<double> second_opinion;  // share in (0,1]; needs the oracle
   int jobs = 1;

@@ -89,12 +89,17 @@ void add_check(CLI::App& app, reports::CheckRequest& request) {
   verb->add_option("frames", request.files,
                    "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)")
       ->required();
+  auto* plugin = verb->add_option("--detector", request.plugin_library,
+                                  "Judge this plug-in (.so) by its claims, not the built-in");
   add_choice(verb, "--culling", request.culling, "view-point, view-line, bvh, none",
              properties::culling_named, "How the detector culls (default view-point)");
   add_choice(verb, "--start", request.start, "verified, clean, unknown", properties::start_named,
              "What is known of the first frame (default verified)");
   add_choice(verb, "--pairs", request.pairs, "all, first", properties::pairs_named,
              "Which pairs are asked for (default all)");
+  for (const char* of_the_built_in : {"--culling", "--start", "--pairs"}) {
+    plugin->excludes(verb->get_option(of_the_built_in));
+  }
   auto* no_oracle = verb->add_flag_callback(
       "--no-oracle", [&request] { request.use_oracle = false; },
       "Detector only; prints `not judged`");

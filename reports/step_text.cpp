@@ -31,6 +31,11 @@ std::string diff_text(const properties::StepDiff& diff) {
                                 diff.early.size(), diff.wrong_answer ? ", wrong answer" : "",
                                 diff.wrong_first_time ? ", wrong first time" : "",
                                 diff.partial ? " (partial)" : "");
+  if (!diff.broken.empty()) {
+    out += "  broken:";
+    for (const auto claim : diff.broken) out += fmt::format(" {}", properties::name_of(claim));
+    out += "\n";
+  }
   constexpr std::size_t most_listed = 10;
   const auto list = [&](const char* what, const std::vector<detector::PairContact>& pairs) {
     for (std::size_t i = 0; i < pairs.size() && i < most_listed; ++i) {

@@ -2,6 +2,9 @@
 
 #include <unistd.h>
 
+#include <array>
+#include <cstdio>
+
 #include "properties/worker/channel.h"
 #include "properties/worker/child_process.h"
 #include "properties/worker/wire_fields.h"
@@ -83,7 +86,9 @@ struct WorkerProcess::Parts {
     run.what = live->child.finish(transfer == Transfer::timed_out ? std::chrono::milliseconds(0)
                                                                   : last_breath);
     if (run.end == RunEnd::hung) {
-      run.what = "no answer in " + std::to_string(limits.seconds) + " s";
+      std::array<char, 64> text;
+      std::snprintf(text.data(), text.size(), "no answer in %g s", limits.seconds);
+      run.what = text.data();
     } else if (run.what.empty()) {
       run.what = "closed its channel and went on";
     }
