@@ -72,6 +72,24 @@ struct RunCommandRequest {
 };
 int run_campaign(const RunCommandRequest& request);
 
+struct ReplayRequest {
+  std::string id_or_file;
+  std::string export_folder;                 // empty: none
+  std::optional<detector::TrianglePair> why;
+  std::string detector;
+};
+int run_replay(const ReplayRequest& request);
+
+struct ShrinkRequest {
+  std::string file, out;
+  double seconds = 60;
+  std::string detector;
+};
+int run_shrink(const ShrinkRequest& request);
+
+// what: scenes, laws, faults, campaigns, failures (of the run stored in `folder`).
+int run_list(const std::string& what, const std::string& folder);
+
 // "assay 0.1.0 (CGAL 5.5.1, GMP ..., ...)"
 std::string version_text();
 

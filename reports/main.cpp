@@ -192,6 +192,42 @@ void add_run(CLI::App& app, reports::RunCommandRequest& request) {
   verb->add_option("--out", request.out, "Folder for the store and the failing meshes")->required();
 }
 
+// "3,17"
+std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
+  detector::TrianglePair pair;
+  const auto comma = word.find(',');
+  if (comma == std::string::npos) return std::nullopt;
+  if (!CLI::detail::lexical_cast(word.substr(0, comma), pair.a) ||
+      !CLI::detail::lexical_cast(word.substr(comma + 1), pair.b) || pair.a == pair.b) {
+    return std::nullopt;
+  }
+  if (pair.a > pair.b) std::swap(pair.a, pair.b);
+  return pair;
+}
+
+void add_replay(CLI::App& app, reports::ReplayRequest& request) {
+  auto* verb = app.add_subcommand("replay", "One case of a campaign again, or a case file");
+  verb->add_option("case", request.id_or_file, "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file")
+      ->required();
+  verb->add_option("--export", request.export_folder,
+                   "Write frames as OBJ and a ready GoogleTest into this folder");
+  verb->add_option_function<std::string>(
+          "--why", [&request](const std::string& word) { request.why = parse_pair(word); },
+          "A,B: why this pair of triangles was or was not tested")
+      ->check(one_of("A,B: two triangles", parse_pair));
+  verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
+}
+
+void add_shrink(CLI::App& app, reports::ShrinkRequest& request) {
+  auto* verb = app.add_subcommand("shrink", "The smallest case that fails as a given one does");
+  verb->add_option("file", request.file, "A case file (.json)")->required();
+  verb->add_option("--out", request.out, "Where the smallest case goes")->required();
+  verb->add_option("--time", request.seconds, "Seconds at most")
+      ->check(positive())
+      ->capture_default_str();
+  verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Assay certifies continuous self-collision detectors for deforming triangle meshes.");
@@ -204,7 +240,9 @@ int run(int argc, char** argv) {
   reports::CertifyRequest certify;
   reports::SelfTestRequest self_test;
   reports::RunCommandRequest campaign;
-  std::string listed = "scenes";
+  reports::ReplayRequest replay;
+  reports::ShrinkRequest shrink;
+  std::string listed = "scenes", listed_folder;
   check.jobs = certify.jobs = self_test.jobs = campaign.jobs =
       static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   add_check(app, check);
@@ -212,8 +250,12 @@ int run(int argc, char** argv) {
   add_scene(app, scene);
   add_self_test(app, self_test);
   add_run(app, campaign);
-  auto* list = app.add_subcommand("list", "List what is shipped: scenes");
-  list->add_option("what", listed, "scenes")->check(CLI::IsMember({"scenes"}));
+  add_replay(app, replay);
+  add_shrink(app, shrink);
+  auto* list = app.add_subcommand("list", "List scenes, laws, faults, campaigns, or failures");
+  list->add_option("what", listed, "scenes, laws, faults, campaigns, failures")
+      ->check(CLI::IsMember({"scenes", "laws", "faults", "campaigns", "failures"}));
+  list->add_option("folder", listed_folder, "Of a run, for failures");
   auto* certify_verb =
       app.add_subcommand("certify", "The shipped corpus and scenes through detector and oracle");
   certify_verb->add_option("--out", certify.out, "Folder for certify.json")->required();
@@ -242,7 +284,9 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("certify")) return reports::run_certify(certify);
   if (app.got_subcommand("run")) return reports::run_campaign(campaign);
   if (app.got_subcommand("self-test")) return reports::run_self_test(self_test);
-  return reports::run_list_scenes();
+  if (app.got_subcommand("replay")) return reports::run_replay(replay);
+  if (app.got_subcommand("shrink")) return reports::run_shrink(shrink);
+  return reports::run_list(listed, listed_folder);
 }
 
 }  // namespace
