@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "detector/options.h"
+#include "properties/campaign/runner.h"
 
 namespace assay::reports {
 
@@ -59,6 +60,17 @@ struct SelfTestRequest {
   std::string replay;  // "family:seed:index"; empty: the whole self-test
 };
 int run_self_test(const SelfTestRequest& request);
+
+struct RunCommandRequest {
+  std::string campaign = "quick";  // a name or a file
+  std::uint64_t seed = 1;
+  std::optional<double> time_limit;  // seconds, in place of the campaign's
+  properties::Shard shard;
+  int jobs = 1;
+  std::string detector;  // a plug-in's library; empty: the built-in detector
+  std::string out;
+};
+int run_campaign(const RunCommandRequest& request);
 
 // "assay 0.1.0 (CGAL 5.5.1, GMP ..., ...)"
 std::string version_text();

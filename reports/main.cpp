@@ -161,6 +161,37 @@ void add_self_test(CLI::App& app, reports::SelfTestRequest& request) {
   verb->add_option("--replay", request.replay, "One case again, by its name family:seed:index");
 }
 
+// "2/8"
+std::optional<properties::Shard> parse_shard(const std::string& word) {
+  properties::Shard shard;
+  const auto slash = word.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  if (!CLI::detail::lexical_cast(word.substr(0, slash), shard.index) ||
+      !CLI::detail::lexical_cast(word.substr(slash + 1), shard.count)) {
+    return std::nullopt;
+  }
+  return shard.index >= 1 && shard.index <= shard.count ? std::optional(shard) : std::nullopt;
+}
+
+void add_run(CLI::App& app, reports::RunCommandRequest& request) {
+  auto* verb = app.add_subcommand(
+      "run", "A campaign of random cases: detector against oracle, laws, planted faults");
+  verb->add_option("--campaign", request.campaign,
+                   "smoke, quick, nightly, release, faults, or a campaign file (.json)")
+      ->capture_default_str();
+  verb->add_option("--seed", request.seed, "Of all random cases")->capture_default_str();
+  verb->add_option("--time", request.time_limit,
+                   "Seconds for all of it, in place of the campaign's own")
+      ->check(positive());
+  verb->add_option_function<std::string>(
+          "--shard", [&request](const std::string& word) { request.shard = *parse_shard(word); },
+          "I/N: the part of the cases that this run makes (default 1/1)")
+      ->check(one_of("I/N with 1 <= I <= N", parse_shard));
+  add_jobs(verb, request.jobs);
+  verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
+  verb->add_option("--out", request.out, "Folder for the store and the failing meshes")->required();
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Assay certifies continuous self-collision detectors for deforming triangle meshes.");
@@ -172,13 +203,15 @@ int run(int argc, char** argv) {
   reports::SceneRequest scene;
   reports::CertifyRequest certify;
   reports::SelfTestRequest self_test;
+  reports::RunCommandRequest campaign;
   std::string listed = "scenes";
-  check.jobs = certify.jobs = self_test.jobs =
+  check.jobs = certify.jobs = self_test.jobs = campaign.jobs =
       static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   add_check(app, check);
   add_check_queries(app, queries);
   add_scene(app, scene);
   add_self_test(app, self_test);
+  add_run(app, campaign);
   auto* list = app.add_subcommand("list", "List what is shipped: scenes");
   list->add_option("what", listed, "scenes")->check(CLI::IsMember({"scenes"}));
   auto* certify_verb =
@@ -207,6 +240,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("check-queries")) return reports::run_check_queries(queries);
   if (app.got_subcommand("scene")) return reports::run_scene(scene);
   if (app.got_subcommand("certify")) return reports::run_certify(certify);
+  if (app.got_subcommand("run")) return reports::run_campaign(campaign);
   if (app.got_subcommand("self-test")) return reports::run_self_test(self_test);
   return reports::run_list_scenes();
 }

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "detector/detector.h"
+#include "properties/faults/fault.h"
 
 namespace assay::properties {
 
@@ -42,6 +43,12 @@ std::vector<detector::ViewPrimitive> given_view(const corpus::Case& c, std::size
   return {*view};
 }
 
+detector::Stages stages_of(const Configuration& configuration) {
+  const Fault* fault = configuration.fault.empty() ? nullptr : find_fault(configuration.fault);
+  return fault ? fault->stages(configuration.options)
+               : detector::standard_stages(configuration.options.culling);
+}
+
 StepResult undecided() {
   StepResult result;
   result.answer = detector::Answer::undecided;
@@ -67,6 +74,10 @@ bool same_primitive(const detector::ViewPrimitive& a, const detector::ViewPrimit
   return a.q0.t0 == b.q0.t0 && a.q0.t1 == b.q0.t1 && a.q1.t0 == b.q1.t0 && a.q1.t1 == b.q1.t1;
 }
 
+bool same_path(const detector::MovingPoint& a, const detector::MovingPoint& b) {
+  return a.t0 == b.t0 && a.t1 == b.t1;
+}
+
 bool same_contact(const detector::PairContact& a, const detector::PairContact& b) {
   return a.pair == b.pair && a.time == b.time && a.feature.kind == b.feature.kind &&
          a.feature.vertices == b.feature.vertices;
@@ -78,8 +89,8 @@ bool same_result(const StepResult& a, const StepResult& b) {
   };
   return a.answer == b.answer && a.first == b.first && a.signs == b.signs &&
          a.view_positive == b.view_positive && a.view_negative == b.view_negative &&
-         a.view_zero == b.view_zero && a.violated == b.violated && a.dirty == b.dirty &&
-         equal(a.pairs, b.pairs, same_contact) &&
+         a.view_zero == b.view_zero && a.doubts == b.doubts &&
+         equal(a.apexes, b.apexes, same_path) && equal(a.pairs, b.pairs, same_contact) &&
          equal(a.primitives, b.primitives, same_primitive) &&
          std::memcmp(&a.counts, &b.counts, sizeof a.counts) == 0;
 }
@@ -88,7 +99,8 @@ bool same_result(const StepResult& a, const StepResult& b) {
 
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try {
   CaseRun run;
-  auto made = detector::Detector::create(c.triangles, c.frames.front(), configuration.options);
+  auto made = detector::Detector::assemble(c.triangles, c.frames.front(), configuration.options,
+                                           stages_of(configuration));
   if (!made) return {RunEnd::refused, made.error().message, {}};
   const auto script = corpus::steps_of(c);
   for (std::size_t s = 0; s < script.size(); ++s) {

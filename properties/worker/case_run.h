@@ -13,6 +13,7 @@ namespace assay::properties {
 struct Configuration {
   std::string name;
   detector::Options options;
+  std::string fault = {};  // the planted fault to plant in it (faults/fault.h), or empty
 };
 
 enum class RunEnd : std::uint8_t {

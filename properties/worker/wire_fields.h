@@ -13,6 +13,8 @@ namespace assay::properties {
 template <>
 struct TravelsAsBytes<detector::Point> : std::true_type {};
 template <>
+struct TravelsAsBytes<detector::MovingPoint> : std::true_type {};
+template <>
 struct TravelsAsBytes<detector::TimeEnclosure> : std::true_type {};
 template <>
 struct TravelsAsBytes<detector::PairContact> : std::true_type {};
@@ -43,10 +45,10 @@ void fields(Wire& wire, detector::Problem& problem) {
 
 template <class Wire>
 void fields(Wire& wire, detector::StepResult& result) {
-  auto& [answer, problem, first, pairs, positive, negative, zero, violated, dirty, signs,
-         primitives, counts, times] = result;
-  wire(answer, problem, first, pairs, positive, negative, zero, violated, dirty, signs, primitives,
-       counts, times);
+  auto& [answer, problem, first, pairs, positive, negative, zero, against_all, violated, dirty,
+         doubts, signs, primitives, apexes, counts, times] = result;
+  wire(answer, problem, first, pairs, positive, negative, zero, against_all, violated, dirty,
+       doubts, signs, primitives, apexes, counts, times);
 }
 
 template <class Wire>
@@ -57,8 +59,8 @@ void fields(Wire& wire, CaseRun& run) {
 
 template <class Wire>
 void fields(Wire& wire, Configuration& configuration) {
-  auto& [name, options] = configuration;
-  wire(name, options);
+  auto& [name, options, fault] = configuration;
+  wire(name, options, fault);
 }
 
 template <class Wire>
