@@ -9,7 +9,8 @@ using properties::Outcome;
 
 std::string time_text(const detector::TimeEnclosure& time) {
   if (time.lo == time.hi) return fmt::format("{}", time.lo);
-  return fmt::format("{:.9g}", time.lo);
+  const std::string lo = fmt::format("{:.9g}", time.lo), hi = fmt::format("{:.9g}", time.hi);
+  return lo == hi ? lo : fmt::format("[{}, {}]", lo, hi);
 }
 
 namespace {

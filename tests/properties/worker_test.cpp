@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -258,12 +259,17 @@ TEST(Worker, RoundTripsASecond) {
   c.frames = {x, x};
   WorkerProcess worker(ASSAY_WORKER, std::nullopt);
   worker.run(c, four);
+  // The best of several batches: the machine may be busy.
   const auto seconds = [](auto work) {
-    constexpr int repeats = 300;
-    const auto begin = std::chrono::steady_clock::now();
-    for (int i = 0; i < repeats; ++i) work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
-           repeats;
+    constexpr int batches = 10, repeats = 30;
+    double best = 1;
+    for (int batch = 0; batch < batches; ++batch) {
+      const auto begin = std::chrono::steady_clock::now();
+      for (int i = 0; i < repeats; ++i) work();
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+      best = std::min(best, took.count() / repeats);
+    }
+    return best;
   };
   const double through_worker = seconds([&] { worker.run(c, four); });
   const double here = seconds([&] {

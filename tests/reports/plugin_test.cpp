@@ -52,6 +52,7 @@ TEST_F(Plugin, WhatItsContractLeavesOutIsSaid) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_NE(outcome.out.find("contract: adjacency no-shared-vertex, float64"), std::string::npos)
       << outcome.out;
+  EXPECT_NE(outcome.out.find("collision at t = [0, 1] of step"), std::string::npos) << outcome.out;
   EXPECT_EQ(report()["steps"][0]["first_time"], json::array({0, 1}));
 }
 
