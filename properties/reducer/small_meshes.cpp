@@ -80,7 +80,10 @@ void try_small_spheres(ReductionSearch& search) {
           for (Corners& corners : mesh) {
             for (auto& v : corners) v = pool[chosen[static_cast<std::size_t>(v)]];
           }
-          if (search.offer(with_triangles(start, mesh))) return true;
+          const corpus::Case small = with_triangles(start, mesh);
+          if (search.offer(small)) return true;
+          // The view of the large mesh need not suit the small one.
+          if (n < many && search.offer(seen_from_its_middle(small))) return true;
         }
       }
       return false;

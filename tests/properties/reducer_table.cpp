@@ -26,9 +26,11 @@ int main(int argc, char** argv) {
           static_cast<unsigned long long>(reduction.calls), reduction.seconds,
           reduction.fixed_point ? "" : " (limit)");
       if (!only.empty()) {
-        for (const auto& p : reduction.passes)
-          std::printf("    %-24s %7llu %5llu %6.2f\n", p.name.c_str(), (unsigned long long)p.tried,
-                      (unsigned long long)p.accepted, p.seconds);
+        for (const auto& pass : reduction.passes) {
+          std::printf("    %-22s %7llu tried %5llu accepted %6.2f s\n", pass.name.c_str(),
+                      static_cast<unsigned long long>(pass.tried),
+                      static_cast<unsigned long long>(pass.accepted), pass.seconds);
+        }
         std::printf("%s\n", assay::corpus::case_text(reduction.smallest).c_str());
       }
     } catch (const std::exception& e) {
