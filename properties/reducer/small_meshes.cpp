@@ -42,9 +42,7 @@ bool holds_all(const SphereMesh& mesh, const std::vector<Corners>& wanted) {
   });
 }
 
-}  // namespace
-
-void try_small_spheres(ReductionSearch& search) {
+void try_spheres(ReductionSearch& search, bool of_pair_only) {
   constexpr std::size_t largest_pool = 8;
   // From here on there are too many, and only those that hold the reported triangles are tried.
   constexpr std::size_t many = 6;
@@ -52,6 +50,10 @@ void try_small_spheres(ReductionSearch& search) {
   const corpus::Case start = search.best();
   std::vector<std::int32_t> pool(rings.far_first.rbegin(), rings.far_first.rend());  // near first
   if (pool.size() > largest_pool) pool.resize(largest_pool);
+  if (of_pair_only) {
+    std::erase_if(pool,
+                  [&](std::int32_t v) { return rings.distance[static_cast<std::size_t>(v)] > 0; });
+  }
 
   for (std::size_t n = 4; n <= std::min<std::size_t>(7, pool.size()); ++n) {
     if (search.size().triangles <= 2 * n - 4) return;
@@ -93,5 +95,11 @@ void try_small_spheres(ReductionSearch& search) {
     }
   }
 }
+
+}  // namespace
+
+void try_spheres_of_pair(ReductionSearch& search) { try_spheres(search, true); }
+
+void try_small_spheres(ReductionSearch& search) { try_spheres(search, false); }
 
 }  // namespace assay::properties
