@@ -17,17 +17,26 @@ Detector::~Detector() = default;
 
 Expected<Detector> Detector::create(const TrianglesView& triangles, const PositionsView& positions,
                                     const Options& options) {
+  return assemble(triangles, positions, options, standard_stages(options.culling));
+}
+
+Expected<Detector> Detector::assemble(const TrianglesView& triangles,
+                                      const PositionsView& positions, const Options& options,
+                                      Stages stages) {
   if (auto problem = check_triangles(triangles, positions.rows())) return std::move(*problem);
   if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
-  Topology mesh = make_topology(triangles, positions.rows());
-  BoundingVolumeTree tree(mesh, positions);
-  const ViewKind kind = options.culling == Culling::view_line ? ViewKind::line : ViewKind::point;
-  std::vector<ViewAnchor> anchors;
-  for (const auto& component : mesh.components) {
-    anchors.push_back(make_view_anchor(kind, component, positions));
+  Surface surface = stages.boundary->close_up(triangles, positions.rows());
+  BoundingVolumeTree tree(surface.mesh, positions);
+  StepContext context{options, std::move(stages), std::move(surface), std::move(tree), {}, {}};
+  if (context.uses_views()) {
+    const ViewKind kind = options.culling == Culling::view_line ? ViewKind::line : ViewKind::point;
+    for (const auto& component : context.surface.mesh.components) {
+      context.anchors.push_back(make_view_anchor(kind, component, positions));
+    }
+    context.apex_rules = context.stages.boundary->choose_apexes(
+        context.surface, context.tree, positions, *context.stages.elementary);
   }
-  return Detector(std::unique_ptr<Parts>(new Parts{
-      {options, positions.rows(), std::move(mesh), std::move(tree), std::move(anchors)}, {}, {}}));
+  return Detector(std::unique_ptr<Parts>(new Parts{std::move(context), {}, {}}));
 }
 
 StepResult Detector::evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
@@ -58,6 +67,8 @@ void Detector::reset() {
   parts_->evaluated.reset();
 }
 
-const Topology& Detector::topology() const { return parts_->context.mesh; }
+const Topology& Detector::topology() const { return parts_->context.surface.mesh; }
+
+const Surface& Detector::surface() const { return parts_->context.surface; }
 
 }  // namespace assay::detector

@@ -17,7 +17,7 @@
 #include <memory>
 #include <span>
 
-#include "detector/options.h"
+#include "detector/stages.h"
 
 namespace assay::detector {
 
@@ -28,6 +28,9 @@ class Detector {
   // best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
+  // The same of stages other than the standard ones of options.culling.
+  static Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
+                                     const Options& options, Stages stages);
   Detector(Detector&&) noexcept;
   Detector& operator=(Detector&&) noexcept;
   ~Detector();
@@ -50,6 +53,8 @@ class Detector {
   void reset();
 
   const Topology& topology() const;
+  // The mesh with the ghosts that close it.
+  const Surface& surface() const;
 
  private:
   struct Parts;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "detector/boundary/ghost_sweep.h"
 #include "detector/contact/elementary_test.h"
 #include "detector/mesh/problem.h"
 #include "detector/mesh/step_types.h"
@@ -38,15 +39,21 @@ struct Options {
   Pairs pairs = Pairs::all;
 };
 
+namespace doubt {
+inline constexpr std::uint8_t violated = 1, dirty = 2;
+}
+
 // Wall-clock milliseconds; not part of the deterministic result.
 struct StepTimes {
-  double view_test = 0, start = 0, broad_phase = 0, narrow_phase = 0, closure = 0, total = 0;
+  double view_test = 0, start = 0, ghosts = 0, broad_phase = 0, narrow_phase = 0, closure = 0,
+         total = 0;
 };
 
 struct StepCounts {
   SearchCounts search;
   NarrowCounts narrow;
   ViewCounts view;
+  GhostCounts ghosts;
   std::uint64_t closure_rounds = 0;
   std::uint64_t winding_numbers = 0;  // of view primitives (L5)
   std::uint64_t free_components = 0;  // by L5, without any pair
@@ -59,14 +66,18 @@ struct StepResult {
   std::vector<PairContact> pairs;  // ascending by pair, each with its first time
 
   // Sizes of V+, V-, V0 without Vv, and of Vv: disjoint, together all triangles. With culling bvh
-  // and none there are no view sets and all four are 0.
+  // and none there are no view sets and all are 0.
   std::size_t view_positive = 0, view_negative = 0, view_zero = 0;
-  std::size_t violated = 0;  // triangles touched by a ghost: 0 as long as unclosed means dirty
-  std::size_t dirty = 0;     // triangles that carry doubt into this step
+  std::size_t against_all = 0;  // Vv: violated, dirty, or both
+  std::size_t violated = 0;     // touched by a ghost during the step
+  std::size_t dirty = 0;        // carry doubt into this step
 
-  // Sign of each triangle over the step (zero where none was tested: unclosed components).
+  // With view culling, by triangle of the mesh: doubt::violated, doubt::dirty.
+  std::vector<std::uint8_t> doubts;
+  // Sign over the step of each triangle of the mesh, then of each ghost.
   std::vector<ViewSign> signs;
   std::vector<ViewPrimitive> primitives;  // one for each component
+  std::vector<MovingPoint> apexes;        // one for each loop, see Detector::surface()
 
   StepCounts counts;
   StepTimes times;

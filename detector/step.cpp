@@ -1,23 +1,23 @@
-// Algorithm 3 of the thesis with what THEORY adds to it. The steps stand in this order below.
+// Algorithm 3 of the thesis with what THEORY adds to it (its closed part is Algorithm 1). The steps
+// stand in this order below; each is a stage.
 //
-//   view test of every closed component from its primitive        classify_components
-//   component all positive and winding number 1: free, clean      (L5)
+//   apexes of the ghost fans, for an unclosed mesh                 BoundaryHandler (L11)
+//   view test of every component and its ghosts from its primitive ViewClassifier (L1, L2)
+//   component all positive and winding number 1: free, clean       ReleaseRule (L5)
 //   all components free and only one of them: done, no tree is touched
-//   state at the start: last commit, or static contacts and layers find_start (L8, L9)
+//   state at the start: last commit, or static contacts and layers ReleaseRule (L8, L9)
+//   ghosts against the mesh, hole by hole: violated                BoundaryHandler (L11)
 //   mark, and traverse (V+,V-), (U,V0), (U,Vv) and pairs of two components
-//   elementary tests, each feature pair once                       search (L3, L10)
-//   closure: (U,H) until H is stable                               (L7)
-//   what is clean at the end                                       state_at_end (L8)
-//
-// Unclosed components have no view test: all their triangles are dirty, so in (U,Vv).
+//                                                                  PairRule, PairSearch (L3, L10)
+//   elementary tests, each feature pair once                       ElementaryTest
+//   closure: (U,H) until H is stable                               PairRule (L7)
+//   what is clean at the end                                       ReleaseRule (L8)
 #include "detector/step.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "detector/mesh/mesh_checks.h"
-#include "detector/search/candidate_search.h"
-#include "detector/state/winding.h"
 #include "detector/stopwatch.h"
 
 namespace assay::detector {
@@ -27,56 +27,63 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class Step {
  public:
-  Step(StepContext& context, const std::optional<StepState>& known, const PositionsView& x_t0,
-       const PositionsView& x_t1, std::span<const ViewPrimitive> primitives,
-       const StopFunction& stop)
+  Step(StepContext& context, const StepState* known, const PositionsView& x_t0,
+       const PositionsView& x_t1, const StopFunction& stop)
       : context_(context),
-        mesh_(context.mesh),
-        x_t0_(x_t0),
-        x_t1_(x_t1),
-        stop_(stop),
-        known_(known && known->holds_at(x_t0) ? &*known : nullptr) {
-    place_primitives(primitives);
-  }
+        mesh_(context.surface.mesh),
+        work_{context.surface,
+              context.tree,
+              *context.stages.boundary,
+              *context.stages.elementary,
+              stop,
+              x_t0,
+              x_t1,
+              known,
+              {},
+              {},
+              {},
+              {},
+              {},
+              {}} {}
 
-  StepResult run(std::optional<StepState>& next) {
+  // primitives: none, one, or one for each component.
+  StepResult run(const PositionsView& mesh_x_t0, const PositionsView& mesh_x_t1,
+                 std::span<const ViewPrimitive> primitives, std::optional<StepState>& next) {
+    if (context_.uses_views()) place_primitives(mesh_x_t0, mesh_x_t1, primitives);
     const bool completed = run_stages();
-    if (!completed) {
-      result_.answer = Answer::undecided;
-    } else {
-      result_.answer = result_.pairs.empty() ? Answer::free : Answer::collision;
-      next = state_at_end();  // whole or not at all, should memory fail
-    }
+    result_.answer = !completed              ? Answer::undecided
+                     : result_.pairs.empty() ? Answer::free
+                                             : Answer::collision;
+    if (completed) next = state_at_end(mesh_x_t1);  // whole or not at all, should memory fail
     for (const auto& contact : result_.pairs) {
       if (&contact == &result_.pairs.front() || contact.time < result_.first)
         result_.first = contact.time;
     }
+    hand_over();
     return std::move(result_);
   }
 
  private:
-  bool uses_views() const {
-    return context_.options.culling == Culling::view_point ||
-           context_.options.culling == Culling::view_line;
-  }
-
-  void place_primitives(std::span<const ViewPrimitive> given) {
-    if (!uses_views()) return;
+  void place_primitives(const PositionsView& x_t0, const PositionsView& x_t1,
+                        std::span<const ViewPrimitive> given) {
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      result_.primitives.push_back(given.empty() ? place_view(context_.anchors[c], x_t0_, x_t1_)
-                                   : given.size() == 1 ? given[0]
-                                                       : given[c]);
+      work_.primitives.push_back(given.empty()       ? place_view(context_.anchors[c], x_t0, x_t1)
+                                 : given.size() == 1 ? given[0]
+                                                     : given[c]);
     }
   }
 
   bool run_stages() {
-    clean_.assign(mesh_.triangles.size(), 0);
-    free_.assign(mesh_.components.size(), 0);
-    if (uses_views()) {
+    work_.clean.assign(mesh_.triangles.size(), 0);
+    work_.touched.assign(mesh_.triangles.size(), 0);
+    work_.free.assign(mesh_.components.size(), 0);
+    if (context_.uses_views()) {
       classify_components();
       if (!find_start()) return false;
+      const bool all_free = std::all_of(work_.free.begin(), work_.free.end(),
+                                        [](std::uint8_t is_free) { return is_free != 0; });
+      if (!all_free && !sweep_ghosts()) return false;
       count_sets();
-      const bool all_free = std::find(free_.begin(), free_.end(), 0) == free_.end();
       if (all_free && mesh_.components.size() == 1) return true;
     }
     return search();
@@ -84,70 +91,72 @@ class Step {
 
   void classify_components() {
     Stopwatch watch(result_.times.view_test);
-    result_.signs.assign(mesh_.triangles.size(), ViewSign::zero);
+    work_.signs.assign(work_.surface.all().triangles.size(), ViewSign::zero);
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      const Component& component = mesh_.components[c];
-      if (!component.is_cycle) continue;
-      const ViewPrimitive& primitive = result_.primitives[c];
-      classify(mesh_, component.triangles, x_t0_, x_t1_, primitive, result_.signs,
-               result_.counts.view);
-      const bool all_positive =
-          std::all_of(component.triangles.begin(), component.triangles.end(),
-                      [&](std::int32_t t) { return result_.signs[at(t)] == ViewSign::positive; });
-      if (all_positive && winding_is_one(c, component, primitive)) {
-        free_[c] = 1;
-        ++result_.counts.free_components;
-      }
+      context_.stages.classifier->classify(work_.surface.all(), work_.component(c).triangles,
+                                           work_.x_t0, work_.x_t1, work_.primitives[c], work_.signs,
+                                           work_.counts.view);
+      work_.free[c] = context_.stages.release->is_free(work_, c);
+      work_.counts.free_components += work_.free[c];
     }
   }
 
-  bool winding_is_one(std::size_t c, const Component& component, const ViewPrimitive& primitive) {
-    const std::array<Point, 2> start = {primitive.q0.t0, primitive.q1.t0};
-    if (known_ && known_->inside[c] == start) return true;
-    ++result_.counts.winding_numbers;
-    return winding_number(mesh_, component.triangles, x_t0_, primitive.q0.t0) == 1;
-  }
-
-  // clean_ at t=0 for all triangles.
+  // work_.clean at t=0 for all triangles.
   bool find_start() {
     Stopwatch watch(result_.times.start);
+    const ReleaseRule& release = *context_.stages.release;
     std::vector<std::int32_t> to_verify;
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      const Component& component = mesh_.components[c];
-      if (!component.is_cycle) continue;
-      bool all_clean = free_[c] != 0;
-      if (!all_clean && known_) {
+      bool all_clean = work_.free[c] != 0;
+      if (!all_clean && work_.known) {
         all_clean = true;
-        for (const auto t : component.triangles) {
-          clean_[at(t)] = known_->clean[at(t)];
-          all_clean &= clean_[at(t)] != 0;
+        for (const auto t : work_.own_triangles(c)) {
+          work_.clean[at(t)] = work_.known->clean[at(t)];
+          all_clean &= work_.clean[at(t)] != 0;
         }
-        if (!all_clean) all_clean = released_at_start(c);
+        if (!all_clean) all_clean = release.released_at_start(work_, c);
       } else if (!all_clean && context_.options.start == Start::clean) {
         all_clean = true;
       } else if (!all_clean && context_.options.start == Start::verified) {
-        all_clean = released_at_start(c);
+        all_clean = release.released_at_start(work_, c);
         if (!all_clean) to_verify.push_back(static_cast<std::int32_t>(c));
       }
       if (all_clean) {
-        for (const auto t : component.triangles) clean_[at(t)] = 1;
+        for (const auto t : work_.own_triangles(c)) work_.clean[at(t)] = 1;
       }
     }
-    return to_verify.empty() || verify_start(mesh_, context_.tree, x_t0_, to_verify, stop_, clean_);
+    return to_verify.empty() || release.verify_start(work_, to_verify);
   }
 
-  bool released_at_start(std::size_t c) const {
-    const ViewPrimitive& primitive = result_.primitives[c];
-    return released_by_view(mesh_, mesh_.components[c], x_t0_, primitive.q0.t0, primitive.q1.t0);
+  bool sweep_ghosts() {
+    if (work_.surface.is_closed()) return true;
+    Stopwatch watch(result_.times.ghosts);
+    work_.tree.refit(mesh_, work_.x_t0, work_.x_t1);
+    const GhostSweep sweep{work_.surface, work_.tree,       work_.x_t0,
+                           work_.x_t1,    work_.elementary, !work_.known};
+    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
+      if (work_.free[c]) continue;
+      if (!work_.boundary.sweep(sweep, work_.ghosts(c), work_.stop, work_.touched,
+                                work_.counts.ghosts)) {
+        return false;
+      }
+    }
+    return true;
   }
 
   void count_sets() {
+    result_.doubts.resize(mesh_.triangles.size());
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (!clean_[t]) {
-        ++result_.dirty;
-      } else if (result_.signs[t] == ViewSign::positive) {
+      const bool dirty = !work_.clean[t], violated = work_.touched[t] != 0;
+      result_.doubts[t] =
+          static_cast<std::uint8_t>((violated ? doubt::violated : 0) | (dirty ? doubt::dirty : 0));
+      result_.dirty += dirty;
+      result_.violated += violated;
+      if (dirty || violated) {
+        ++result_.against_all;
+      } else if (work_.signs[t] == ViewSign::positive) {
         ++result_.view_positive;
-      } else if (result_.signs[t] == ViewSign::negative) {
+      } else if (work_.signs[t] == ViewSign::negative) {
         ++result_.view_negative;
       } else {
         ++result_.view_zero;
@@ -156,33 +165,32 @@ class Step {
   }
 
   std::uint8_t flags_of(std::size_t t) const {
-    if (!uses_views()) return 0;
-    if (!clean_[t]) return flag::full;
-    return result_.signs[t] == ViewSign::positive   ? flag::positive
-           : result_.signs[t] == ViewSign::negative ? flag::negative
-                                                    : flag::full;
+    if (!work_.clean[t] || work_.touched[t]) return flag::violated;
+    return work_.signs[t] == ViewSign::positive   ? flag::positive
+           : work_.signs[t] == ViewSign::negative ? flag::negative
+                                                  : flag::zero;
   }
 
   bool search() {
-    const bool uses_tree = context_.options.culling != Culling::none;
     std::vector<std::uint8_t> flags(mesh_.triangles.size());
     for (std::size_t t = 0; t < flags.size(); ++t) flags[t] = flags_of(t);
     StepTimes& times = result_.times;
+    const Stages& stages = context_.stages;
     {
       Stopwatch watch(times.broad_phase);
-      if (uses_tree) context_.tree.refit(mesh_, x_t0_, x_t1_);
+      stages.pair_search->fit(work_.tree, mesh_, work_.x_t0, work_.x_t1);
     }
-    CandidateSearch candidates(mesh_, uses_tree ? &context_.tree : nullptr, x_t0_, x_t1_, clean_,
-                               std::move(flags), stop_);
-    const PairRule rule = uses_views() ? PairRule::candidates : PairRule::every_pair;
-    const bool closes = uses_views() && context_.options.pairs == Pairs::all;
-    const bool completed = timed(times.broad_phase, [&] { return candidates.collect(rule); }) &&
+    CandidateSearch candidates({*stages.pair_rule, *stages.pair_search, *stages.elementary}, mesh_,
+                               work_.tree, work_.x_t0, work_.x_t1, work_.clean, std::move(flags),
+                               work_.stop);
+    const bool closes = context_.uses_views() && context_.options.pairs == Pairs::all;
+    const bool completed = timed(times.broad_phase, [&] { return candidates.collect(); }) &&
                            timed(times.narrow_phase, [&] { return candidates.test(); }) &&
                            (!closes || timed(times.closure, [&] { return candidates.close(); }));
     result_.pairs = candidates.pair_contacts();
-    result_.counts.search = candidates.search_counts();
-    result_.counts.narrow = candidates.narrow_counts();
-    result_.counts.closure_rounds = candidates.closure_rounds();
+    work_.counts.search = candidates.search_counts();
+    work_.counts.narrow = candidates.narrow_counts();
+    work_.counts.closure_rounds = candidates.closure_rounds();
     return completed;
   }
 
@@ -192,37 +200,28 @@ class Step {
     return work();
   }
 
-  StepState state_at_end() const {
+  StepState state_at_end(const PositionsView& mesh_x_t1) const {
     StepState state;
-    state.positions = x_t1_;
-    state.clean = clean_;
+    state.positions = mesh_x_t1;
+    state.clean.resize(mesh_.triangles.size());
     state.inside.resize(mesh_.components.size());
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      if (free_[c]) state.inside[c] = {result_.primitives[c].q0.t1, result_.primitives[c].q1.t1};
+      if (work_.free[c]) state.inside[c] = {work_.primitives[c].q0.t1, work_.primitives[c].q1.t1};
     }
-    // Without the complete contact set nothing is known after a collision.
-    const bool complete = !uses_views() || context_.options.pairs == Pairs::all;
-    for (const auto& contact : result_.pairs) {
-      if (!complete) {
-        std::fill(state.clean.begin(), state.clean.end(), 0);
-      } else if (same_component(contact.pair.a, contact.pair.b)) {
-        state.clean[at(contact.pair.a)] = state.clean[at(contact.pair.b)] = 0;
-      }
-    }
+    const bool complete = !context_.uses_views() || context_.options.pairs == Pairs::all;
+    context_.stages.release->settle(work_, result_.pairs, complete, state.clean);
     return state;
   }
 
-  bool same_component(std::int32_t a, std::int32_t b) const {
-    return mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
+  void hand_over() {
+    result_.signs = std::move(work_.signs);
+    result_.primitives = std::move(work_.primitives);
+    result_.counts = work_.counts;
   }
 
   StepContext& context_;
   const Topology& mesh_;
-  const PositionsView x_t0_, x_t1_;
-  const StopFunction& stop_;
-  const StepState* known_;
-  std::vector<std::uint8_t> clean_;  // by triangle, at t=0
-  std::vector<std::uint8_t> free_;   // by component, by L5
+  StepWork work_;
   StepResult result_;
 };
 
@@ -233,34 +232,53 @@ StepResult refused(Problem problem) {
   return result;
 }
 
+std::optional<Problem> check_input(const StepContext& context, const PositionsView& x_t0,
+                                   const PositionsView& x_t1,
+                                   std::span<const ViewPrimitive> primitives) {
+  for (const auto* x : {&x_t0, &x_t1}) {
+    if (auto problem = check_positions(*x, context.surface.first_apex)) return problem;
+  }
+  const auto components = context.surface.mesh.components.size();
+  if (primitives.size() > 1 && primitives.size() != components) {
+    return Problem{InputError::wrong_primitive_count,
+                   std::to_string(primitives.size()) + " view primitives for " +
+                       std::to_string(components) + " components"};
+  }
+  for (const auto& primitive : primitives) {
+    for (const auto* point :
+         {&primitive.q0.t0, &primitive.q0.t1, &primitive.q1.t0, &primitive.q1.t1}) {
+      if (!std::all_of(point->begin(), point->end(), [](double c) { return std::isfinite(c); })) {
+        return Problem{InputError::non_finite_coordinate, "a view primitive is not finite"};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
                          const PositionsView& x_t0, const PositionsView& x_t1,
                          std::span<const ViewPrimitive> primitives, const StopFunction& stop,
                          std::optional<StepState>& next) {
-  for (const auto* x : {&x_t0, &x_t1}) {
-    if (auto problem = check_positions(*x, context.vertex_count))
-      return refused(std::move(*problem));
-  }
-  if (primitives.size() > 1 && primitives.size() != context.mesh.components.size()) {
-    return refused({InputError::wrong_primitive_count,
-                    std::to_string(primitives.size()) + " view primitives for " +
-                        std::to_string(context.mesh.components.size()) + " components"});
-  }
-  for (const auto& primitive : primitives) {
-    for (const auto* point :
-         {&primitive.q0.t0, &primitive.q0.t1, &primitive.q1.t0, &primitive.q1.t1}) {
-      if (!std::all_of(point->begin(), point->end(), [](double c) { return std::isfinite(c); })) {
-        return refused({InputError::non_finite_coordinate, "a view primitive is not finite"});
-      }
-    }
-  }
+  if (auto problem = check_input(context, x_t0, x_t1, primitives))
+    return refused(std::move(*problem));
+  const StepState* state =
+      known && context.stages.release->still_holds(*known, x_t0) ? &*known : nullptr;
   double total = 0;
   StepResult result;
   {
     Stopwatch watch(total);
-    result = Step(context, known, x_t0, x_t1, primitives, stop).run(next);
+    if (context.surface.is_closed() || !context.uses_views()) {
+      result = Step(context, state, x_t0, x_t1, stop).run(x_t0, x_t1, primitives, next);
+    } else {
+      auto apexes =
+          context.stages.boundary->place_apexes(context.surface, context.apex_rules, x_t0, x_t1);
+      const Positions all_t0 = with_apexes(x_t0, apexes, false);
+      const Positions all_t1 = with_apexes(x_t1, apexes, true);
+      result = Step(context, state, all_t0, all_t1, stop).run(x_t0, x_t1, primitives, next);
+      result.apexes = std::move(apexes);
+    }
   }
   result.times.total = total;
   return result;

@@ -1,8 +1,7 @@
 // One step through the stages of the detector.
 #pragma once
 
-#include "detector/options.h"
-#include "detector/state/start.h"
+#include "detector/stages.h"
 #include "detector/view/view_anchor.h"
 
 namespace assay::detector {
@@ -10,10 +9,15 @@ namespace assay::detector {
 // What preprocessing made of a mesh.
 struct StepContext {
   Options options;
-  Eigen::Index vertex_count = 0;
-  Topology mesh;
-  BoundingVolumeTree tree;
-  std::vector<ViewAnchor> anchors;  // one for each component
+  Stages stages;
+  Surface surface;
+  BoundingVolumeTree tree;           // of the mesh
+  std::vector<ViewAnchor> anchors;   // one for each component
+  std::vector<ApexRule> apex_rules;  // one for each loop
+
+  bool uses_views() const {
+    return options.culling == Culling::view_point || options.culling == Culling::view_line;
+  }
 };
 
 // Answers the step from `known`, the state of the last commit if any. `next` is set to the state

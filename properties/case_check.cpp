@@ -48,6 +48,15 @@ const char* name_of(Culling culling) {
   return "unknown";
 }
 
+std::map<std::string, std::string, std::less<>> options_text(const detector::Options& options) {
+  const char* start = options.start == detector::Start::verified ? "verified"
+                      : options.start == detector::Start::clean  ? "clean"
+                                                                 : "unknown";
+  return {{"culling", name_of(options.culling)},
+          {"start", start},
+          {"pairs", options.pairs == detector::Pairs::all ? "all" : "first"}};
+}
+
 namespace {
 
 std::string time_text(const detector::TimeEnclosure& t) {
@@ -142,7 +151,6 @@ class CaseChecker {
     auto made = detector::Detector::create(case_.triangles, case_.frames.front(), options_);
     const auto& mesh = made.value().topology();
     for (std::size_t c = 0; c < mesh.components.size(); ++c) {
-      if (!mesh.components[c].is_cycle) continue;
       for (const auto t : mesh.components[c].triangles) {
         const auto exact = sign_by_oracle(s, t, result.primitives[c]);
         if (exact != result.signs[static_cast<std::size_t>(t)]) {

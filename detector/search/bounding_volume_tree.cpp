@@ -6,6 +6,17 @@
 namespace assay::detector {
 namespace {
 
+Box join(const Box& a, const Box& b) {
+  Box joined;
+  for (int k = 0; k < 3; ++k) {
+    joined.lo[k] = std::min(a.lo[k], b.lo[k]);
+    joined.hi[k] = std::max(a.hi[k], b.hi[k]);
+  }
+  return joined;
+}
+
+}  // namespace
+
 Box swept_box(const std::array<std::int32_t, 3>& vertices, const PositionsView& x_t0,
               const PositionsView& x_t1) {
   Box box;
@@ -22,17 +33,6 @@ Box swept_box(const std::array<std::int32_t, 3>& vertices, const PositionsView& 
   }
   return box;
 }
-
-Box join(const Box& a, const Box& b) {
-  Box joined;
-  for (int k = 0; k < 3; ++k) {
-    joined.lo[k] = std::min(a.lo[k], b.lo[k]);
-    joined.hi[k] = std::max(a.hi[k], b.hi[k]);
-  }
-  return joined;
-}
-
-}  // namespace
 
 BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView& x) {
   const std::size_t count = mesh.triangles.size();

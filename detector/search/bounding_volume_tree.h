@@ -16,6 +16,10 @@ struct Box {
   }
 };
 
+// Of the swept triangle: exact, as it only compares inputs.
+Box swept_box(const std::array<std::int32_t, 3>& vertices, const PositionsView& x_t0,
+              const PositionsView& x_t1);
+
 // Nodes in depth-first order: an inner node's left child follows it. A leaf holds one triangle.
 class BoundingVolumeTree {
  public:
@@ -32,7 +36,7 @@ class BoundingVolumeTree {
   std::int32_t right(std::int32_t node) const { return right_[static_cast<std::size_t>(node)]; }
   const Box& box(std::int32_t node) const { return boxes_[static_cast<std::size_t>(node)]; }
 
-  // Boxes of the swept triangles: exact, as they are comparisons of inputs. O(M).
+  // Boxes of the swept triangles. O(M).
   void refit(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1);
 
  private:

@@ -7,15 +7,16 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-CandidateSearch::CandidateSearch(const Topology& mesh, const BoundingVolumeTree* tree,
-                                 const PositionsView& x_t0, const PositionsView& x_t1,
-                                 const std::vector<std::uint8_t>& clean,
+CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,
+                                 const BoundingVolumeTree& tree, const PositionsView& x_t0,
+                                 const PositionsView& x_t1, const std::vector<std::uint8_t>& clean,
                                  std::vector<std::uint8_t> triangle_flags, const StopFunction& stop)
-    : mesh_(mesh),
+    : stages_(stages),
+      mesh_(mesh),
       tree_(tree),
       clean_(clean),
       stop_(stop),
-      contacts_(mesh, x_t0, x_t1, Want::first_time) {
+      contacts_(mesh, x_t0, x_t1, stages.elementary, Want::first_time) {
   marks_.triangle_flags = std::move(triangle_flags);
 }
 
@@ -23,7 +24,7 @@ bool CandidateSearch::same_component(std::int32_t a, std::int32_t b) const {
   return mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
 }
 
-bool CandidateSearch::collect(PairRule rule) {
+bool CandidateSearch::collect(const PairTables& tables) {
   const auto sink = [&](std::int32_t a, std::int32_t b) {
     constexpr std::uint64_t pairs_between_stops = 4096;
     if (counts_.candidate_pairs % pairs_between_stops == 0 && stop_ && stop_()) return false;
@@ -32,13 +33,12 @@ bool CandidateSearch::collect(PairRule rule) {
     contacts_.add_candidate(a, b, may_pierce);
     return true;
   };
-  if (!tree_) return enumerate_pairs(mesh_, marks_, rule, counts_, sink);
-  mark_nodes(*tree_, mesh_, marks_);
-  return search_pairs(*tree_, marks_, rule, counts_, sink);
+  return stages_.search.search({mesh_, tree_, marks_, tables}, counts_, sink);
 }
 
 bool CandidateSearch::close() {
   std::vector<std::uint8_t> in_h(mesh_.triangles.size(), 0);
+  const PairTables tables = stages_.rule.closure();
   std::size_t seen = 0;
   while (true) {
     bool grew = false;
@@ -47,9 +47,9 @@ bool CandidateSearch::close() {
       for (const auto& pair : contacts_.contacts()[seen].pairs) {
         if (!same_component(pair.a, pair.b)) continue;
         for (const auto t : {pair.a, pair.b}) {
-          if (in_h[at(t)]) continue;
+          if (in_h[at(t)] || !stages_.rule.joins_closure(pair, t)) continue;
           in_h[at(t)] = 1;
-          if (marks_.triangle_flags[at(t)] & flag::full) continue;
+          if (marks_.triangle_flags[at(t)] & (flag::zero | flag::violated)) continue;
           marks_.triangle_flags[at(t)] |= flag::grown;
           grew = true;
         }
@@ -57,7 +57,7 @@ bool CandidateSearch::close() {
     }
     if (!grew) return true;
     ++closure_rounds_;
-    if (!collect(PairRule::grown) || !test()) return false;
+    if (!collect(tables) || !test()) return false;
   }
 }
 

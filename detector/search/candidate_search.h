@@ -6,17 +6,25 @@
 
 namespace assay::detector {
 
+// The stages that a search is made of.
+struct SearchStages {
+  const PairRule& rule;
+  const PairSearch& search;
+  const ElementaryTest& elementary;
+};
+
 class CandidateSearch {
  public:
-  // tree: refitted to the step; null: every pair is enumerated. clean: by triangle, at t=0.
-  // triangle_flags: see pair_rule.h. The references must outlive this object.
-  CandidateSearch(const Topology& mesh, const BoundingVolumeTree* tree, const PositionsView& x_t0,
-                  const PositionsView& x_t1, const std::vector<std::uint8_t>& clean,
-                  std::vector<std::uint8_t> triangle_flags, const StopFunction& stop);
+  // tree: refitted to the step. clean: by triangle, at t=0. triangle_flags: see pair_rule.h. The
+  // references must outlive this object.
+  CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
+                  const PositionsView& x_t0, const PositionsView& x_t1,
+                  const std::vector<std::uint8_t>& clean, std::vector<std::uint8_t> triangle_flags,
+                  const StopFunction& stop);
 
-  // Broad phase: notes the feature pairs of all pairs that the rule asks for. Each of these three
-  // returns false when `stop` ended it.
-  bool collect(PairRule rule);
+  // Broad phase: notes the feature pairs of all candidates. Each of these three returns false when
+  // `stop` ended it.
+  bool collect() { return collect(stages_.rule.candidates()); }
   // Narrow phase: tests what was noted.
   bool test() { return contacts_.run(stop_); }
   // L7. H := the triangles found in contact with their own component (pairs of two components were
@@ -30,10 +38,12 @@ class CandidateSearch {
   std::uint64_t closure_rounds() const { return closure_rounds_; }
 
  private:
+  bool collect(const PairTables& tables);
   bool same_component(std::int32_t a, std::int32_t b) const;
 
+  SearchStages stages_;
   const Topology& mesh_;
-  const BoundingVolumeTree* tree_;
+  const BoundingVolumeTree& tree_;
   const std::vector<std::uint8_t>& clean_;
   const StopFunction& stop_;
   Marks marks_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "detector/contact/contact_filter.h"
-#include "detector/exact/orientation.h"
 
 namespace assay::detector {
 namespace {
@@ -44,8 +43,14 @@ constexpr std::size_t first_compaction = std::size_t{1} << 22;
 }  // namespace
 
 FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
-                                 const PositionsView& x_t1, Want want)
-    : mesh_(mesh), x_t0_(x_t0), x_t1_(x_t1), want_(want), compact_at_(first_compaction) {}
+                                 const PositionsView& x_t1, const ElementaryTest& elementary,
+                                 Want want)
+    : mesh_(mesh),
+      x_t0_(x_t0),
+      x_t1_(x_t1),
+      elementary_(elementary),
+      want_(want),
+      compact_at_(first_compaction) {}
 
 FourPoints FeatureContacts::query(std::uint64_t key) const {
   const auto point = [&](std::int32_t v) { return moving_point(x_t0_, x_t1_, v); };
@@ -108,7 +113,7 @@ void FeatureContacts::test(std::uint64_t key) {
   const auto& face = mesh_.triangles[at(second)];
   if (kind_of(key) == FeatureKind::piercing) {
     const auto& e = mesh_.edges[at(first)];
-    if (!segment_pierces_triangle(
+    if (!elementary_.pierces(
             point_of(x_t0_, e[0]), point_of(x_t0_, e[1]),
             {point_of(x_t0_, face[0]), point_of(x_t0_, face[1]), point_of(x_t0_, face[2])})) {
       return;
@@ -119,7 +124,7 @@ void FeatureContacts::test(std::uint64_t key) {
     }
   } else {
     ++counts_.elementary_tests;
-    const ContactResult result = test_contact_past_axis(query(key), want_);
+    const ContactResult result = elementary_.test(query(key), want_);
     counts_.rungs.add(result.rung);
     if (!result.contact) return;
     contact.time = result.time;

@@ -28,9 +28,9 @@ struct NarrowCounts {
 
 class FeatureContacts {
  public:
-  // The views must outlive this object.
+  // The references and views must outlive this object.
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
-                  Want want);
+                  const ElementaryTest& elementary, Want want);
 
   // Notes the feature pairs of a candidate pair; `may_pierce`: also those of piercing at t=0.
   void add_candidate(std::int32_t a, std::int32_t b, bool may_pierce);
@@ -53,6 +53,7 @@ class FeatureContacts {
 
   const Topology& mesh_;
   PositionsView x_t0_, x_t1_;
+  const ElementaryTest& elementary_;
   Want want_;
   std::vector<std::uint64_t> noted_;   // since the last run, with repetitions
   std::vector<std::uint64_t> tested_;  // ascending

@@ -1,28 +1,57 @@
 #include "detector/search/pair_rule.h"
 
 namespace assay::detector {
-namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+PairTable& PairTable::add(std::uint8_t a, std::uint8_t b) {
+  partners_[a] |= b;
+  partners_[b] |= a;
+  update();
+  return *this;
+}
 
-}  // namespace
+PairTable& PairTable::remove(std::uint8_t a, std::uint8_t b) {
+  partners_[a] &= static_cast<std::uint8_t>(~b);
+  partners_[b] &= static_cast<std::uint8_t>(~a);
+  update();
+  return *this;
+}
 
-void mark_nodes(const BoundingVolumeTree& tree, const Topology& mesh, Marks& marks) {
-  marks.node_flags.resize(tree.node_count());
-  marks.node_component.resize(tree.node_count());
-  for (std::size_t n = tree.node_count(); n-- > 0;) {
-    const auto node = static_cast<std::int32_t>(n);
-    if (tree.is_leaf(node)) {
-      marks.node_flags[n] = marks.triangle_flags[at(tree.triangle(node))];
-      marks.node_component[n] = mesh.component_of_triangle[at(tree.triangle(node))];
-      continue;
-    }
-    const auto l = at(tree.left(node)), r = at(tree.right(node));
-    marks.node_flags[n] = marks.node_flags[l] | marks.node_flags[r];
-    marks.node_component[n] = marks.node_component[l] == marks.node_component[r]
-                                  ? marks.node_component[l]
-                                  : mixed_components;
+// The rows of several flags from those of one.
+void PairTable::update() {
+  for (std::size_t flags = 0; flags < unions; ++flags) {
+    const std::size_t lowest = flags & (~flags + 1);
+    if (lowest != flags) partners_[flags] = partners_[lowest] | partners_[flags ^ lowest];
   }
+}
+
+PairTable PairTable::everything() {
+  PairTable table;
+  for (int a = 0; a < flag::count; ++a) table.partners_[std::size_t{1} << a] = unions - 1;
+  table.update();
+  return table;
+}
+
+PairTables PairRule::candidates() const {
+  PairTable k;
+  k.add(flag::positive, flag::negative);
+  for (const auto u : {flag::positive, flag::negative, flag::zero, flag::violated}) {
+    k.add(u, flag::zero).add(u, flag::violated);
+  }
+  return {k, PairTable::everything()};
+}
+
+PairTables PairRule::closure() const {
+  PairTable grown;
+  for (const auto u : {flag::positive, flag::negative, flag::zero, flag::violated}) {
+    grown.add(u, flag::grown);
+  }
+  return {grown, {}};
+}
+
+bool PairRule::joins_closure(const TrianglePair&, std::int32_t) const { return true; }
+
+PairTables EveryPair::candidates() const {
+  return {PairTable::everything(), PairTable::everything()};
 }
 
 }  // namespace assay::detector

@@ -1,57 +1,70 @@
-// Which triangle pairs a step has to look at, and the same question for two nodes of the tree.
+// Which triangle pairs a step looks at, and the same question for two nodes of the tree.
 //
 // K = (V+,V-) u (U,V0) u (U,Vv) inside a component (L3; U are ALL triangles, those of V0 and Vv
 // included), and every pair of two components (L10). Pairs that share a vertex or an edge count.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "detector/search/bounding_volume_tree.h"
+#include "detector/mesh/step_types.h"
+#include "detector/mesh/topology.h"
 
 namespace assay::detector {
 
-// Flags of a triangle, or of all triangles below a node.
+// The set that a triangle is in, or for a node the sets found below it.
 namespace flag {
-inline constexpr std::uint8_t positive = 1;  // V+
-inline constexpr std::uint8_t negative = 2;  // V-
-inline constexpr std::uint8_t full = 4;      // V0 or Vv: against everything
-inline constexpr std::uint8_t grown = 8;     // joined H in this round of the closure (L7)
+inline constexpr std::uint8_t positive = 1;  // P: V+
+inline constexpr std::uint8_t negative = 2;  // N: V-
+inline constexpr std::uint8_t zero = 4;      // Z: V0
+inline constexpr std::uint8_t violated = 8;  // V: Vv, touched by a ghost or dirty
+inline constexpr std::uint8_t grown = 16;    // besides: joined H in this round of the closure (L7)
+inline constexpr int count = 5;
 }  // namespace flag
 
-struct Marks {
-  std::vector<std::uint8_t> triangle_flags;
-  std::vector<std::uint8_t> node_flags;
-  std::vector<std::int32_t> node_component;  // one component below the node, or mixed_components
+// A symmetric relation between sets, answered for unions of sets by one look-up.
+class PairTable {
+ public:
+  // Empty: asks for nothing.
+  PairTable() = default;
+  // Asks, or no longer asks, for the pairs of a triangle with flag `a` and one with flag `b`.
+  PairTable& add(std::uint8_t a, std::uint8_t b);
+  PairTable& remove(std::uint8_t a, std::uint8_t b);
+  static PairTable everything();
+
+  // Whether some flag of `a` and some flag of `b` are asked for.
+  bool asks(std::uint8_t a, std::uint8_t b) const { return (partners_[a] & b) != 0; }
+
+ private:
+  void update();
+  static constexpr std::size_t unions = std::size_t{1} << flag::count;
+  std::array<std::uint8_t, unions> partners_{};  // flags that some flag of the index asks for
 };
-inline constexpr std::int32_t mixed_components = -1;
 
-// node_flags and node_component from the triangles' flags. O(M).
-void mark_nodes(const BoundingVolumeTree& tree, const Topology& mesh, Marks& marks);
-
-enum class PairRule : std::uint8_t {
-  every_pair,        // no culling by views
-  candidates,        // K, and every pair of two components
-  grown,             // a triangle that joined H, against its whole component (L7)
-  within_component,  // a triangle with `full`, against its whole component (start, L9)
+// The tables of one search: for pairs of one component, and of two.
+struct PairTables {
+  PairTable within, across;
 };
 
-// Whether some pair below the two (possibly equal) nodes may be asked for.
-inline bool may_hold_pair(PairRule rule, std::uint8_t a, std::uint8_t b, bool same_component) {
-  switch (rule) {
-    case PairRule::every_pair:
-      return true;
-    case PairRule::candidates:
-      return !same_component || ((a | b) & flag::full) ||
-             ((a & flag::positive) && (b & flag::negative)) ||
-             ((a & flag::negative) && (b & flag::positive));
-    case PairRule::grown:
-      // Pairs of two components were all looked at in the first round.
-      return same_component && ((a | b) & flag::grown);
-    case PairRule::within_component:
-      return same_component && ((a | b) & flag::full);
-  }
-  return true;
-}
+// The rule of the step (stage of the detector).
+class PairRule {
+ public:
+  virtual ~PairRule() = default;
+  // K inside a component, everything across.
+  virtual PairTables candidates() const;
+  // A round of the closure: what joined H against its whole component (U,H). Pairs across were all
+  // looked at in the first round.
+  virtual PairTables closure() const;
+  // Whether triangle `t` joins H for a contact of its own component (L7: both do).
+  virtual bool joins_closure(const TrianglePair& contact, std::int32_t t) const;
+};
+
+// Culling without views: every pair, and nothing left to close.
+class EveryPair : public PairRule {
+ public:
+  PairTables candidates() const override;
+};
 
 }  // namespace assay::detector

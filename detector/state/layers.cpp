@@ -10,18 +10,20 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// The triangles linked to `seed`, itself included, ascending; marks them seen.
-std::vector<std::int32_t> grow_piece(const Topology& mesh, std::int32_t seed,
+// The triangles of the mesh linked to `seed`, itself included, ascending; marks them seen.
+std::vector<std::int32_t> grow_piece(const Surface& surface, std::int32_t seed,
                                      const std::vector<std::uint8_t>& touched,
                                      std::vector<std::uint8_t>& seen) {
+  const Topology& all = surface.all();
+  const auto ghosts_begin = static_cast<std::int32_t>(surface.mesh.triangles.size());
   std::vector<std::int32_t> piece = {seed};
   seen[at(seed)] = 1;
   for (std::size_t next = 0; next < piece.size(); ++next) {
-    for (const auto edge : mesh.triangle_edges[at(piece[next])]) {
-      const auto around = mesh.edge_triangles.row(edge);
+    for (const auto edge : all.triangle_edges[at(piece[next])]) {
+      const auto around = all.edge_triangles.row(edge);
       if (around.size() != 2) continue;
       const auto other = around[0] == piece[next] ? around[1] : around[0];
-      if (touched[at(other)] || seen[at(other)]) continue;
+      if (other >= ghosts_begin || touched[at(other)] || seen[at(other)]) continue;
       seen[at(other)] = 1;
       piece.push_back(other);
     }
@@ -37,18 +39,21 @@ struct LayerClass {
 
 }  // namespace
 
-void mark_clean_by_layers(const Topology& mesh, const Component& component, const PositionsView& x,
+void mark_clean_by_layers(const Surface& surface, std::size_t c, const PositionsView& x,
                           const std::vector<std::uint8_t>& touched, std::vector<std::uint8_t>& seen,
                           std::vector<std::uint8_t>& clean) {
-  for (const auto t : component.triangles) clean[at(t)] = 0;
+  const Topology& all = surface.all();
+  const auto& own = surface.mesh.components[c].triangles;
+  const auto& cycle = all.components[c].triangles;
+  for (const auto t : own) clean[at(t)] = 0;
   std::map<int, LayerClass> by_layer;  // key: winding number outside
-  for (const auto seed : component.triangles) {
+  for (const auto seed : own) {
     if (touched[at(seed)] || seen[at(seed)]) continue;
-    const auto piece = grow_piece(mesh, seed, touched, seen);
+    const auto piece = grow_piece(surface, seed, touched, seen);
     const auto with_area = std::find_if(piece.begin(), piece.end(),
-                                        [&](std::int32_t t) { return !has_zero_area(mesh, x, t); });
+                                        [&](std::int32_t t) { return !has_zero_area(all, x, t); });
     if (with_area == piece.end()) continue;  // stays dirty
-    const auto outside = winding_number_outside(mesh, component.triangles, x, *with_area);
+    const auto outside = winding_number_outside(all, cycle, x, *with_area);
     if (!outside) continue;
     auto [entry, is_new] = by_layer.try_emplace(*outside);
     // Seeds ascend, so the first piece of a layer holds its lowest triangle.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "detector/state/layers.h"
-#include "detector/state/start.h"
+#include "detector/state/release_rule.h"
 #include "detector/state/winding.h"
 #include "tests/detector/points.h"
 
@@ -67,20 +67,20 @@ TEST(Layers, L9_PiecesNotConnectionDecide) {
       {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 1}, {0, 1, 5}, {0, 5, 4}, {1, 4, 5}});
   const Positions x =
       tests::positions({{0, 0, -4}, {0, 0, 4}, {8, -6, 0}, {8, 6, 0}, {4, -1.5, 0}, {4, 1.5, 0}});
-  const Topology mesh = make_topology(t, 6);
-  ASSERT_EQ(mesh.components.size(), 1u);
-  ASSERT_TRUE(mesh.components[0].is_cycle);
+  const Surface surface = make_surface(t, 6);
+  ASSERT_EQ(surface.mesh.components.size(), 1u);
+  ASSERT_TRUE(surface.is_closed());
   std::vector<std::uint8_t> clean(8, 2), seen(8, 0);
-  mark_clean_by_layers(mesh, mesh.components[0], x, std::vector<std::uint8_t>(8, 0), seen, clean);
+  mark_clean_by_layers(surface, 0, x, std::vector<std::uint8_t>(8, 0), seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 0}))
       << "as many triangles in each layer: the one with triangle 0 is common";
 }
 
 TEST(Layers, L9_TouchedTrianglesStayDirty) {
-  const Topology mesh = make_topology(octahedron(), 6);
+  const Surface surface = make_surface(octahedron(), 6);
   std::vector<std::uint8_t> touched(8, 0), clean(8, 0), seen(8, 0);
   touched[2] = 1;
-  mark_clean_by_layers(mesh, mesh.components[0], octahedron_positions(1), touched, seen, clean);
+  mark_clean_by_layers(surface, 0, octahedron_positions(1), touched, seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 1, 1, 1}));
 }
 
@@ -96,26 +96,60 @@ TEST(Winding, CollapsedTrianglesDoNotCount) {
   EXPECT_EQ(winding_number(mesh, all, x, {-5, 0, 0}), 0);
 }
 
-TEST(Start, L5_ReleasesWithWindingOneOnly) {
-  const Topology mesh = make_topology(octahedron(), 6);
-  EXPECT_TRUE(
-      released_by_view(mesh, mesh.components[0], octahedron_positions(1), {0, 0, 0}, {0, 0, 0}));
-  EXPECT_FALSE(
-      released_by_view(mesh, mesh.components[0], octahedron_positions(1), {2, 0, 0}, {2, 0, 0}));
+// A step that stays at x, before its stages have run.
+struct Still {
+  Still(const Triangles& triangles, const Positions& at)
+      : x(at), surface(make_surface(triangles, at.rows())), tree(surface.mesh, x) {}
+  StepWork work() {
+    return {surface, tree, boundary, elementary, stop, x, x, nullptr, {}, {}, {}, {}, {}, {}};
+  }
+  Positions x;
+  Surface surface;
+  BoundingVolumeTree tree;
+  BoundaryHandler boundary;
+  ElementaryTest elementary;
+  StopFunction stop;
+};
+
+TEST(Release, L5_ReleasesWithWindingOneOnly) {
+  Still still(octahedron(), octahedron_positions(1));
+  const auto released_from = [&](const Point& q) {
+    StepWork work = still.work();
+    work.primitives = {{{q, q}, {q, q}}};
+    return ReleaseRule().released_at_start(work, 0);
+  };
+  EXPECT_TRUE(released_from({0, 0, 0}));
+  EXPECT_FALSE(released_from({2, 0, 0}));
 }
 
-TEST(Start, L9_FindsStaticContactsOfAStartInContact) {
+TEST(Release, L9_FindsStaticContactsOfAStartInContact) {
   // The apex (vertex 4) pulled out through the side.
-  const Topology mesh = make_topology(octahedron(), 6);
   Positions x = octahedron_positions(2);
   x.row(4) << 3, .5, -.25;
-  BoundingVolumeTree tree(mesh, x);
-  std::vector<std::uint8_t> clean(8, 2);
-  ASSERT_TRUE(verify_start(mesh, tree, x, {0}, {}, clean));
+  Still still(octahedron(), x);
+  StepWork work = still.work();
+  work.clean.assign(8, 2);
+  ASSERT_TRUE(ReleaseRule().verify_start(work, {0}));
   // Edge (1,4) of triangles 1 and 2 pierces triangle 4.
-  EXPECT_EQ(clean[1], 0);
-  EXPECT_EQ(clean[2], 0);
-  EXPECT_GT(std::count(clean.begin(), clean.end(), 0), 2);
+  EXPECT_EQ(work.clean[1], 0);
+  EXPECT_EQ(work.clean[2], 0);
+  EXPECT_GT(std::count(work.clean.begin(), work.clean.end(), 0), 2);
+}
+
+// The state after a step: clean before, not touched, in no contact of its own component.
+TEST(Release, L8_ContactsAndTouchesMakeDirty) {
+  Still still(octahedron(), octahedron_positions(1));
+  StepWork work = still.work();
+  work.clean.assign(8, 1);
+  work.clean[7] = 0;
+  work.touched.assign(8, 0);
+  work.touched[3] = 1;
+  const std::vector<PairContact> pairs = {{{0, 6}, {}, {}}};
+  std::vector<std::uint8_t> clean(8);
+  ReleaseRule().settle(work, pairs, true, clean);
+  EXPECT_EQ(clean, (std::vector<std::uint8_t>{0, 1, 1, 0, 1, 1, 0, 0}));
+  ReleaseRule().settle(work, pairs, false, clean);
+  EXPECT_EQ(std::count(clean.begin(), clean.end(), 1), 0) << "an incomplete set vouches for none";
 }
 
 }  // namespace

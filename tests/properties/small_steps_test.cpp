@@ -55,7 +55,6 @@ void check_signs(const SmallStep& step, const detector::StepResult& result, Tall
   auto made = detector::Detector::create(step.triangles, step.x_t0, {});
   const auto& mesh = made.value().topology();
   for (std::size_t c = 0; c < mesh.components.size(); ++c) {
-    if (!mesh.components[c].is_cycle) continue;
     for (const auto t : mesh.components[c].triangles) {
       const auto corner = [&](int i) {
         return detector::moving_point(step.x_t0, step.x_t1, step.triangles(t, i));
@@ -86,7 +85,7 @@ void check(const SmallStep& step, Tally& tally) {
     const bool has_views =
         variant.culling == Culling::view_point || variant.culling == Culling::view_line;
     if (has_views) {
-      ASSERT_EQ(all.view_positive + all.view_negative + all.view_zero + all.dirty,
+      ASSERT_EQ(all.view_positive + all.view_negative + all.view_zero + all.against_all,
                 step.triangles.rows());
       check_signs(step, all, tally);
     }

@@ -1,0 +1,37 @@
+// Holes of the mesh as a stage of the detector: ghosts, their apexes, what they touch.
+#pragma once
+
+#include "detector/boundary/apex.h"
+#include "detector/boundary/ghost_sweep.h"
+
+namespace assay::detector {
+
+class BoundaryHandler {
+ public:
+  virtual ~BoundaryHandler() = default;
+
+  virtual Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count) const;
+
+  // The rule of each loop, for the life of a detector: the one whose ghosts touch fewest triangles
+  // at x (ties: first of apex_rules). Five static sweeps.
+  virtual std::vector<ApexRule> choose_apexes(const Surface& surface, BoundingVolumeTree& tree,
+                                              const PositionsView& x,
+                                              const ElementaryTest& elementary) const;
+
+  // The apexes' places over a step, one a loop: at each end a function of that frame alone, so an
+  // apex is where the last step left it.
+  virtual std::vector<MovingPoint> place_apexes(const Surface& surface,
+                                                const std::vector<ApexRule>& rules,
+                                                const PositionsView& x_t0,
+                                                const PositionsView& x_t1) const;
+
+  // Sets touched[t] for the ghosts given (L11). Returns false when `stop` ended it.
+  virtual bool sweep(const GhostSweep& sweep, std::span<const std::int32_t> ghosts,
+                     const StopFunction& stop, std::vector<std::uint8_t>& touched,
+                     GhostCounts& counts) const;
+};
+
+// x, and below it the apexes' places at t=0 or t=1.
+Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& apexes, bool at_end);
+
+}  // namespace assay::detector

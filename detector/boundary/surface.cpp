@@ -1,0 +1,33 @@
+#include "detector/boundary/surface.h"
+
+#include <cassert>
+
+namespace assay::detector {
+
+Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count) {
+  Surface surface;
+  surface.mesh = make_topology(triangles, vertex_count);
+  surface.loops = boundary_loops(surface.mesh);
+  surface.first_apex = static_cast<std::int32_t>(vertex_count);
+  if (surface.is_closed()) return surface;
+  std::size_t ghosts = 0;
+  for (const auto& loop : surface.loops) ghosts += loop.size();
+  Triangles all(triangles.rows() + static_cast<Eigen::Index>(ghosts), 3);
+  all.topRows(triangles.rows()) = triangles;
+  Eigen::Index row = triangles.rows();
+  for (std::size_t l = 0; l < surface.loops.size(); ++l) {
+    const auto& loop = surface.loops[l];
+    const auto apex = surface.first_apex + static_cast<std::int32_t>(l);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      all.row(row++) << loop[(i + 1) % loop.size()], loop[i], apex;
+    }
+  }
+  surface.with_ghosts =
+      make_topology(all, vertex_count + static_cast<Eigen::Index>(surface.loops.size()));
+  // A loop stays within one component, and its apex has the highest indices: no component is
+  // joined with another or changes its place.
+  assert(surface.with_ghosts.components.size() == surface.mesh.components.size());
+  return surface;
+}
+
+}  // namespace assay::detector

@@ -1,0 +1,21 @@
+#include "detector/stages.h"
+
+namespace assay::detector {
+
+Stages standard_stages(Culling culling) {
+  const bool uses_views = culling == Culling::view_point || culling == Culling::view_line;
+  Stages stages;
+  stages.classifier = std::make_shared<ViewClassifier>();
+  stages.boundary = std::make_shared<BoundaryHandler>();
+  stages.pair_rule = uses_views ? std::make_shared<PairRule>() : std::make_shared<EveryPair>();
+  if (culling == Culling::none) {
+    stages.pair_search = std::make_shared<ExhaustiveSearch>();
+  } else {
+    stages.pair_search = std::make_shared<TreeSearch>();
+  }
+  stages.elementary = std::make_shared<ElementaryTest>();
+  stages.release = std::make_shared<ReleaseRule>();
+  return stages;
+}
+
+}  // namespace assay::detector

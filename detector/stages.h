@@ -1,0 +1,27 @@
+// The stages that a detector is assembled of, each replaceable.
+//
+// The standard ones make the production detector and its cullings. Another scheme, or a scheme that
+// is wrong on purpose, is another assembly of stages: it derives from the one that it changes.
+#pragma once
+
+#include <memory>
+
+#include "detector/boundary/boundary_handler.h"
+#include "detector/search/candidate_search.h"
+#include "detector/state/release_rule.h"
+#include "detector/view/view_classifier.h"
+
+namespace assay::detector {
+
+struct Stages {
+  std::shared_ptr<const ViewClassifier> classifier;
+  std::shared_ptr<const BoundaryHandler> boundary;
+  std::shared_ptr<const PairRule> pair_rule;
+  std::shared_ptr<const PairSearch> pair_search;
+  std::shared_ptr<const ElementaryTest> elementary;
+  std::shared_ptr<const ReleaseRule> release;
+};
+
+Stages standard_stages(Culling culling);
+
+}  // namespace assay::detector

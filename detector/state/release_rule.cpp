@@ -1,0 +1,95 @@
+#include "detector/state/release_rule.h"
+
+#include <algorithm>
+
+#include "detector/search/feature_contacts.h"
+#include "detector/state/layers.h"
+#include "detector/state/winding.h"
+#include "detector/view/view_test.h"
+
+namespace assay::detector {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// Triangles of the components that meet another one of their own at t=0.
+bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& components,
+                          std::vector<std::uint8_t>& touched) {
+  const Topology& mesh = work.surface.mesh;
+  Marks marks;
+  marks.triangle_flags.assign(mesh.triangles.size(), 0);
+  for (const auto c : components) {
+    for (const auto t : work.own_triangles(at(c))) marks.triangle_flags[at(t)] = flag::violated;
+  }
+  const PairTables tables = {PairTable().add(flag::violated, flag::violated), {}};
+  FeatureContacts contacts(mesh, work.x_t0, work.x_t0, work.elementary, Want::yes_no);
+  SearchCounts counts;
+  constexpr std::uint64_t pairs_between_stops = 4096;
+  const auto sink = [&](std::int32_t a, std::int32_t b) {
+    if (counts.candidate_pairs % pairs_between_stops == 0 && work.stop && work.stop()) return false;
+    contacts.add_candidate(a, b, true);
+    return true;
+  };
+  if (!TreeSearch().search({mesh, work.tree, marks, tables}, counts, sink) ||
+      !contacts.run(work.stop)) {
+    return false;
+  }
+  for (const auto& contact : contacts.contacts()) {
+    for (const auto& pair : contact.pairs) touched[at(pair.a)] = touched[at(pair.b)] = 1;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool ReleaseRule::is_free(StepWork& work, std::size_t c) const {
+  const auto& triangles = work.component(c).triangles;
+  const bool all_positive = std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
+    return work.signs[at(t)] == ViewSign::positive;
+  });
+  if (!all_positive) return false;
+  const ViewPrimitive& primitive = work.primitives[c];
+  const std::array<Point, 2> start = {primitive.q0.t0, primitive.q1.t0};
+  if (work.known && work.known->inside[c] == start) return true;
+  ++work.counts.winding_numbers;
+  return winding_number(work.surface.all(), triangles, work.x_t0, primitive.q0.t0) == 1;
+}
+
+bool ReleaseRule::released_at_start(const StepWork& work, std::size_t c) const {
+  const auto& triangles = work.component(c).triangles;
+  const ViewPrimitive& primitive = work.primitives[c];
+  return all_positive_at(work.surface.all(), triangles, work.x_t0, primitive.q0.t0,
+                         primitive.q1.t0) &&
+         winding_number(work.surface.all(), triangles, work.x_t0, primitive.q0.t0) == 1;
+}
+
+bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& components) const {
+  work.tree.refit(work.surface.mesh, work.x_t0, work.x_t0);
+  std::vector<std::uint8_t> touched(work.surface.mesh.triangles.size(), 0);
+  if (!find_static_contacts(work, components, touched)) return false;
+  const GhostSweep still{work.surface, work.tree, work.x_t0, work.x_t0, work.elementary, true};
+  for (const auto c : components) {
+    if (!work.boundary.sweep(still, work.ghosts(at(c)), work.stop, touched, work.counts.ghosts))
+      return false;
+  }
+  std::vector<std::uint8_t> seen(work.surface.all().triangles.size(), 0);
+  for (const auto c : components) {
+    if (work.stop && work.stop()) return false;
+    mark_clean_by_layers(work.surface, at(c), work.x_t0, touched, seen, work.clean);
+  }
+  return true;
+}
+
+void ReleaseRule::settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
+                         std::vector<std::uint8_t>& clean) const {
+  const Topology& mesh = work.surface.mesh;
+  for (std::size_t t = 0; t < clean.size(); ++t) clean[t] = work.clean[t] && !work.touched[t];
+  if (!complete && !pairs.empty()) std::fill(clean.begin(), clean.end(), 0);
+  for (const auto& [pair, time, feature] : pairs) {
+    const bool own =
+        mesh.component_of_triangle[at(pair.a)] == mesh.component_of_triangle[at(pair.b)];
+    if (own) clean[at(pair.a)] = clean[at(pair.b)] = 0;
+  }
+}
+
+}  // namespace assay::detector

@@ -1,0 +1,22 @@
+// The view test as a stage of the detector: signs over a step, and at an instant.
+#pragma once
+
+#include "detector/view/view_test.h"
+
+namespace assay::detector {
+
+class ViewClassifier {
+ public:
+  virtual ~ViewClassifier() = default;
+  // Signs of `triangles` (indices into `surface`, ghosts too) over the step (L1, L2), written to
+  // signs[triangle]. A triangle may be called zero at the cost of time; never wrongly positive or
+  // negative.
+  virtual void classify(const Topology& surface, std::span<const std::int32_t> triangles,
+                        const PositionsView& x_t0, const PositionsView& x_t1,
+                        const ViewPrimitive& primitive, std::vector<ViewSign>& signs,
+                        ViewCounts& counts) const {
+    detector::classify(surface, triangles, x_t0, x_t1, primitive, signs, counts);
+  }
+};
+
+}  // namespace assay::detector

@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "detector/detector.h"
+#include "tests/detector/points.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::octahedron;
+using tests::octahedron_positions;
+
+// The octahedron without the triangles given.
+Triangles without(std::vector<Eigen::Index> holes) {
+  const Triangles all = octahedron();
+  Triangles left(all.rows() - static_cast<Eigen::Index>(holes.size()), 3);
+  Eigen::Index row = 0;
+  for (Eigen::Index t = 0; t < all.rows(); ++t) {
+    if (std::find(holes.begin(), holes.end(), t) == holes.end()) left.row(row++) = all.row(t);
+  }
+  return left;
+}
+
+TEST(Loops, ACycleHasNone) {
+  EXPECT_TRUE(boundary_loops(make_topology(octahedron(), 6)).empty());
+  EXPECT_TRUE(make_surface(octahedron(), 6).is_closed());
+}
+
+TEST(Loops, AHoleIsOneLoopAndItsGhostsCloseTheMesh) {
+  const Surface surface = make_surface(without({0}), 6);
+  ASSERT_EQ(surface.loops.size(), 1u);
+  EXPECT_EQ(surface.loops[0].size(), 3u);
+  EXPECT_EQ(surface.ghost_count(), 3u);
+  EXPECT_TRUE(surface.all().components[0].is_cycle);
+  EXPECT_EQ(surface.all().triangles.back()[2], 6) << "the apex comes after the mesh's vertices";
+}
+
+TEST(Loops, AVertexOfTwoHolesIsPassedTwice) {
+  // Opposite triangles at vertex 4.
+  const Triangles all = octahedron();
+  std::vector<Eigen::Index> at_vertex;
+  for (Eigen::Index t = 0; t < all.rows(); ++t) {
+    if ((all.row(t).array() == 4).any()) at_vertex.push_back(t);
+  }
+  ASSERT_EQ(at_vertex.size(), 4u);
+  const Surface surface = make_surface(without({at_vertex[0], at_vertex[2]}), 6);
+  std::size_t edges = 0;
+  for (const auto& loop : surface.loops) edges += loop.size();
+  EXPECT_EQ(edges, 6u);
+  EXPECT_TRUE(surface.all().components[0].is_cycle);
+}
+
+TEST(Loops, AFlippedTriangleIsClosedTwiceOver) {
+  Triangles t = octahedron();
+  std::swap(t(0, 1), t(0, 2));
+  const Surface surface = make_surface(t, 6);
+  EXPECT_EQ(surface.ghost_count(), 6u) << "each of its edges is used twice in one direction";
+  EXPECT_TRUE(surface.all().components[0].is_cycle);
+}
+
+TEST(Apex, StandsOverTheCentroidAlongTheNormal) {
+  const Positions x = tests::positions({{0, 0, 0}, {3, 0, 0}, {3, 4, 0}, {0, 4, 0}});
+  const Loop loop = {0, 1, 2, 3};
+  EXPECT_EQ(place_apex({0}, loop, x), (Point{1.5, 2, 0}));
+  EXPECT_EQ(place_apex({1}, loop, x), (Point{1.5, 2, 5})) << "one diagonal of the loop's box";
+  EXPECT_EQ(place_apex({-0.25}, loop, x), (Point{1.5, 2, -1.25}));
+}
+
+TEST(Apex, IsFiniteForEveryFiniteLoop) {
+  constexpr double huge = std::numeric_limits<double>::max(), tiny = 0x1p-1074;
+  for (const double s : {huge, tiny, 0.0}) {
+    const Positions x = tests::positions({{-s, 0, 0}, {s, -s, 0}, {s, s, s}});
+    for (const auto& rule : apex_rules) {
+      for (const double c : place_apex(rule, {0, 1, 2}, x)) EXPECT_TRUE(std::isfinite(c)) << s;
+    }
+  }
+}
+
+// A flat sheet is cut by the fan from its centroid; a raised apex touches nothing.
+TEST(Apex, TheRuleThatTouchesLeastIsTaken) {
+  Triangles t(18, 3);
+  Positions x(16, 3);
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) x.row(4 * i + j) << i, j, 0;
+  }
+  Eigen::Index row = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const int v = 4 * i + j;
+      t.row(row++) << v, v + 4, v + 5;
+      t.row(row++) << v, v + 5, v + 1;
+    }
+  }
+  auto made = Detector::create(t, x, {Culling::view_point, Start::verified, Pairs::all});
+  const StepResult result = made.value().step(x, x);
+  EXPECT_EQ(result.violated, 0u);
+  EXPECT_EQ(result.dirty, 0u);
+  EXPECT_EQ(result.answer, Answer::free);
+  ASSERT_EQ(result.apexes.size(), 1u);
+  EXPECT_NE(result.apexes[0].t0[2], 0);
+}
+
+// The vertex opposite to the hole goes out through it: the ghosts see it pass.
+TEST(GhostSweep, L11_WhatPassesTheHoleIsViolatedAndStaysDirty) {
+  const Triangles t = without({0});
+  const Positions x_t0 = octahedron_positions(2);
+  const Eigen::RowVector3d out =
+      x_t0.row(octahedron()(0, 0)) + x_t0.row(octahedron()(0, 1)) + x_t0.row(octahedron()(0, 2));
+  Positions x_t1 = x_t0;
+  for (Eigen::Index v = 0; v < 6; ++v) {
+    if ((octahedron().row(0).array() == static_cast<std::int32_t>(v)).any()) continue;
+    x_t1.row(v) = out;
+    break;
+  }
+  auto made = Detector::create(t, x_t0, {Culling::view_point, Start::verified, Pairs::all});
+  auto& detector = made.value();
+  EXPECT_EQ(detector.step(x_t0, x_t0).violated, 0u);
+  const StepResult passing = detector.step(x_t0, x_t1);
+  EXPECT_GE(passing.violated, 1u);
+  EXPECT_EQ(passing.dirty, 0u);
+  const StepResult outside = detector.step(x_t1, x_t1);
+  EXPECT_GE(outside.dirty, passing.violated) << "carried to the next step";
+  for (std::size_t i = 0; i < outside.doubts.size(); ++i) {
+    if (passing.doubts[i] & doubt::violated) {
+      EXPECT_TRUE(outside.doubts[i] & doubt::dirty);
+    }
+  }
+}
+
+TEST(PairTable, L3_AsksForKAndNothingElse) {
+  const PairTables k = PairRule().candidates();
+  const std::uint8_t sets[] = {flag::positive, flag::negative, flag::zero, flag::violated};
+  for (const auto a : sets) {
+    for (const auto b : sets) {
+      const bool same_sign = a == b && (a == flag::positive || a == flag::negative);
+      EXPECT_EQ(k.within.asks(a, b), !same_sign);
+      EXPECT_TRUE(k.across.asks(a, b)) << "L10";
+    }
+  }
+  EXPECT_TRUE(k.within.asks(flag::positive, flag::positive | flag::negative)) << "of a node";
+  EXPECT_FALSE(k.within.asks(flag::positive, 0));
+}
+
+TEST(PairTable, RemovingIsTheInverseOfAdding) {
+  PairTable table = PairTable::everything();
+  table.remove(flag::zero, flag::violated);
+  EXPECT_FALSE(table.asks(flag::zero, flag::violated));
+  EXPECT_FALSE(table.asks(flag::violated, flag::zero));
+  EXPECT_TRUE(table.asks(flag::zero | flag::positive, flag::violated));
+}
+
+}  // namespace
+}  // namespace assay::detector
