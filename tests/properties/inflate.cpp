@@ -19,6 +19,9 @@ class Inflation {
     const auto found = judge_(c);
     if (!found) throw std::runtime_error(c.id + " holds");
     signature_ = found->signature;
+    Case closed = c;
+    closed.ghosts.reset();
+    keep_if_it_fails(c, closed);
     // Many splits at once while that goes well.
     for (int tries = 0, at_once = 16; tries < 8 * triangles; ++tries) {
       const int wanted = (triangles - static_cast<int>(c.triangles.rows())) / 2;
@@ -28,7 +31,7 @@ class Inflation {
       at_once = keep_if_it_fails(c, larger) ? 2 * at_once : std::max(1, at_once / 2);
     }
     keep_if_it_fails(c, noisy(c));
-    while (static_cast<int>(c.frames.size()) <= steps) {
+    while (static_cast<int>(c.frames.size()) <= steps && c.script.empty() && !c.ghosts) {
       Case longer = c;
       add_frame(longer, random_.below(3) > 0);
       if (!keep_if_it_fails(c, longer)) add_still_frame(c);
