@@ -230,6 +230,16 @@ Case close_loops(const Case& c, std::size_t corner) {
   return with_triangles(c, triangles);
 }
 
+Case seen_from_its_middle(const Case& c) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (const auto& frame : c.frames) sum += frame.colwise().mean();
+  sum /= static_cast<double>(c.frames.size());
+  Case result = c;
+  const std::vector<detector::Point> middle(c.frames.size(), {sum[0], sum[1], sum[2]});
+  result.view = corpus::CaseView{middle, {}};
+  return result;
+}
+
 Case with_steps(const Case& c, const std::vector<corpus::CaseStep>& steps) {
   Case result = c;
   result.expected = {};

@@ -34,6 +34,9 @@ corpus::Case merge_vertices(const corpus::Case& c, const std::vector<std::int32_
 // length): no new vertex. A closed mesh is returned as it is.
 corpus::Case close_loops(const corpus::Case& c, std::size_t corner);
 
+// Seen from a fixed point: the mean of all places of all vertices.
+corpus::Case seen_from_its_middle(const corpus::Case& c);
+
 // These steps only; the script is left out where it says no more than consecutive frames do.
 corpus::Case with_steps(const corpus::Case& c, const std::vector<corpus::CaseStep>& steps);
 

@@ -57,7 +57,7 @@ class Escape {
   void change(Case& c) {
     const auto v = static_cast<Eigen::Index>(index_below(vertices(c)));
     const auto f = static_cast<std::size_t>(index_below(c.frames.size()));
-    switch (random_.below(6)) {
+    switch (random_.below(8)) {
       case 0:
       case 1:
         c.frames[f](v, random_.below(3)) = some_number();
@@ -74,6 +74,10 @@ class Escape {
       case 4:
         flip_edge(c);
         break;
+      case 5:
+      case 6:
+        nudge(c.frames[f](v, random_.below(3)));
+        break;
       default:
         if (c.view) {
           change_view(c);
@@ -81,6 +85,13 @@ class Escape {
           for (auto& frame : c.frames) frame.row(v) = c.frames[f].row(v);
         }
     }
+  }
+
+  // A little up or down: where a failure needs just this motion, other places are out of reach.
+  void nudge(double& x) {
+    const double share = 1 << random_.below(5);
+    const double most = std::max(1., std::round(largest_ / (4 * share)));
+    x += std::round(most * random_.between(-4, 4) / 4);
   }
 
   void flip_edge(Case& c) {
@@ -97,6 +108,12 @@ class Escape {
     for (auto& place : end) place[k] = value;
   }
 
+  // As it is, or seen from a place that suits the smaller mesh.
+  bool offer_seen_anew(const Case& c) {
+    if (c.triangles.rows() == 0) return false;
+    return search_.offer(c) || search_.offer(seen_from_its_middle(c));
+  }
+
   // All cheap ways down from a case that fails alike.
   bool descend(const Case& c) {
     const auto n = vertices(c);
@@ -111,9 +128,10 @@ class Escape {
         std::vector<std::int32_t> targets(n);
         std::iota(targets.begin(), targets.end(), 0);
         targets[u] = static_cast<std::int32_t>(v);
-        if (search_.offer(merge_vertices(c, targets))) return true;
+        if (offer_seen_anew(merge_vertices(c, targets))) return true;
       }
     }
+    if (n <= 6 && spheres_without_one(c)) return true;
     const auto all = static_cast<std::size_t>(c.triangles.rows());
     for (std::size_t t = 0; t < all && all <= few; ++t) {
       std::vector<std::uint8_t> keep(all, 1);
@@ -126,6 +144,23 @@ class Escape {
       fewer[s].to = fewer[s + 1].to;
       fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(s) + 1);
       if (search_.offer(with_steps(c, fewer))) return true;
+    }
+    return false;
+  }
+
+  // All spheres over all vertices but one.
+  bool spheres_without_one(const Case& c) {
+    const auto n = static_cast<std::int32_t>(vertices(c));
+    for (std::int32_t left_out = 0; n > 4 && left_out < n; ++left_out) {
+      for (const SphereMesh& sphere : sphere_meshes(n - 1)) {
+        if (sphere.size() >= search_.size().triangles) break;
+        for (SphereMesh mesh : {sphere, mirrored(sphere)}) {
+          for (auto& corners : mesh) {
+            for (auto& v : corners) v += v >= left_out ? 1 : 0;
+          }
+          if (offer_seen_anew(with_triangles(c, mesh))) return true;
+        }
+      }
     }
     return false;
   }
@@ -155,7 +190,7 @@ class Escape {
       Case merged = merge_vertices(search_.best(), targets);
       if (merged.triangles.rows() == 0) continue;
       for (int changes = random_.between(1, 4); changes > 0; --changes) change(merged);
-      if (search_.offer(merged)) return true;
+      if (offer_seen_anew(merged)) return true;
     }
     return false;
   }
@@ -176,7 +211,7 @@ class Escape {
           if (&frame == &c.frames.front() || random_.below(3) > 0) frame.data()[i] = some_number();
         }
       }
-      if (search_.offer(c)) return true;
+      if (offer_seen_anew(c)) return true;
     }
     return false;
   }

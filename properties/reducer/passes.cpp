@@ -11,7 +11,7 @@ std::span<const Pass> shortening_passes() {
       {"drop unused vertices", drop_unused_vertices},
       {"drop ghosts", drop_ghosts},
       {"drop components", drop_components},
-      {"small spheres", try_small_spheres},
+      {"spheres of the pair", try_spheres_of_pair},
       {"keep rings", keep_rings},
       {"cone outside", cone_outside},
       {"cut and close", cut_and_close},
@@ -21,6 +21,7 @@ std::span<const Pass> shortening_passes() {
       {"collapse edges", collapse_edges},
       {"remove and close", remove_and_close},
       {"merge twice", merge_twice},
+      {"small spheres", try_small_spheres},
   };
   return passes;
 }

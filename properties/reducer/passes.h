@@ -32,7 +32,8 @@ void merge_twice(ReductionSearch& search);          // two collapses at once, of
 void remove_and_close(ReductionSearch& search);     // single faces or vertex stars, closed by a fan
 
 // small_meshes.cpp: triangulated spheres over some of the case's own vertices.
-void try_small_spheres(ReductionSearch& search);
+void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the reported pair: few
+void try_small_spheres(ReductionSearch& search);    // and of those around it: thousands
 
 // motion_passes.cpp: vertices that rest.
 void freeze_vertices(ReductionSearch& search);  // halves, then one by one; at either end's place

@@ -42,9 +42,7 @@ bool holds_all(const SphereMesh& mesh, const std::vector<Corners>& wanted) {
   });
 }
 
-}  // namespace
-
-void try_small_spheres(ReductionSearch& search) {
+void try_spheres(ReductionSearch& search, bool of_pair_only) {
   constexpr std::size_t largest_pool = 8;
   // From here on there are too many, and only those that hold the reported triangles are tried.
   constexpr std::size_t many = 6;
@@ -52,6 +50,10 @@ void try_small_spheres(ReductionSearch& search) {
   const corpus::Case start = search.best();
   std::vector<std::int32_t> pool(rings.far_first.rbegin(), rings.far_first.rend());  // near first
   if (pool.size() > largest_pool) pool.resize(largest_pool);
+  if (of_pair_only) {
+    std::erase_if(pool,
+                  [&](std::int32_t v) { return rings.distance[static_cast<std::size_t>(v)] > 0; });
+  }
 
   for (std::size_t n = 4; n <= std::min<std::size_t>(7, pool.size()); ++n) {
     if (search.size().triangles <= 2 * n - 4) return;
@@ -80,7 +82,10 @@ void try_small_spheres(ReductionSearch& search) {
           for (Corners& corners : mesh) {
             for (auto& v : corners) v = pool[chosen[static_cast<std::size_t>(v)]];
           }
-          if (search.offer(with_triangles(start, mesh))) return true;
+          const corpus::Case small = with_triangles(start, mesh);
+          if (search.offer(small)) return true;
+          // The view of the large mesh need not suit the small one.
+          if (n < many && search.offer(seen_from_its_middle(small))) return true;
         }
       }
       return false;
@@ -90,5 +95,11 @@ void try_small_spheres(ReductionSearch& search) {
     }
   }
 }
+
+}  // namespace
+
+void try_spheres_of_pair(ReductionSearch& search) { try_spheres(search, true); }
+
+void try_small_spheres(ReductionSearch& search) { try_spheres(search, false); }
 
 }  // namespace assay::properties

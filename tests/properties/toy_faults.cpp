@@ -1,21 +1,14 @@
 #include "tests/properties/toy_faults.h"
 
-#include <cmath>
-#include <set>
 #include <stdexcept>
 
-#include "corpus/scenes/shapes.h"
-#include "detector/mesh/topology.h"
 #include "oracle/candidates.h"
 #include "oracle/instant.h"
 #include "oracle/layers.h"
 #include "oracle/loops.h"
 #include "oracle/step.h"
 #include "oracle/touched_by_ghosts.h"
-#include "oracle/view_sign.h"
-#include "properties/agreement.h"
-#include "properties/random.h"
-#include "tests/properties/inflate.h"
+#include "tests/properties/toy_step.h"
 
 namespace assay::properties::toys {
 namespace {
@@ -23,98 +16,7 @@ namespace {
 using corpus::Case;
 using detector::PairContact;
 using detector::Positions;
-using detector::ViewPrimitive;
 using detector::ViewSign;
-using Signs = std::vector<ViewSign>;
-
-// One step as a toy detector sees it.
-struct ToyStep {
-  const Case& mesh;
-  const Positions &x_t0, &x_t1;
-  const detector::Topology& topology;
-  ViewPrimitive view;
-  std::vector<std::uint8_t> dirty;
-};
-
-Signs exact_signs(const ToyStep& step) {
-  return oracle::view_signs(step.x_t0, step.x_t1, step.mesh.triangles, {&step.view, 1}, 1);
-}
-
-// The sign that all instants share; zero when they differ.
-Signs sampled_signs(const ToyStep& step, const std::vector<double>& times) {
-  Signs shared;
-  for (const double t : times) {
-    const Positions x = (1 - t) * step.x_t0 + t * step.x_t1;
-    const Signs now = oracle::view_signs(x, x, step.mesh.triangles, {&step.view, 1}, 1);
-    if (shared.empty()) shared = now;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      if (now[i] != shared[i]) shared[i] = ViewSign::zero;
-    }
-  }
-  return shared;
-}
-
-// f0 and f1 weighted by the axial coordinate of the first vertex only.
-Signs one_vertex_signs(const ToyStep& step) {
-  Signs signs;
-  const auto& triangles = step.mesh.triangles;
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    std::array<detector::MovingPoint, 3> corners;
-    for (int i = 0; i < 3; ++i) {
-      corners[static_cast<std::size_t>(i)] =
-          detector::moving_point(step.x_t0, step.x_t1, triangles(t, i));
-    }
-    // The nearest point of the first vertex, at both ends, as a moving point.
-    const auto nearest = [&](bool end) {
-      const auto place = [&](const detector::MovingPoint& p) {
-        const auto& x = end ? p.t1 : p.t0;
-        return Eigen::Vector3d(x[0], x[1], x[2]);
-      };
-      const Eigen::Vector3d q0 = place(step.view.q0), q1 = place(step.view.q1);
-      const Eigen::Vector3d d = q1 - q0;
-      const double square = d.squaredNorm();
-      const double s = square > 0 ? (place(corners[0]) - q0).dot(d) / square : 0;
-      const Eigen::Vector3d n = q0 + std::min(1., std::max(0., s)) * d;
-      return detector::Point{n[0], n[1], n[2]};
-    };
-    const detector::MovingPoint q = {nearest(false), nearest(true)};
-    signs.push_back(oracle::view_sign(corners, {q, q}));
-  }
-  return signs;
-}
-
-std::optional<Finding> missing(const PairContact& contact, const char* claim, const char* stage,
-                               std::size_t step) {
-  return Finding{std::string(claim) + "/missing/" + stage + "/" + name_of(contact.feature.kind),
-                 {contact.pair.a, contact.pair.b},
-                 step};
-}
-
-int common_vertices(const detector::Triangles& triangles, const detector::TrianglePair& pair) {
-  int common = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) common += triangles(pair.a, i) == triangles(pair.b, k) ? 1 : 0;
-  }
-  return common;
-}
-
-std::vector<std::uint8_t> not_clean(const Case& c, const Positions& x) {
-  const auto state = oracle::layers_at(oracle::Instant(x), c.triangles, detector::Triangles(0, 3));
-  std::vector<std::uint8_t> dirty;
-  for (const auto clean : state.clean) dirty.push_back(clean == 0 ? 1 : 0);
-  return dirty;
-}
-
-bool is_cycle(const detector::Topology& mesh) {
-  for (const auto& component : mesh.components) {
-    if (!component.is_cycle) return false;
-  }
-  return true;
-}
-
-ViewPrimitive view_of(const Case& c, std::size_t step) {
-  return corpus::view_of_step(c, step).value_or(ViewPrimitive{});
-}
 
 // Runs `judge_one` on each step until it finds something. Closed meshes only; dirty is what the
 // layers at the start of the step say.
@@ -306,77 +208,6 @@ Judge violated_not_carried_judge() {
   };
 }
 
-// A sum of few waves, and a jump of a vertex now and then.
-class Motion {
- public:
-  explicit Motion(Random& random) : random_(random) {
-    for (auto& wave : waves_) {
-      for (int k = 0; k < 3; ++k) {
-        wave.direction[k] = unit() * 3;
-        wave.amplitude[k] = unit() * 0.25;
-      }
-      wave.phase = unit() * 3;
-    }
-  }
-  Positions after(const Positions& x, double strength) {
-    Positions moved = x;
-    for (Eigen::Index v = 0; v < x.rows(); ++v) {
-      for (const auto& wave : waves_) {
-        const double s = std::sin(wave.direction.dot(x.row(v).transpose()) + wave.phase);
-        moved.row(v) += strength * s * wave.amplitude.transpose();
-      }
-      if (random_.below(25) == 0) {
-        for (int k = 0; k < 3; ++k) moved(v, k) += strength * unit();
-      }
-    }
-    return moved;
-  }
-
- private:
-  struct Wave {
-    Eigen::Vector3d direction, amplitude;
-    double phase = 0;
-  };
-  double unit() { return static_cast<double>(random_.between(-100000, 100000)) / 100000; }
-
-  Random& random_;
-  std::array<Wave, 4> waves_;
-};
-
-Case starting_case(Start start, int triangles, Random& random) {
-  corpus::Mesh mesh;
-  Case c;
-  switch (start) {
-    case Start::closed: {
-      const int shape = random.below(3);
-      mesh = shape == 0   ? corpus::sphere_shape(triangles)
-             : shape == 1 ? corpus::tube_shape(triangles, true)
-                          : corpus::torus_shape(triangles);
-      break;
-    }
-    case Start::nested_shells: {
-      mesh = corpus::side_by_side(corpus::sphere_shape(triangles / 2),
-                                  corpus::sphere_shape(triangles / 2), 0);
-      const auto half = mesh.positions.rows() / 2;
-      mesh.positions.bottomRows(half) *= 0.75;
-      break;
-    }
-    case Start::tube_with_line:
-      mesh = corpus::tube_shape(triangles, true);
-      break;
-    case Start::open:
-      mesh = corpus::sphere_shape(triangles);
-      mesh.triangles =
-          corpus::sphere_shape(triangles).triangles.topRows(mesh.triangles.rows() * 3 / 4);
-      break;
-  }
-  c.id = "large";
-  c.triangles = mesh.triangles;
-  c.frames = {mesh.positions};
-  c.options["culling"] = start == Start::tube_with_line ? "view-line" : "view-point";
-  return c;
-}
-
 std::vector<ToyFault> make_faults() {
   const auto Z = ViewSign::zero, P = ViewSign::positive, M = ViewSign::negative;
   const auto samples = [](std::vector<double> times) {
@@ -406,14 +237,6 @@ std::vector<ToyFault> make_faults() {
   };
 }
 
-Case known_case(const ToyFault& fault) {
-  auto c =
-      corpus::read_case(std::string(ASSAY_SOURCE_DIR "/corpus/curated/") + fault.known + ".json");
-  if (!c) throw std::runtime_error(c.error().message);
-  c.value().ghosts.reset();
-  return c.value();
-}
-
 }  // namespace
 
 const std::vector<ToyFault>& toy_faults() {
@@ -426,25 +249,6 @@ const ToyFault& toy_fault(const std::string& name) {
     if (fault.name == name) return fault;
   }
   throw std::runtime_error("no toy fault " + name);
-}
-
-Case large_failing_case(const ToyFault& fault, int triangles, int steps, std::uint64_t seed) {
-  for (std::uint64_t index = 0; index < (fault.known.empty() ? 400 : 100); ++index) {
-    Random random(seed, index);
-    Case c = starting_case(fault.start, triangles, random);
-    Motion motion(random);
-    const double strength = 0.05 * random.between(1, 8);
-    // Gentle at first: most of the steps should pass before it fails.
-    for (int s = 0; s < steps; ++s) {
-      c.frames.push_back(motion.after(c.frames.back(), strength * (s + 1) / steps));
-    }
-    if (fault.start == Start::tube_with_line) {
-      c.view = corpus::CaseView{std::vector<detector::Point>(c.frames.size(), {0, 0, -2.5}),
-                                std::vector<detector::Point>(c.frames.size(), {0, 0, 2.5})};
-    }
-    if (fault.judge(c)) return c;
-  }
-  return inflated_case(known_case(fault), fault.judge, triangles, steps, seed);
 }
 
 }  // namespace assay::properties::toys

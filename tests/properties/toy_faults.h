@@ -23,8 +23,8 @@ struct ToyFault {
 const std::vector<ToyFault>& toy_faults();
 const ToyFault& toy_fault(const std::string& name);
 
-// Meshes of about `triangles` triangles under random smooth motion with single jumps; the first in
-// which the fault shows. Throws when 200 do not do.
+// Meshes of about `triangles` triangles under random smooth motion with single jumps: the first in
+// which the fault shows, or after a few the curated case of the fault, inflated (inflate.h).
 corpus::Case large_failing_case(const ToyFault& fault, int triangles, int steps,
                                 std::uint64_t seed);
 
