@@ -72,7 +72,7 @@ constexpr Law all[] = {
      "An index out of range or repeated, three vertices used twice, a frame of another size, a "
      "coordinate that is not finite, a wrong number of primitives and a commit of nothing are each "
      "refused by name, and the next valid step is answered as if they had not been.",
-     "nothing", check_bad_input},
+     "nothing", check_bad_input, dear},
 };
 
 }  // namespace
