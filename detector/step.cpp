@@ -175,11 +175,11 @@ class Step {
     std::vector<std::uint8_t> flags(mesh_.triangles.size());
     for (std::size_t t = 0; t < flags.size(); ++t) flags[t] = flags_of(t);
     StepTimes& times = result_.times;
+    const Stages& stages = context_.stages;
     {
       Stopwatch watch(times.broad_phase);
-      work_.tree.refit(mesh_, work_.x_t0, work_.x_t1);
+      stages.pair_search->fit(work_.tree, mesh_, work_.x_t0, work_.x_t1);
     }
-    const Stages& stages = context_.stages;
     CandidateSearch candidates({*stages.pair_rule, *stages.pair_search, *stages.elementary}, mesh_,
                                work_.tree, work_.x_t0, work_.x_t1, work_.clean, std::move(flags),
                                work_.stop);
@@ -263,7 +263,8 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
                          std::optional<StepState>& next) {
   if (auto problem = check_input(context, x_t0, x_t1, primitives))
     return refused(std::move(*problem));
-  const StepState* state = known && known->holds_at(x_t0) ? &*known : nullptr;
+  const StepState* state =
+      known && context.stages.release->still_holds(*known, x_t0) ? &*known : nullptr;
   double total = 0;
   StepResult result;
   {

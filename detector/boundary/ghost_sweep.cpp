@@ -1,7 +1,6 @@
 #include "detector/boundary/ghost_sweep.h"
 
 #include "detector/contact/contact_filter.h"
-#include "detector/exact/orientation.h"
 
 namespace assay::detector {
 namespace {
@@ -48,8 +47,8 @@ class PairTest {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto u = edges_of[i], v = edges_of[(i + 1) % 3];
       if (contains(face, u) || contains(face, v)) continue;
-      if (segment_pierces_triangle(start(u), start(v),
-                                   {start(face[0]), start(face[1]), start(face[2])})) {
+      if (sweep_.elementary.pierces(start(u), start(v),
+                                    {start(face[0]), start(face[1]), start(face[2])})) {
         return true;
       }
     }

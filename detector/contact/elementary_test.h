@@ -5,6 +5,7 @@
 #pragma once
 
 #include "detector/contact/four_points.h"
+#include "detector/exact/orientation.h"
 
 namespace assay::detector {
 
@@ -28,12 +29,18 @@ ContactResult test_contact(const FourPoints& query, Want want);
 // The same for a query that separated_along_an_axis did not settle.
 ContactResult test_contact_past_axis(const FourPoints& query, Want want);
 
-// The stage of the detector: asked for every feature pair that axis order left open.
+// The stage of the detector: asked for every feature pair that axis order left open, and for edges
+// that may pierce a triangle.
 class ElementaryTest {
  public:
   virtual ~ElementaryTest() = default;
   virtual ContactResult test(const FourPoints& query, Want want) const {
     return test_contact_past_axis(query, want);
+  }
+  // Whether the open segment strictly pierces the open triangle, at one instant: how two triangles
+  // that met before the step began are found.
+  virtual bool pierces(const Point& e0, const Point& e1, const std::array<Point, 3>& face) const {
+    return segment_pierces_triangle(e0, e1, face);
   }
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "detector/contact/contact_filter.h"
-#include "detector/exact/orientation.h"
 
 namespace assay::detector {
 namespace {
@@ -114,7 +113,7 @@ void FeatureContacts::test(std::uint64_t key) {
   const auto& face = mesh_.triangles[at(second)];
   if (kind_of(key) == FeatureKind::piercing) {
     const auto& e = mesh_.edges[at(first)];
-    if (!segment_pierces_triangle(
+    if (!elementary_.pierces(
             point_of(x_t0_, e[0]), point_of(x_t0_, e[1]),
             {point_of(x_t0_, face[0]), point_of(x_t0_, face[1]), point_of(x_t0_, face[2])})) {
       return;

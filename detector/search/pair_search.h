@@ -30,7 +30,7 @@ using PairSink = std::function<bool(std::int32_t, std::int32_t)>;
 
 struct SearchInput {
   const Topology& mesh;
-  const BoundingVolumeTree& tree;  // refitted to the step
+  const BoundingVolumeTree& tree;  // fitted to the step
   Marks& marks;                    // triangle_flags are set; the rest is the search's own
   const PairTables& tables;
 };
@@ -39,6 +39,11 @@ struct SearchInput {
 class PairSearch {
  public:
   virtual ~PairSearch() = default;
+  // Brings the tree to a step, before the searches of that step.
+  virtual void fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+                   const PositionsView& x_t1) const {
+    tree.refit(mesh, x_t0, x_t1);
+  }
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;
 };
@@ -52,6 +57,8 @@ class TreeSearch : public PairSearch {
 // Looks at every pair, without boxes. O(M^2).
 class ExhaustiveSearch : public PairSearch {
  public:
+  void fit(BoundingVolumeTree&, const Topology&, const PositionsView&,
+           const PositionsView&) const override {}
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
 };
 

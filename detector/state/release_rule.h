@@ -9,6 +9,11 @@ class ReleaseRule {
  public:
   virtual ~ReleaseRule() = default;
 
+  // L8: whether the state of the last commit serves a step that starts at x_t0.
+  virtual bool still_holds(const StepState& state, const PositionsView& x_t0) const {
+    return state.holds_at(x_t0);
+  }
+
   // L5 over the step: every triangle of the component and every ghost of it positive, and winding
   // number 1 at the primitive at t=0. Then it is free and all of it is clean.
   virtual bool is_free(StepWork& work, std::size_t component) const;

@@ -19,7 +19,7 @@ void move_far(Random& random, Draft& draft);
 // what is positive from there stays so). Within 2^+-60; one in 16 up to 2^+-400.
 void mix_scales(Random& random, Draft& draft);
 
-// All as small integers times 2^-1074, or a few coordinates replaced by such.
+// All as integers times 2^-1074, or a few coordinates replaced by such.
 void make_denormal(Random& random, Draft& draft);
 
 }  // namespace assay::properties

@@ -11,6 +11,12 @@ void breathe(Random& random, const Point& centre, Points& x, double amount) {
   for (auto& p : x) p = between(centre, p, 1 + 0.5 * amount * random.signed_unit());
 }
 
+void roughen(Random& random, Points& x, double amount) {
+  for (auto& p : x) {
+    for (double& c : p) c += amount / 32 * random.signed_unit();
+  }
+}
+
 namespace {
 
 Point any_vector(Random& random) {
@@ -160,29 +166,32 @@ void fast(Random& random, const Draft&, Points& x, double) {
 }
 
 constexpr Motion all[] = {
-    {"rigid", rigid, 2, false},         {"affine", affine, 3, false},
-    {"quadratic", quadratic, 3, false}, {"breathe", breathing, 2, false},
-    {"jitter", jitter, 3, false},       {"bend", bend, 2, false},
-    {"twist", twist, 2, false},         {"pinch", pinch, 2, false},
-    {"fold", fold, 2, false},           {"flatten", flatten, 2, false},
-    {"jump", jump, 5, false},           {"poke", poke, 4, false},
-    {"part", part, 2, false},           {"piece", piece, 2, false},
-    {"zero", zero, 1, false},           {"fast", fast, 1, false},
-    {"collapse", collapse, 3, true},
+    {"rigid", rigid, 2, false, false},         {"affine", affine, 3, false, false},
+    {"quadratic", quadratic, 3, false, false}, {"breathe", breathing, 2, false, false},
+    {"jitter", jitter, 3, false, false},       {"bend", bend, 2, false, false},
+    {"twist", twist, 2, false, false},         {"pinch", pinch, 2, false, false, true},
+    {"fold", fold, 2, false, false, true},     {"flatten", flatten, 2, false, false, true},
+    {"jump", jump, 5, false, false},           {"poke", poke, 4, false, false},
+    {"part", part, 2, false, false},           {"piece", piece, 2, false, false},
+    {"zero", zero, 1, false, false},           {"fast", fast, 1, false, true},
+    {"collapse", collapse, 3, true, true},
 };
 
 }  // namespace
 
 std::span<const Motion> motions() { return all; }
 
-std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too) {
+std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too, bool dear_too) {
+  const auto weight = [=](const Motion& m) {
+    return (m.exact && !exact_too) || (m.dear && !dear_too) ? 0 : m.weight;
+  };
+  int total = 0;
+  for (const auto& m : all) total += weight(m);
   std::vector<const Motion*> chosen;
   while (static_cast<int>(chosen.size()) < count) {
-    int total = 0;
-    for (const auto& m : all) total += m.exact && !exact_too ? 0 : m.weight;
     int place = random.below(total);
     for (const auto& m : all) {
-      place -= m.exact && !exact_too ? 0 : m.weight;
+      place -= weight(m);
       if (place >= 0) continue;
       if (std::find(chosen.begin(), chosen.end(), &m) == chosen.end()) chosen.push_back(&m);
       break;

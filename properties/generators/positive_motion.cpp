@@ -8,11 +8,10 @@
 namespace assay::properties {
 namespace {
 
-// Near the middle by a factor of 2^-8 to 2^-12 that is also passed through between frames. For the
-// mean of all vertices as the middle, the vertex pulls the mean along.
-void dent(Random& random, Draft& draft, Points& x, const Point& middle) {
-  const double share = std::ldexp(1, -random.between(8, 12));
-  Point& c = any_of(random, x);
+// A vertex near the middle by a factor of 2^-8 to 2^-12, its path a part of a ray. Where the mean
+// of all vertices is the middle, the vertex pulls the mean along.
+void dent(const Draft& draft, std::int32_t vertex, double share, Points& x, const Point& middle) {
+  Point& c = at(x, vertex);
   if (!draft.q0.empty()) {
     c = between(middle, c, share);
   } else {
@@ -20,22 +19,17 @@ void dent(Random& random, Draft& draft, Points& x, const Point& middle) {
     const Point others = static_cast<double>(x.size()) * mean(x) - c;
     c = (1 / (1 - part)) * (part * others + share * c);
   }
-  draft.tag("close:dent");
 }
 
 // Three vertices nearly in a plane with the view-point.
-void turn_edge_on(Random& random, Draft& draft, Points& x) {
-  Face f = any_of(random, draft.faces);
-  const Point middle = between(at(x, f[0]), at(x, f[1]), 0.5);
-  at(x, f[2]) = between(middle, at(x, f[2]), std::ldexp(1, -random.between(7, 12)));
-  draft.tag("close:edge-on");
+void turn_edge_on(const Face& f, double share, Points& x) {
+  at(x, f[2]) = between(between(at(x, f[0]), at(x, f[1]), 0.5), at(x, f[2]), share);
 }
 
 // Just below a face, in all frames.
 void view_from_below_surface(Random& random, Draft& draft) {
   const Face f = any_of(random, draft.faces);
-  const double depth = std::ldexp(1, -random.between(7, 12));
-  draft.q1.clear();
+  const double depth = std::ldexp(1, -random.between(8, 12));
   for (std::size_t k = 0; k < draft.frames.size(); ++k) {
     const Points& x = draft.frames[k];
     const Point on = between(between(at(x, f[0]), at(x, f[1]), 0.5), at(x, f[2]), 0.375);
@@ -50,7 +44,7 @@ void move_positively(Random& random, Draft& draft, int steps) {
   draft.tag("motion:positive");
   const double amount = random.between(1, 12) / 16.0;
   const bool drifts = random.one_in(2);
-  Points drift = {{0, 0, 0}};
+  Points drift = {draft.holes.empty() ? Point{0, 0, 0} : mean(draft.rest())};
   for (int s = 0; s < steps; ++s) {
     Points x = draft.frames.back();
     breathe(random, drift.back(), x, amount / steps);
@@ -61,16 +55,22 @@ void move_positively(Random& random, Draft& draft, int steps) {
     draft.frames.push_back(std::move(x));
   }
   choose_inner_view(random, draft, drift);
-  if (random.below(8) < 3) return;
-  const auto frame = static_cast<std::size_t>(random.below(steps + 1));
   const int kind = random.below(8);
-  if (kind < 4) {
-    dent(random, draft, draft.frames[frame], drift[frame]);
-  } else if (kind == 4 && !draft.q0.empty() && draft.q1.empty()) {
-    view_from_below_surface(random, draft);
-  } else {
-    turn_edge_on(random, draft, draft.frames[frame]);
+  if (kind == 0) return;
+  if (kind == 1 && !draft.q0.empty() && draft.q1.empty()) {
+    return view_from_below_surface(random, draft);
   }
+  // In every second frame, so that each step has it at one of its ends.
+  const Face face = any_of(random, draft.faces);
+  const double share = std::ldexp(1, -random.between(8, 12));
+  for (auto f = static_cast<std::size_t>(random.below(2)); f < draft.frames.size(); f += 2) {
+    if (kind < 6) {
+      dent(draft, face[2], share, draft.frames[f], drift[f]);
+    } else {
+      turn_edge_on(face, share, draft.frames[f]);
+    }
+  }
+  draft.tag(kind < 6 ? "close:dent" : "close:edge-on");
 }
 
 }  // namespace assay::properties

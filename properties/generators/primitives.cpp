@@ -104,8 +104,9 @@ void choose_inner_view(Random& random, Draft& draft, const Points& drift) {
   draft.tag("view:line");
   const double length = random.between(1, 4) / 16.0;
   for (auto& q : draft.q0) {
-    draft.q1.push_back(q + length * draft.axis[1]);
-    q = q + length * draft.axis[0];
+    const Point half = 0.5 * length * (draft.axis[1] - draft.axis[0]);
+    draft.q1.push_back(q + half);
+    q = q - half;
   }
 }
 

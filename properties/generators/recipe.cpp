@@ -12,15 +12,17 @@
 #include "properties/generators/open_shapes.h"
 #include "properties/generators/positive_motion.h"
 #include "properties/generators/primitives.h"
+#include "properties/generators/response.h"
 
 namespace assay::properties {
 namespace {
 
-int any_size(Random& random) {
+int any_size(Random& random, const Recipe& recipe) {
   const int share = random.below(100);
+  const int large = recipe.exact || recipe.far ? 2 : 5;
   if (share < 50) return random.between(4, 12);
-  if (share < 80) return random.between(12, 40);
-  if (share < 95) return random.between(40, 100);
+  if (share < 100 - 4 * large) return random.between(12, 40);
+  if (share < 100 - large) return random.between(40, 100);
   return random.between(100, 200);
 }
 
@@ -41,8 +43,9 @@ const char* size_class(std::size_t triangles) {
 
 // Frames by one to three motions, small more often than large; some cases go back as they came.
 void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) {
-  const auto chosen = some_motions(random, random.between(1, 3), recipe.exact);
-  const int least = recipe.far ? 3 : 5;
+  const auto chosen =
+      some_motions(random, random.between(1, 3), recipe.exact, draft.faces.size() <= 60);
+  const int least = 3;
   const double mantissa = 1 + random.unit();
   const double usual = std::ldexp(mantissa, -random.between(1, least));
   const bool returns = steps > 1 && random.one_in(3);
@@ -50,8 +53,9 @@ void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) 
   for (int s = 0; s < forward; ++s) {
     const Motion& motion = *any_of(random, chosen);
     Points x = draft.frames.back();
-    const double amount = random.one_in(8) ? 1.0 : usual / std::sqrt(static_cast<double>(forward));
+    const double amount = random.one_in(5) ? 1.0 : usual / std::sqrt(static_cast<double>(forward));
     motion.move(random, draft, x, amount);
+    if (motion.level && !recipe.exact) roughen(random, x, amount);
     if (recipe.far && random.one_in(3)) {
       const Point by = {random.signed_unit(), random.signed_unit(), random.signed_unit()};
       for (auto& p : x) p = p + 64 * by;
@@ -118,8 +122,9 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   const int mode = random.below(100);
   const bool positive = mode < recipe.positive;
   const bool aimed = !positive && mode < recipe.positive + recipe.aimed;
-  const int size = any_size(random);
-  const int steps = any_steps(random, size);
+  const int size = any_size(random, recipe);
+  // What is made to be positive needs no long sequence.
+  const int steps = std::min(any_steps(random, size), positive ? 2 : 8);
   Draft draft = any_shape(random, recipe, positive, size);
   if (!positive && random.one_in(12)) {
     for (auto& f : draft.faces) std::swap(f[1], f[2]);
@@ -141,7 +146,14 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   draft.tag(positive ? "mode:positive" : aimed ? "mode:aimed" : "mode:free");
   draft.tag(size_class(draft.faces.size()));
   draft.tag("steps:" + std::to_string(draft.frames.size() - 1));
-  return finished(std::move(draft), std::move(id));
+  // The response costs judgements: not on meshes where these are slow.
+  const std::size_t most_faces = recipe.far ? 16 : 40;
+  const bool responds =
+      draft.frames.size() > 2 && draft.faces.size() <= most_faces && random.one_in(3);
+  if (responds) draft.tag("response");
+  GeneratedCase made = finished(std::move(draft), std::move(id));
+  if (responds) made.c = with_response(made.c);
+  return made;
 }
 
 }  // namespace assay::properties

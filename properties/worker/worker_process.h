@@ -35,8 +35,8 @@ class WorkerProcess {
   PluginExpected<PluginDescription> describe();
 
   // One run for each configuration, in order. A crash or a hang is reported for the configuration
-  // that had it; the others still run, in a new worker. Where the worker cannot be started, the
-  // runs are `crashed` and say so.
+  // that had it; the others still run, in a new worker. Where no worker can be started the
+  // runs are not_run and say why.
   std::vector<CaseRun> run(const corpus::Case& c, std::span<const Configuration> configurations);
 
   // How often a worker was started, for statistics and tests.

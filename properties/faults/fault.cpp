@@ -1,0 +1,39 @@
+#include "properties/faults/fault.h"
+
+#include <algorithm>
+
+#include "properties/faults/planting.h"
+
+namespace assay::properties {
+
+std::span<const Fault> faults() {
+  static const std::vector<Fault> all = [] {
+    std::vector<Fault> joined;
+    for (const auto& module : {view_point_faults(), view_line_faults()}) {
+      joined.insert(joined.end(), module.begin(), module.end());
+    }
+    return joined;
+  }();
+  return all;
+}
+
+const Fault* find_fault(std::string_view name) {
+  const auto all = faults();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Fault& fault) { return fault.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+const char* name_of(FaultStatus status) {
+  switch (status) {
+    case FaultStatus::planted:
+      return "planted";
+    case FaultStatus::open:
+      return "open";
+    case FaultStatus::equivalent:
+      return "equivalent";
+  }
+  return "unknown";
+}
+
+}  // namespace assay::properties

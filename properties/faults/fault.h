@@ -1,0 +1,45 @@
+// Planted faults: detectors that are subtly wrong, each by one stage that replaces the right one.
+//
+// The harness must find every planted one; what it needs for that is its power. The detector knows
+// nothing of them: a fault derives from a stage of detector/stages.h and is handed to
+// Detector::assemble.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "detector/options.h"
+#include "detector/stages.h"
+
+namespace assay::properties {
+
+enum class FaultStatus {
+  planted,
+  open,        // no case is known that shows it, and no proof that there is none
+  equivalent,  // never shows: an invariant makes it as sound as the stage that it replaces
+};
+
+struct Fault {
+  std::string_view name;  // module/fault
+  std::string_view about;
+  std::string_view law;  // claim or law that must find it: "L2", "all-pairs (L7)"
+  FaultStatus status = FaultStatus::planted;
+  std::string_view reason;    // of open and equivalent: why
+  detector::Options options;  // what it is planted in
+  std::string_view curated;   // id of the curated case that shows it; "": none
+  // Of the smallest mesh known that shows it, apexes of ghosts included where its case states
+  // them; 0: none known.
+  int smallest_vertices = 0;
+  std::string_view stage;  // name of the stage that it replaces
+  detector::Stages (*stages)(const detector::Options&) = nullptr;
+};
+
+// All of them, module by module, always in the same order.
+std::span<const Fault> faults();
+
+// The fault of this name, or null.
+const Fault* find_fault(std::string_view name);
+
+const char* name_of(FaultStatus status);
+
+}  // namespace assay::properties

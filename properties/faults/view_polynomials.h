@@ -1,0 +1,70 @@
+// The view test of one triangle as exact polynomials in the step's time, for wrong ways to use
+// them.
+#pragma once
+
+#include "detector/exact/real_root.h"
+#include "detector/view/view_classifier.h"
+
+namespace assay::properties {
+
+using PolynomialVector = std::array<detector::Polynomial, 3>;
+
+detector::Polynomial dot(const PolynomialVector& x, const PolynomialVector& y);
+
+// Scaled by a common positive factor, which changes no sign. With q0, q1 the primitive's ends:
+struct ViewPolynomials {
+  PolynomialVector to_corner;                  // p0 - q0
+  PolynomialVector normal;                     // N
+  detector::Polynomial h0, h1;                 // (p0 - q0).N, (p0 - q1).N
+  detector::Polynomial length2;                // d.d, d = q1 - q0
+  detector::Polynomial d_normal;               // d.N
+  std::array<detector::Polynomial, 3> g0, g1;  // by corner: (p - q0).d, (p - q1).d
+};
+ViewPolynomials view_polynomials(const detector::MovingTriangle& triangle,
+                                 const detector::ViewPrimitive& primitive);
+
+// The sign that f keeps, without a zero, over [0,1]; else zero.
+detector::ViewSign strict_sign(const detector::Polynomial& f);
+
+// The value of f at t=0, at t=1, and the line through both.
+detector::Polynomial at_start(const detector::Polynomial& f);
+detector::Polynomial at_end(const detector::Polynomial& f);
+detector::Polynomial linear_between_ends(const detector::Polynomial& f);
+PolynomialVector at_start(const PolynomialVector& x);
+PolynomialVector linear_between_ends(const PolynomialVector& x);
+
+// What decides the view value of one point of the triangle: h0 where g0 <= 0, h1 where g1 >= 0,
+// middle in between.
+struct ViewPieces {
+  detector::Polynomial h0, h1, middle, g0, g1;
+};
+ViewPieces pieces_of_corner(const ViewPolynomials& view, std::size_t corner);
+// The strict sign of that value over [0,1]; else zero.
+detector::ViewSign sign_of(const ViewPieces& pieces);
+
+// Sign of the triangle, and of the primitive, held still at t=0, 1/2 or 1 (exact where the middle
+// of two coordinates is a double).
+enum class Sample { start, middle, end };
+detector::ViewSign sign_at(Sample sample, const detector::MovingTriangle& triangle,
+                           const detector::ViewPrimitive& primitive);
+detector::MovingPoint still(Sample sample, const detector::MovingPoint& point);
+
+// The common sign, zero where they differ.
+detector::ViewSign common_sign(std::initializer_list<detector::ViewSign> signs);
+
+// A classifier that looks at one triangle after the other.
+class TriangleSigns : public detector::ViewClassifier {
+ public:
+  void classify(const detector::Topology& surface, std::span<const std::int32_t> triangles,
+                const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+                const detector::ViewPrimitive& primitive, std::vector<detector::ViewSign>& signs,
+                detector::ViewCounts& counts) const override;
+  virtual detector::ViewSign sign(const detector::MovingTriangle& triangle,
+                                  const detector::ViewPrimitive& primitive) const = 0;
+};
+
+// The right sign.
+detector::ViewSign right_sign(const detector::MovingTriangle& triangle,
+                              const detector::ViewPrimitive& primitive);
+
+}  // namespace assay::properties
