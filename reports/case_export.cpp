@@ -13,8 +13,8 @@ std::string obj_text(const detector::Positions& x, const detector::Triangles& tr
     out += fmt::format("v {} {} {}\n", x(v, 0), x(v, 1), x(v, 2));
   }
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    out += fmt::format("f {} {} {}\n", triangles(t, 0) + 1, triangles(t, 1) + 1,
-                       triangles(t, 2) + 1);
+    out +=
+        fmt::format("f {} {} {}\n", triangles(t, 0) + 1, triangles(t, 1) + 1, triangles(t, 2) + 1);
   }
   return out;
 }
@@ -47,11 +47,17 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
   const char* const cullings[] = {"view_point", "view_line", "bvh", "none"};
   const char* const starts[] = {"verified", "clean", "unknown"};
   std::string out = fmt::format(
-      "// Case {}.\n#include <gtest/gtest.h>\n\n#include \"detector/detector.h\"\n\nusing namespace "
-      "assay::detector;\n\nTEST(AssayCase, Holds) {{\n  Triangles triangles({}, 3);\n  triangles << ",
+      "// Case {}.\n#include <gtest/gtest.h>\n\n#include \"detector/detector.h\"\n\nusing "
+      "namespace "
+      "assay::detector;\n\nTEST(AssayCase, Holds) {{\n  Triangles triangles({}, 3);\n  triangles "
+      "<< ",
       c.id, c.triangles.rows());
   for (Eigen::Index i = 0; i < c.triangles.size(); ++i) {
-    out += fmt::format("{}{}", i == 0 ? "" : i % 3 == 0 ? ",\n      " : ", ", c.triangles.data()[i]);
+    out += fmt::format("{}{}",
+                       i == 0       ? ""
+                       : i % 3 == 0 ? ",\n      "
+                                    : ", ",
+                       c.triangles.data()[i]);
   }
   out += fmt::format(";\n  std::vector<Positions> x({}, Positions({}, 3));\n", c.frames.size(),
                      c.frames[0].rows());

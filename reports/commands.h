@@ -74,7 +74,7 @@ int run_campaign(const RunCommandRequest& request);
 
 struct ReplayRequest {
   std::string id_or_file;
-  std::string export_folder;                 // empty: none
+  std::string export_folder;  // empty: none
   std::optional<detector::TrianglePair> why;
   std::string detector;
 };

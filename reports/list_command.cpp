@@ -24,7 +24,8 @@ int list_faults() {
   fmt::print("{:44} {:11} {:20} {:>9}  {}\n", "fault", "status", "found by", "vertices", "what");
   for (const auto& fault : properties::faults()) {
     fmt::print("{:44} {:11} {:20} {:>9}  {}{}\n", fault.name, properties::name_of(fault.status),
-               fault.law, fault.smallest_vertices ? fmt::format("{}", fault.smallest_vertices) : "-",
+               fault.law,
+               fault.smallest_vertices ? fmt::format("{}", fault.smallest_vertices) : "-",
                fault.about, fault.reason.empty() ? "" : fmt::format(" [{}]", fault.reason));
   }
   return exit_holds;

@@ -53,9 +53,8 @@ class PairStory {
                ? "    oracle: never in contact\n"
                : fmt::format("    oracle: in contact at t = {} ({})\n", time_text(found->time),
                              properties::name_of(found->feature.kind));
-    const bool reported =
-        std::any_of(result.pairs.begin(), result.pairs.end(),
-                    [&](const auto& contact) { return contact.pair == pair_; });
+    const bool reported = std::any_of(result.pairs.begin(), result.pairs.end(),
+                                      [&](const auto& contact) { return contact.pair == pair_; });
     return out + fmt::format("    detector: {}\n", reported ? "reported" : "not reported");
   }
 

@@ -110,8 +110,7 @@ int run_replay(const ReplayRequest& request) {
   int code = exit_holds;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];
-    const auto verdict =
-        properties::judge_run(c, truth, runs[i], configuration, subject.detector);
+    const auto verdict = properties::judge_run(c, truth, runs[i], configuration, subject.detector);
     print_run(configuration, runs[i], verdict);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
     if (verdict.outcome != Outcome::defect && verdict.outcome != Outcome::holds &&

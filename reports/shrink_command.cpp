@@ -54,23 +54,21 @@ int run_shrink(const ShrinkRequest& request) {
              request.out);
   PlainProgress progress("shrinking");
   std::optional<std::string> problem;
-  const auto reduction = properties::shrink_case(
-      c, subject.detector, *configuration, worker, {request.seconds, 10'000'000},
-      [&](const corpus::Case& better) {
-        progress.show(properties::size_text(properties::size_of(better)));
-        problem = write_text_file(request.out, corpus::case_text(better));
-      });
+  const auto reduction =
+      properties::shrink_case(c, subject.detector, *configuration, worker,
+                              {request.seconds, 10'000'000}, [&](const corpus::Case& better) {
+                                progress.show(properties::size_text(properties::size_of(better)));
+                                problem = write_text_file(request.out, corpus::case_text(better));
+                              });
   progress.finish();
   if (reduction.calls > 0 && !problem) {
     problem = write_text_file(request.out, corpus::case_text(reduction.smallest));
   }
   if (problem) return refuse(*problem);
   fmt::print("{}; {} runs, {:.1f} s{}\nreplay: assay replay {}{}\n",
-             properties::size_text(properties::size_of(c),
-                                   properties::size_of(reduction.smallest)),
-             reduction.calls, reduction.seconds,
-             reduction.fixed_point ? "" : "; the time was over", request.out,
-             request.detector.empty() ? "" : " --detector " + request.detector);
+             properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
+             reduction.calls, reduction.seconds, reduction.fixed_point ? "" : "; the time was over",
+             request.out, request.detector.empty() ? "" : " --detector " + request.detector);
   return exit_defect;
 }
 

@@ -161,9 +161,30 @@ class Trials {
     if (request_.detector.built_in) {
       const bool with_laws =
           request_.plan.laws_every > 0 && planned.index % request_.plan.laws_every == 0;
-      record.counts = tally_case(made, configurations, runs, truth, with_laws);
+      CaseTally tally = tally_case(made, configurations, runs, truth, with_laws);
+      record.counts = std::move(tally.counts);
+      for (const auto& broken : tally.broken) failures.push_back(broken_law(made.c, broken));
     }
     keep(record, failures);
+  }
+
+  StoredFailure broken_law(const corpus::Case& c, const BrokenLaw& broken) const {
+    corpus::Case failing = c;
+    failing.about = fmt::format("breaks {}; {}", broken.law, broken.what);
+    failing.source = fmt::format("campaign case {}, {}", c.id, broken.configuration);
+    for (const auto& configuration : request_.detector.configurations) {
+      if (configuration.name == broken.configuration)
+        failing.options = options_text(configuration.options);
+    }
+    std::replace(failing.id.begin(), failing.id.end(), ':', '-');
+    // The store's key is case and configuration: a case may break a law and a claim.
+    return {c.id,
+            fmt::format("{}, law {}", broken.configuration, broken.law),
+            fmt::format("law {}", broken.law),
+            broken.what,
+            corpus::case_text(failing),
+            "",
+            false};
   }
 
   static Failure flaky_failure(const Configuration& configuration) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "properties/campaign/case_tally.h"
+
 namespace assay::properties {
 
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
@@ -51,11 +53,19 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     if (configuration == request.detector.configurations.end() || !failing) continue;
     if (progress) progress(failure.signature);
     const ReduceLimits bounded{std::min(limits.seconds, left.count()), limits.calls};
-    shrink_case(failing.value(), request.detector, *configuration, worker, bounded,
-                [&](const corpus::Case& better) {
-                  failure.smallest = corpus::case_text(better);
-                  store.set_smallest(failure);
-                });
+    const OnBetter keep = [&](const corpus::Case& better) {
+      failure.smallest = corpus::case_text(better);
+      store.set_smallest(failure);
+    };
+    const std::string prefix = "law ";
+    const Law* law = failure.signature.starts_with(prefix)
+                         ? law_named(failure.signature.substr(prefix.size()))
+                         : nullptr;
+    if (law) {
+      reduce(failing.value(), judge_of_law(*law, *configuration), bounded, keep);
+    } else {
+      shrink_case(failing.value(), request.detector, *configuration, worker, bounded, keep);
+    }
     if (failure.smallest.empty()) {
       // Nothing smaller was found: the mesh itself.
       failure.smallest = failure.mesh;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -250,13 +251,21 @@ TEST(Worker, HoldsNoOracle) {
 }
 
 TEST(Worker, RoundTripsASecond) {
-  // 20 triangles, two frames, all free but what the random positions make of it.
+  // A bipyramid of 20 triangles that bulges: free.
+  constexpr std::int32_t sides = 10;
   corpus::Case c;
-  c.triangles.resize(20, 3);
-  detector::Positions x(22, 3);
-  for (std::int32_t v = 0; v < 22; ++v) x.row(v) << v, v % 2, v % 3;
-  for (std::int32_t t = 0; t < 20; ++t) c.triangles.row(t) << t, t + 1, t + 2;
-  c.frames = {x, x};
+  c.triangles.resize(2 * sides, 3);
+  detector::Positions x(sides + 2, 3);
+  for (std::int32_t i = 0; i < sides; ++i) {
+    const double angle = 2 * 3.14159265358979323846 * i / sides;
+    x.row(i) << std::cos(angle), std::sin(angle), 0;
+    const std::int32_t j = (i + 1) % sides;
+    c.triangles.row(2 * i) << i, j, sides;
+    c.triangles.row(2 * i + 1) << j, i, sides + 1;
+  }
+  x.row(sides) << 0, 0, 1;
+  x.row(sides + 1) << 0, 0, -1;
+  c.frames = {x, 1.125 * x};
   WorkerProcess worker(ASSAY_WORKER, std::nullopt);
   worker.run(c, four);
   // The best of several batches: the machine may be busy.
