@@ -41,6 +41,7 @@ Observation vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
   if (facts.surface().is_closed() || !p || !facts.has_views(s) || !facts.has_views(*p)) {
     return not_met();
   }
+  if (!facts.is_trusted(s)) return not_met();
   const TriangleFlags held = touched_until(facts, *p);
   if (std::find(held.begin(), held.end(), 1) == held.end()) return not_met();
   const TriangleFlags clean = may_be_clean(facts, s, held);

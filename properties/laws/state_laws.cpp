@@ -28,6 +28,7 @@ Observation carried_clean_is_clean(CaseFacts& facts, std::size_t s) {
 Observation what_is_not_clean_stays_dirty(CaseFacts& facts, std::size_t s) {
   const auto p = facts.known_from(s);
   if (!p || !facts.has_views(s) || !facts.has_views(*p) || !facts.is_judged(*p)) return not_met();
+  if (!facts.is_trusted(s)) return not_met();
   TriangleFlags in_question = dirty_triangles(facts, *p);
   for (std::size_t t = 0; t < in_question.size(); ++t) {
     in_question[t] |= facts.own_contacts(*p)[t] | facts.touched(*p)[t];
