@@ -45,7 +45,7 @@ CanaryResult meet_canary(const CampaignRequest& request) {
     const auto made = make_case(
         family, fmt::format("{}:{}.canary:{}:{}", request.plan.name, request.seed, family.name, i));
     const auto run = worker.run(made.c, {&configuration, 1});
-    const auto verdict = judge_run(made.c, judge_steps(made.c), run[0], configuration, detector);
+    const auto verdict = judge_trial(made.c, judge_case(made.c), run[0], configuration, detector);
     if (verdict.outcome != Outcome::defect) continue;
     result.found_after = i + 1;
     return result;
