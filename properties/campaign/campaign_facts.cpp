@@ -30,7 +30,7 @@ std::size_t planted_count() {
 
 CanaryResult meet_canary(const CampaignRequest& request) {
   // One that many cases show: a run in which it hides is a run that sees nothing.
-  constexpr std::string_view canary = "pairs/zero-zero-dropped";
+  constexpr std::string_view canary = "pair/zero-zero-dropped";
   constexpr std::uint64_t most_cases = 400;
   CanaryResult result;
   result.fault = canary;
