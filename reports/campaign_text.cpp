@@ -44,8 +44,9 @@ std::string strata_text(const properties::Tally& tally,
       const auto& outcomes = t.by_configuration[c];
       return fmt::format(
           "{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9.2e} {:>9} {:>13}\n",
-          c == 0 ? stratum.family : "", name, t.trials, outcomes.holds, outcomes.defects,
-          outcomes.undecided + outcomes.errors, bound_of(outcomes, request),
+          c == 0 ? stratum.family : "", name,
+          outcomes.holds + outcomes.defects + outcomes.undecided + outcomes.errors, outcomes.holds,
+          outcomes.defects, outcomes.undecided + outcomes.errors, bound_of(outcomes, request),
           stratum.wanted_bound > 0 ? fmt::format("{:.0e}", stratum.wanted_bound) : "-",
           c == 0 && seconds > 0 ? fmt::format("{:.0f}", static_cast<double>(t.steps) / seconds)
                                 : "");

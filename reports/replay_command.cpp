@@ -103,14 +103,17 @@ int run_replay(const ReplayRequest& request) {
   }
   fmt::print("{}: {}{}\n", c.id, properties::size_text(properties::size_of(c)),
              c.about.empty() ? "" : "; " + c.about);
-  const auto truth = properties::judge_steps(c, subject.detector.contract);
+  const auto seen = properties::contracted(c, subject.detector.contract);
+  if (!seen) return refuse("a coordinate of the case is beyond the detector's contract");
+  const auto truth = properties::judge_case(*seen);
   print_steps(c, truth);
   properties::WorkerProcess worker(subject.worker, subject.plugin);
   const auto runs = worker.run(c, subject.detector.configurations);
   int code = exit_holds;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];
-    const auto verdict = properties::judge_run(c, truth, runs[i], configuration, subject.detector);
+    const auto verdict =
+        properties::judge_trial(*seen, truth, runs[i], configuration, subject.detector);
     print_run(configuration, runs[i], verdict);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
     if (verdict.outcome != Outcome::defect && verdict.outcome != Outcome::holds &&

@@ -35,9 +35,9 @@ class CampaignRun {
     announce();
     meet_canary();
     run_trials();
+    shrink();
     hunt_faults();
     explore_world();
-    shrink();
     const auto tally = sum();
     print_tables(tally);
     const auto failures = write_failures(store_, command_.out, request_);
@@ -214,8 +214,9 @@ class CampaignRun {
     return list;
   }
 
-  // Shares of the plan's time that are over when a phase must be.
-  static constexpr double trials_share = 0.6, faults_share = 0.85;
+  // Shares of the plan's time that are over when a phase must be. Shrinking, after the trials, has
+  // its own share.
+  static constexpr double trials_share = 0.5, faults_share = 0.9;
 
   const RunCommandRequest& command_;
   properties::CampaignRequest request_;

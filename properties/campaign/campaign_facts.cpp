@@ -30,7 +30,7 @@ std::size_t planted_count() {
 
 CanaryResult meet_canary(const CampaignRequest& request) {
   // One that many cases show: a run in which it hides is a run that sees nothing.
-  constexpr std::string_view canary = "pairs/zero-zero-dropped";
+  constexpr std::string_view canary = "pair/zero-zero-dropped";
   constexpr std::uint64_t most_cases = 400;
   CanaryResult result;
   result.fault = canary;
@@ -45,7 +45,7 @@ CanaryResult meet_canary(const CampaignRequest& request) {
     const auto made = make_case(
         family, fmt::format("{}:{}.canary:{}:{}", request.plan.name, request.seed, family.name, i));
     const auto run = worker.run(made.c, {&configuration, 1});
-    const auto verdict = judge_run(made.c, judge_steps(made.c), run[0], configuration, detector);
+    const auto verdict = judge_trial(made.c, judge_case(made.c), run[0], configuration, detector);
     if (verdict.outcome != Outcome::defect) continue;
     result.found_after = i + 1;
     return result;

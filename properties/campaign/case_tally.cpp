@@ -75,7 +75,7 @@ Judge judge_of_law(const Law& law, const Configuration& configuration) {
   return [&law, configuration](const corpus::Case& c) -> std::optional<Finding> {
     const CaseRun run = run_case(c, configuration);
     if (run.end != RunEnd::completed) return std::nullopt;
-    const auto truth = judge_steps(c);
+    const auto truth = judge_case(c);
     const auto surface = detector::make_surface(c.triangles, c.frames[0].rows());
     CaseFacts facts(c, configuration.options, run.steps, truth, surface);
     LawTally tally;

@@ -31,14 +31,14 @@ std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& 
   CaseRun run;
   run.steps = run_case(c, fault);
   if (run.steps.empty()) return std::nullopt;  // refused: such a case shows nothing
-  auto verdict = judge_run(c, truth, run, configuration, built_in_detector());
+  auto verdict = judge_trial(c, truth, run, configuration, built_in_detector());
   if (verdict.failure) verdict.failure->stage = fault.stage;
   return verdict.failure;
 }
 
 Judge judge_of_fault(const Fault& fault) {
   return [&fault](const corpus::Case& c) -> std::optional<Finding> {
-    const auto failure = failure_of_fault(fault, c, judge_steps(c));
+    const auto failure = failure_of_fault(fault, c, judge_case(c));
     if (!failure) return std::nullopt;
     return finding_of(*failure);
   };
@@ -72,7 +72,7 @@ class Hunt {
           corpus::read_case(hunt_.curated / (std::string(result.fault->curated) + ".json"));
       if (!c) continue;
       result.by_curated =
-          failure_of_fault(*result.fault, c.value(), judge_steps(c.value())).has_value();
+          failure_of_fault(*result.fault, c.value(), judge_case(c.value())).has_value();
     }
   }
 
@@ -122,7 +122,7 @@ class Hunt {
           place = next++;
         }
         const auto made = case_of(seed, place);
-        const auto truth = judge_steps(made.c);
+        const auto truth = judge_case(made.c);
         for (std::size_t f = 0; f < found.size(); ++f) {
           if (found[f] || !failure_of_fault(*results_[f].fault, made.c, truth)) continue;
           const std::lock_guard lock(mutex);

@@ -120,7 +120,9 @@ class Trials {
     record.family = planned.family->name;
     record.index = planned.index;
     auto begin = Clock::now();
-    const auto truth = judge_steps(made.c, request_.detector.contract);
+    const auto seen = contracted(made.c, request_.detector.contract);
+    if (!seen) return keep(record, {});  // no case for this detector: its numbers do not hold it
+    const auto truth = judge_case(*seen);
     record.oracle_us = microseconds_since(begin);
     begin = Clock::now();
     const std::vector<CaseRun> runs = worker.run(made.c, configurations);
@@ -135,28 +137,22 @@ class Trials {
     if (planned.index % repeat_every == 0) again = worker.run(made.c, configurations);
     std::vector<StoredFailure> failures;
     for (std::size_t i = 0; i < configurations.size(); ++i) {
-      Verdict verdict = judge_run(made.c, truth, runs[i], configurations[i], request_.detector);
       if (runs[i].end == RunEnd::not_run) throw std::runtime_error(runs[i].what);
-      CaseRun repeated;
-      if (!again.empty()) {
-        repeated = std::move(again[i]);
-      } else if (verdict.outcome == Outcome::defect) {
+      Verdict verdict = judge_trial(*seen, truth, runs[i], configurations[i], request_.detector,
+                                    again.empty() ? nullptr : &again[i]);
+      bool flaky = false;
+      if (verdict.outcome == Outcome::defect) {
         // A failure is run twice before it is reported; a difference is itself a failure.
-        repeated = std::move(worker.run(made.c, {&configurations[i], 1})[0]);
-      }
-      const bool was_repeated = !again.empty() || verdict.outcome == Outcome::defect;
-      const bool flaky = was_repeated && !same_answers(runs[i], repeated);
-      if (flaky && request_.detector.claims_in(configurations[i]).deterministic) {
-        verdict.outcome = Outcome::defect;
-        verdict.failure = flaky_failure(configurations[i]);
+        const auto repeated = worker.run(made.c, {&configurations[i], 1});
+        flaky = !same_answers(runs[i], repeated[0]);
       }
       record.outcomes += letter_of(verdict.outcome);
-      if (verdict.failure) {
-        const auto failing =
-            failing_case(made.c, configurations[i], request_.detector, *verdict.failure);
-        failures.push_back({made.c.id, configurations[i].name, verdict.failure->signature(),
-                            verdict.failure->what, corpus::case_text(failing), "", flaky});
-      }
+      if (!verdict.failure) continue;
+      const auto failing =
+          failing_case(made.c, configurations[i], request_.detector, *verdict.failure);
+      failures.push_back({made.c.id, configurations[i].name,
+                          verdict.failure->signature() + (flaky ? " (flaky)" : ""),
+                          verdict.failure->what, corpus::case_text(failing), "", flaky});
     }
     if (request_.detector.built_in) {
       const bool with_laws =
@@ -185,15 +181,6 @@ class Trials {
             corpus::case_text(failing),
             "",
             false};
-  }
-
-  static Failure flaky_failure(const Configuration& configuration) {
-    Failure failure;
-    failure.claim = Claim::deterministic;
-    failure.kind = "two runs differ";
-    failure.what = "the same case gave two results";
-    failure.configuration = configuration.name;
-    return failure;
   }
 
   void keep(const TrialRecord& record, const std::vector<StoredFailure>& failures) {

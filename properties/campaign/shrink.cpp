@@ -12,9 +12,10 @@ namespace assay::properties {
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
                         WorkerProcess& worker) {
   return [&](const corpus::Case& c) -> std::optional<Finding> {
+    const auto seen = contracted(c, detector.contract);
+    if (!seen) return std::nullopt;
     const auto run = worker.run(c, {&configuration, 1});
-    const auto verdict =
-        judge_run(c, judge_steps(c, detector.contract), run[0], configuration, detector);
+    const auto verdict = judge_trial(*seen, judge_case(*seen), run[0], configuration, detector);
     if (!verdict.failure) return std::nullopt;
     return finding_of(*verdict.failure);
   };

@@ -28,18 +28,6 @@ DetectorUnderTest built_in_detector() {
   return detector;
 }
 
-std::vector<oracle::StepJudgement> judge_steps(const corpus::Case& c, const Contract& contract) {
-  std::vector<detector::Positions> frames;
-  for (const auto& frame : c.frames) frames.push_back(contracted(frame, contract.coordinates));
-  std::vector<oracle::StepJudgement> truth;
-  for (const auto& step : corpus::steps_of(c)) {
-    truth.push_back(oracle::judge_step(frames[static_cast<std::size_t>(step.from)],
-                                       frames[static_cast<std::size_t>(step.to)], c.triangles,
-                                       {1, {}}));
-  }
-  return truth;
-}
-
 std::string Failure::signature() const {
   return fmt::format("{}: {}{}{}", name_of(claim), kind,
                      stage.empty() ? "" : fmt::format(" at {}", stage),
@@ -90,49 +78,38 @@ Failure failure_of_step(const corpus::Case& c, const corpus::CaseStep& step, con
 
 }  // namespace
 
-Verdict judge_run(const corpus::Case& c, const std::vector<oracle::StepJudgement>& truth,
-                  const CaseRun& run, const Configuration& configuration,
-                  const DetectorUnderTest& detector) {
+Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
+                    const CaseRun& run, const Configuration& configuration,
+                    const DetectorUnderTest& detector, const CaseRun* again) {
   const Claims claims = detector.claims_in(configuration);
-  Verdict verdict;
-  const auto ended_without_answer = [&](const char* kind) {
-    verdict.outcome = claims.total ? Outcome::defect : Outcome::error;
-    Failure failure;
-    failure.kind = kind;
-    failure.configuration = configuration.name;
-    failure.what = run.what;
-    verdict.failure = std::move(failure);
-    return verdict;
-  };
-  switch (run.end) {
-    case RunEnd::crashed:
-      return ended_without_answer("crash");
-    case RunEnd::refused:
-      return ended_without_answer("refused");
-    case RunEnd::hung:
-    case RunEnd::out_of_memory:
-      verdict.outcome = Outcome::undecided;
-      return verdict;
-    case RunEnd::not_run:
-      verdict.outcome = Outcome::error;
-      return verdict;
-    case RunEnd::completed:
-      break;
+  // The built-in detector's steps are judged more strictly below.
+  const auto by_claims = detector.built_in ? std::span<const oracle::StepJudgement>{} : truth;
+  RunVerdict whole = judge_run(c, run, by_claims, claims, detector.contract, again);
+  if (detector.built_in) {
+    for (std::size_t s = 0; s < run.steps.size(); ++s) {
+      whole.steps.push_back(compare(run.steps[s], truth[s], configuration.options.pairs));
+    }
   }
+  Verdict verdict{whole.outcome, {}};
   const auto steps = corpus::steps_of(c);
-  for (std::size_t s = 0; s < steps.size(); ++s) {
-    const StepDiff diff =
-        detector.built_in ? compare(run.steps[s], truth[s], configuration.options.pairs)
-                          : compare(run.steps[s], truth[s], claims, detector.contract, c.triangles);
-    if (diff.outcome == Outcome::holds) continue;
-    verdict.outcome = diff.outcome;
+  for (std::size_t s = 0; s < whole.steps.size() && !verdict.failure; ++s) {
+    const StepDiff& diff = whole.steps[s];
     if (diff.outcome == Outcome::defect) {
+      verdict.outcome = Outcome::defect;
       verdict.failure = failure_of_step(c, steps[s], diff, detector);
       verdict.failure->step = s;
-      verdict.failure->configuration = configuration.name;
+    } else if (diff.outcome != Outcome::holds && verdict.outcome == Outcome::holds) {
+      verdict.outcome = diff.outcome;
     }
-    return verdict;
   }
+  if (verdict.outcome == Outcome::defect && !verdict.failure) {
+    verdict.failure.emplace();
+    verdict.failure->claim = whole.broken.front();
+    verdict.failure->kind =
+        whole.broken.front() == Claim::deterministic ? "two runs differ" : name_of(run.end);
+    verdict.failure->what = whole.what.empty() ? verdict.failure->kind : whole.what;
+  }
+  if (verdict.failure) verdict.failure->configuration = configuration.name;
   return verdict;
 }
 

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "properties/agreement.h"
-#include "properties/worker/case_run.h"
+#include "properties/run_verdict.h"
 
 namespace assay::properties {
 
@@ -24,10 +24,6 @@ struct DetectorUnderTest {
 
 // Every culling built so far with pairs all, and the view cullings with pairs first.
 DetectorUnderTest built_in_detector();
-
-// What the oracle says of each step of the case, under the contract's coordinates.
-std::vector<oracle::StepJudgement> judge_steps(const corpus::Case& c,
-                                               const Contract& contract = {});
 
 // A defect, as far as it tells one defect from another.
 struct Failure {
@@ -49,8 +45,10 @@ struct Verdict {
   std::optional<Failure> failure;  // of a defect: the first step that shows one
 };
 
-Verdict judge_run(const corpus::Case& c, const std::vector<oracle::StepJudgement>& truth,
-                  const CaseRun& run, const Configuration& configuration,
-                  const DetectorUnderTest& detector);
+// truth: of the same case, contracted (run_verdict.h). again: a second run, if there was one. The
+// built-in detector's times must be the oracle's in every bit; a plug-in is judged by its claims.
+Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
+                    const CaseRun& run, const Configuration& configuration,
+                    const DetectorUnderTest& detector, const CaseRun* again = nullptr);
 
 }  // namespace assay::properties

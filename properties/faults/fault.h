@@ -27,8 +27,9 @@ struct Fault {
   std::string_view reason;    // of open and equivalent: why
   detector::Options options;  // what it is planted in
   std::string_view curated;   // id of the curated case that shows it; "": none
-  // Of the smallest mesh known that shows it, apexes of ghosts included where its case states
-  // them; 0: none known.
+  // Of the smallest mesh known that shows it, in the list that the reducer is measured by; 0: none.
+  // That list is frozen: where it took a mesh with stated ghosts, it counts their apexes, and its
+  // curated case may by now be smaller.
   int smallest_vertices = 0;
   std::string_view stage;  // name of the stage that it replaces
   detector::Stages (*stages)(const detector::Options&) = nullptr;

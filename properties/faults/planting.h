@@ -24,5 +24,9 @@ inline constexpr detector::Options with_lines = {detector::Culling::view_line,
 // The modules, each with its rows of the registry.
 std::vector<Fault> view_point_faults();
 std::vector<Fault> view_line_faults();
+std::vector<Fault> pair_faults();
+std::vector<Fault> elementary_faults();
+std::vector<Fault> state_faults();
+std::vector<Fault> boundary_faults();
 
 }  // namespace assay::properties

@@ -179,7 +179,7 @@ std::vector<Fault> view_point_faults() {
                                   "A3b_nonstrict_touch", 7),
       row<PlainDoubles>("view/plain-doubles",
                         "doubles without error bounds: a value near 0 may be promoted to V+", "L2",
-                        "", 0),
+                        "F_rounded_to_positive", 4),
       row<ZeroIsPositive>("view/zero-is-positive", "V0 is merged into V+", "L3", "M_pZtoP", 4),
       row<ZeroIsNegative>("view/zero-is-negative", "V0 is merged into V-", "L3", "M_pZtoM", 4),
       row<ZeroAreaIsPositive>("view/zero-area-is-positive",
@@ -188,11 +188,11 @@ std::vector<Fault> view_point_faults() {
       row<PositiveFromEitherPlace>("view/positive-from-either-place",
                                    "positive from the moving point's place at t=0, or from that at "
                                    "t=1",
-                                   "L10", "", 0),
+                                   "L10", "F_either_place", 4),
       row<PrimitiveIsAtItsEnd>("view/primitive-at-its-end",
                                "seen from the primitive's place at t=1, while the winding number "
                                "is that of its place at t=0",
-                               "L5", "", 0),
+                               "L5", "F_primitive_at_its_end", 6),
       {"view/primitive-stays", "a moving primitive is taken where it is at t=0, for the whole step",
        "L3", FaultStatus::equivalent,
        "any fixed place is one continuous field (L10), and the winding number is taken there; "

@@ -172,7 +172,7 @@ constexpr Motion all[] = {
     {"twist", twist, 2, false, false},         {"pinch", pinch, 2, false, false, true},
     {"fold", fold, 2, false, false, true},     {"flatten", flatten, 2, false, false, true},
     {"jump", jump, 5, false, false},           {"poke", poke, 4, false, false},
-    {"part", part, 2, false, false},           {"piece", piece, 2, false, false},
+    {"part", part, 2, false, false},           {"piece", piece, 4, false, false},
     {"zero", zero, 1, false, false},           {"fast", fast, 1, false, true},
     {"collapse", collapse, 3, true, true},
 };

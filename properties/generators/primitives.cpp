@@ -96,7 +96,7 @@ void choose_view(Random& random, Draft& draft) {
 }
 
 void choose_inner_view(Random& random, Draft& draft, const Points& drift) {
-  const int kind = random.below(5);
+  const int kind = random.below(7);
   if (kind < 2) return draft.tag("view:own");
   draft.tag("view:inside");
   draft.q0 = drift;

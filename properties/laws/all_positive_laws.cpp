@@ -46,7 +46,7 @@ std::string what_is_not_free(CaseFacts& facts, std::size_t s, std::size_t compon
 }
 
 template <bool closed>
-Finding all_positive_is_free(CaseFacts& facts, std::size_t s) {
+Observation all_positive_is_free(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
   bool met = false;
   for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c) {
@@ -58,7 +58,7 @@ Finding all_positive_is_free(CaseFacts& facts, std::size_t s) {
   return met ? holds() : not_met();
 }
 
-Finding detector_takes_the_free_path(CaseFacts& facts, std::size_t s) {
+Observation detector_takes_the_free_path(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
   const auto components = facts.surface().mesh.components.size();
   std::size_t free = 0;

@@ -11,7 +11,7 @@
 namespace assay::properties {
 namespace {
 
-Finding violated_is_what_ghosts_touch(CaseFacts& facts, std::size_t s) {
+Observation violated_is_what_ghosts_touch(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || facts.surface().is_closed()) return not_met();
   const auto& doubts = facts.result(s).doubts;
   for (std::size_t t = 0; t < doubts.size(); ++t) {
@@ -36,11 +36,12 @@ TriangleFlags touched_until(CaseFacts& facts, std::size_t s) {
   return held;
 }
 
-Finding vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
+Observation vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
   const auto p = facts.known_from(s);
   if (facts.surface().is_closed() || !p || !facts.has_views(s) || !facts.has_views(*p)) {
     return not_met();
   }
+  if (!facts.is_trusted(s)) return not_met();
   const TriangleFlags held = touched_until(facts, *p);
   if (std::find(held.begin(), held.end(), 1) == held.end()) return not_met();
   const TriangleFlags clean = may_be_clean(facts, s, held);

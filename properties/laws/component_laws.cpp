@@ -20,7 +20,7 @@ bool is_left_out_by_signs(CaseFacts& facts, std::size_t s, const detector::Trian
          sign(pair.a) != ViewSign::zero && sign(pair.a) == sign(pair.b);
 }
 
-Finding pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t s) {
+Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
   const auto& found = facts.result(s).pairs;
   bool met = false;
@@ -71,7 +71,7 @@ oracle::LayerState layers_alone(CaseFacts& facts, std::size_t s, std::size_t com
   return oracle::layers_at(oracle::Instant(facts.all_t0(s)), own, ghosts);
 }
 
-Finding components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) {
+Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) {
   const auto& components = facts.surface().mesh.components;
   if (!facts.has_views(s) || facts.known_from(s) || components.size() < 2) return not_met();
   if (facts.options().start != detector::Start::verified || !boxes_meet(facts, s)) return not_met();

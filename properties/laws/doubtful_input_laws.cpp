@@ -19,27 +19,27 @@ bool any_zero_area(CaseFacts& facts, std::size_t s) {
   return false;
 }
 
-Finding free_only_when_the_oracle_says_so(CaseFacts& facts, std::size_t s, bool doubtful) {
+Observation free_only_when_the_oracle_says_so(CaseFacts& facts, std::size_t s, bool doubtful) {
   if (!doubtful || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
   return holds_if(facts.result(s).answer != Answer::free || facts.judgement(s).pairs.empty(),
                   "free, and the oracle has a contact");
 }
 
-Finding broken_edges(CaseFacts& facts, std::size_t s) {
+Observation broken_edges(CaseFacts& facts, std::size_t s) {
   return free_only_when_the_oracle_says_so(facts, s, has_broken_edges(facts));
 }
 
-Finding collapsed(CaseFacts& facts, std::size_t s) {
+Observation collapsed(CaseFacts& facts, std::size_t s) {
   return free_only_when_the_oracle_says_so(
       facts, s, has_coincident_vertices(facts, s) || any_zero_area(facts, s));
 }
 
-Finding several_layers(CaseFacts& facts, std::size_t s) {
+Observation several_layers(CaseFacts& facts, std::size_t s) {
   return free_only_when_the_oracle_says_so(facts, s,
                                            facts.has_views(s) && has_several_layers(facts, s));
 }
 
-Finding zero_area_stays_in_v0(CaseFacts& facts, std::size_t s) {
+Observation zero_area_stays_in_v0(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s)) return not_met();
   bool met = false;
   const auto count = static_cast<std::int32_t>(facts.surface().mesh.triangles.size());
@@ -72,7 +72,7 @@ constexpr Law all[] = {
      "An index out of range or repeated, three vertices used twice, a frame of another size, a "
      "coordinate that is not finite, a wrong number of primitives and a commit of nothing are each "
      "refused by name, and the next valid step is answered as if they had not been.",
-     "nothing", check_bad_input},
+     "nothing", check_bad_input, dear},
 };
 
 }  // namespace

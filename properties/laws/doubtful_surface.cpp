@@ -36,10 +36,11 @@ bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
 
 namespace {
 
-// The area vector in doubles is farther from 0 than its rounding errors (8 units of 2^-53 of the
-// products); false where it is not, or where a product overflowed or vanished.
+// The area vector in doubles is farther from 0 than its rounding errors: of each of two products
+// 3 units of 2^-53 (two differences, one product), of their difference 2 more; twice that for what
+// is of second order. False where it is not, or where a product overflowed or vanished.
 bool surely_has_area(const detector::Positions& x, const std::array<std::int32_t, 3>& v) {
-  constexpr double error = 8 * 0x1p-53;
+  constexpr double error = 16 * 0x1p-53;
   const Eigen::RowVector3d a = x.row(v[1]) - x.row(v[0]), b = x.row(v[2]) - x.row(v[0]);
   const double product = a.cwiseAbs().maxCoeff() * b.cwiseAbs().maxCoeff();
   return product > 0x1p-900 && a.cross(b).cwiseAbs().maxCoeff() > error * product;

@@ -19,7 +19,7 @@ bool all_outside(const ContactPart& part, const oracle::Candidates& k) {
                       [&](const PairContact& contact) { return k.holds(contact.pair); });
 }
 
-Finding first_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
+Observation first_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
   const auto& judgement = facts.judgement(s);
   if (judgement.pairs.empty()) return not_met();
@@ -32,7 +32,7 @@ Finding first_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
 }
 
 // Only contacts inside a component: pairs of two are all in K, and make nothing dirty (L10).
-Finding outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
+Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
   std::vector<PairContact> own;
   for (const auto& contact : facts.judgement(s).pairs) {

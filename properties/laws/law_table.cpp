@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 
 #include "properties/laws/case_facts.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 
 LawTable::LawTable() : tallies_(laws().size()) {}
 
 void LawTable::add(CaseFacts& facts) {
-  for (std::size_t i = 0; i < tallies_.size(); ++i) laws()[i].check(facts, tallies_[i]);
+  const auto id = Random::hash(facts.source().id);
+  for (std::size_t i = 0; i < tallies_.size(); ++i) {
+    const Law& law = laws()[i];
+    if (Random(id, Random::hash(law.name)).one_in(law.one_in)) law.check(facts, tallies_[i]);
+  }
 }
 
 void LawTable::merge(const LawTable& other) {

@@ -13,7 +13,7 @@ class LawTable {
  public:
   LawTable();
 
-  // Puts every law to the case.
+  // Puts every law to the case, a dear one to its share of the cases, chosen by the case's id.
   void add(CaseFacts& facts);
   void merge(const LawTable& other);
 

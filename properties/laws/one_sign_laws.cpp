@@ -27,7 +27,7 @@ bool is_all_of(CaseFacts& facts, std::size_t s, std::size_t component, ViewSign 
 }
 
 template <ViewSign sign, bool (*applies)(const ViewPrimitive&)>
-Finding one_sign_is_collision_free(CaseFacts& facts, std::size_t s) {
+Observation one_sign_is_collision_free(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
   bool met = false;
   for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c) {

@@ -13,7 +13,7 @@ namespace {
 using detector::Answer;
 using detector::PairContact;
 
-Finding closure_is_the_pair_set(CaseFacts& facts, std::size_t s) {
+Observation closure_is_the_pair_set(CaseFacts& facts, std::size_t s) {
   if (!facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
   const auto& ours = facts.result(s);
   const auto& theirs = facts.judgement(s).pairs;
@@ -35,7 +35,7 @@ Finding closure_is_the_pair_set(CaseFacts& facts, std::size_t s) {
 
 // The claims of the built-in detector; a step that the oracle did not finish is not met.
 template <Claim claim>
-Finding claim_holds(CaseFacts& facts, std::size_t s) {
+Observation claim_holds(CaseFacts& facts, std::size_t s) {
   const auto& result = facts.result(s);
   const Claims claims = claims_of(facts.options().pairs);
   if (!claims.has(claim) || !facts.is_trusted(s)) return not_met();

@@ -17,7 +17,7 @@ bool any(const TriangleFlags& flags) {
   return std::find(flags.begin(), flags.end(), 1) != flags.end();
 }
 
-Finding carried_clean_is_clean(CaseFacts& facts, std::size_t s) {
+Observation carried_clean_is_clean(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.known_from(s) || !facts.is_trusted(s)) return not_met();
   TriangleFlags held = dirty_triangles(facts, s);
   for (auto& flag : held) flag = !flag;
@@ -25,9 +25,10 @@ Finding carried_clean_is_clean(CaseFacts& facts, std::size_t s) {
   return what_is_not_clean(facts, facts.layers_at_start(s), held);
 }
 
-Finding what_is_not_clean_stays_dirty(CaseFacts& facts, std::size_t s) {
+Observation what_is_not_clean_stays_dirty(CaseFacts& facts, std::size_t s) {
   const auto p = facts.known_from(s);
   if (!p || !facts.has_views(s) || !facts.has_views(*p) || !facts.is_judged(*p)) return not_met();
+  if (!facts.is_trusted(s)) return not_met();
   TriangleFlags in_question = dirty_triangles(facts, *p);
   for (std::size_t t = 0; t < in_question.size(); ++t) {
     in_question[t] |= facts.own_contacts(*p)[t] | facts.touched(*p)[t];
@@ -43,7 +44,7 @@ Finding what_is_not_clean_stays_dirty(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-Finding clean_and_untouched_stays_clean(CaseFacts& facts, std::size_t s) {
+Observation clean_and_untouched_stays_clean(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
   TriangleFlags held = dirty_triangles(facts, s);
   for (std::size_t t = 0; t < held.size(); ++t) {
@@ -62,7 +63,7 @@ Finding clean_and_untouched_stays_clean(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-Finding new_start_is_the_oracles_layers(CaseFacts& facts, std::size_t s) {
+Observation new_start_is_the_oracles_layers(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || facts.known_from(s) || facts.options().start != Start::verified) {
     return not_met();
   }
@@ -92,7 +93,7 @@ bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component
   });
 }
 
-Finding all_positive_at_the_start_releases(CaseFacts& facts, std::size_t s) {
+Observation all_positive_at_the_start_releases(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s)) return not_met();
   if (!facts.known_from(s) && facts.options().start == Start::unknown) return not_met();
   bool met = false;

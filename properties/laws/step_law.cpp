@@ -4,7 +4,7 @@
 
 namespace assay::properties {
 
-void note(CaseFacts& facts, std::size_t step, const Finding& finding, LawTally& tally) {
+void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTally& tally) {
   if (!finding) return;
   LawTally met{1, facts.is_close(step) ? 1u : 0u, 0, {}};
   if (!finding->empty()) {

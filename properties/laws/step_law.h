@@ -10,17 +10,20 @@
 namespace assay::properties {
 
 // Nothing where the premise does not hold; else what is wrong, empty when the law holds.
-using Finding = std::optional<std::string>;
+using Observation = std::optional<std::string>;
 
-inline Finding not_met() { return std::nullopt; }
-inline Finding holds() { return std::string(); }
-inline Finding holds_if(bool condition, std::string_view otherwise) {
-  return condition ? holds() : Finding(otherwise);
+inline Observation not_met() { return std::nullopt; }
+inline Observation holds() { return std::string(); }
+inline Observation holds_if(bool condition, std::string_view otherwise) {
+  return condition ? holds() : Observation(otherwise);
 }
 
-void note(CaseFacts& facts, std::size_t step, const Finding& finding, LawTally& tally);
+// Share of the cases for laws that run the case again.
+inline constexpr int dear = 16;
 
-template <Finding (*look)(CaseFacts&, std::size_t)>
+void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTally& tally);
+
+template <Observation (*look)(CaseFacts&, std::size_t)>
 void each_step(CaseFacts& facts, LawTally& tally) {
   for (std::size_t s = 0; s < facts.steps(); ++s) note(facts, s, look(facts, s), tally);
 }

@@ -13,8 +13,8 @@ using detector::ViewSign;
 
 // Signs of triangles from `begin` to `end` of the surface, of components whose primitive is a
 // point, or is not.
-Finding compare_signs(CaseFacts& facts, std::size_t s, std::size_t begin, std::size_t end,
-                      bool point) {
+Observation compare_signs(CaseFacts& facts, std::size_t s, std::size_t begin, std::size_t end,
+                          bool point) {
   if (!facts.has_views(s)) return not_met();
   const auto& result = facts.result(s);
   bool met = false;
@@ -32,17 +32,17 @@ Finding compare_signs(CaseFacts& facts, std::size_t s, std::size_t begin, std::s
 }
 
 template <bool point>
-Finding mesh_signs(CaseFacts& facts, std::size_t s) {
+Observation mesh_signs(CaseFacts& facts, std::size_t s) {
   return compare_signs(facts, s, 0, facts.surface().mesh.triangles.size(), point);
 }
 
 template <bool point>
-Finding ghost_signs(CaseFacts& facts, std::size_t s) {
+Observation ghost_signs(CaseFacts& facts, std::size_t s) {
   return compare_signs(facts, s, facts.surface().mesh.triangles.size(),
                        facts.surface().all().triangles.size(), point);
 }
 
-Finding sets_are_disjoint_and_cover(CaseFacts& facts, std::size_t s) {
+Observation sets_are_disjoint_and_cover(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s)) return not_met();
   const auto& r = facts.result(s);
   std::size_t positive = 0, negative = 0, zero = 0, against_all = 0, violated = 0, dirty = 0;

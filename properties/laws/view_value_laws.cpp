@@ -15,7 +15,7 @@ using detector::ViewSign;
 
 // Some triangles of the surface at some times, the same ones whenever the case is looked at.
 template <class Look>
-Finding each_sample(CaseFacts& facts, std::size_t s, Look look) {
+Observation each_sample(CaseFacts& facts, std::size_t s, Look look) {
   if (!facts.has_views(s)) return not_met();
   constexpr int triangles = 2, times = 2;
   Random random(Random::hash(facts.source().id), s);
@@ -45,7 +45,7 @@ std::array<int, 3> any_weights(Random& random) {
   return {a, b, 16 - a - b};
 }
 
-Finding clamp_form_is_region_form(CaseFacts& facts, std::size_t s) {
+Observation clamp_form_is_region_form(CaseFacts& facts, std::size_t s) {
   return each_sample(facts, s, [](const ExactView& view, ViewSign, Random& random) -> std::string {
     for (int i = 0; i < 3; ++i) {
       if (view.by_clamp(view.corner(i)) != view.by_region(view.corner(i))) {
@@ -59,7 +59,7 @@ Finding clamp_form_is_region_form(CaseFacts& facts, std::size_t s) {
   });
 }
 
-Finding inner_values_lie_between_corners(CaseFacts& facts, std::size_t s) {
+Observation inner_values_lie_between_corners(CaseFacts& facts, std::size_t s) {
   return each_sample(facts, s, [](const ExactView& view, ViewSign, Random& random) -> std::string {
     const std::array<ExactInteger, 3> at_corners = {view.by_region(view.corner(0)),
                                                     view.by_region(view.corner(1)),
@@ -72,7 +72,7 @@ Finding inner_values_lie_between_corners(CaseFacts& facts, std::size_t s) {
 }
 
 // Signs are of the detector: this ties what it says to the function that L1 speaks of.
-Finding signs_hold_inside(CaseFacts& facts, std::size_t s) {
+Observation signs_hold_inside(CaseFacts& facts, std::size_t s) {
   return each_sample(
       facts, s, [](const ExactView& view, ViewSign sign, Random& random) -> std::string {
         const auto wanted = static_cast<int>(sign);

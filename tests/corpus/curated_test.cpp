@@ -42,11 +42,11 @@ int unmatched(const detector::Triangles& triangles, std::map<std::pair<int, int>
 
 TEST(Curated, WellFormedCanonicalAndConsistent) {
   const std::vector<Case> cases = curated();
-  EXPECT_GE(cases.size(), 52U);
+  EXPECT_GE(cases.size(), 90U);
   for (const Case& c : cases) {
     SCOPED_TRACE(c.id);
     EXPECT_FALSE(c.about.empty());
-    ASSERT_EQ(c.expected.steps.size(), c.frames.size() - 1);
+    ASSERT_EQ(c.expected.steps.size(), steps_of(c).size());
     auto answer = detector::Answer::free;
     for (const ExpectedStep& step : c.expected.steps) {
       if (step.answer == detector::Answer::collision) answer = step.answer;
@@ -69,7 +69,9 @@ TEST(Curated, WellFormedCanonicalAndConsistent) {
     EXPECT_EQ(c.expected.answer, answer);
     const auto culling = c.options.find("culling");
     ASSERT_NE(culling, c.options.end());
-    EXPECT_EQ(culling->second, c.view->q1.empty() ? "view-point" : "view-line");
+    if (c.view) {
+      EXPECT_EQ(culling->second, c.view->q1.empty() ? "view-point" : "view-line");
+    }
   }
 }
 
@@ -82,11 +84,12 @@ TEST(Curated, GhostsCloseTheirMesh) {
     if (c.ghosts) {
       EXPECT_GT(before, 0);
       EXPECT_EQ(unmatched(c.ghosts->triangles, excess), 0);
-    } else if (before > 0) {
+    } else if (before > 0 && c.id.substr(0, 2) != "F_") {
+      // Those found by search leave it to the detector to close their mesh.
       unclosed.insert(c.id);
     }
   }
-  // These two show what happens when nothing closes the mesh.
+  // Of the rest these two show what happens when nothing closes the mesh.
   EXPECT_EQ(unclosed, (std::set<std::string>{"A5_one_face_flipped", "E1_free_membrane"}));
 }
 

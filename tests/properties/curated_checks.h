@@ -8,6 +8,7 @@
 #include "oracle/embedding.h"
 #include "oracle/layers.h"
 #include "oracle/loops.h"
+#include "properties/faults/fault_run.h"
 #include "tests/properties/curated_context.h"
 
 namespace assay::properties::test {
@@ -17,7 +18,7 @@ using nlohmann::json;
 
 // The steps of a case: `b` is the last one, `a` the one before it where there are two.
 struct Facts {
-  explicit Facts(const corpus::Case& c) : stored(json::parse(c.pending)), id(c.id) {
+  explicit Facts(const corpus::Case& c) : stored(json::parse(c.pending)), id(c.id), given(c) {
     for (std::size_t i = 0; i + 1 < c.frames.size(); ++i) steps.emplace_back(c, i);
   }
   const CuratedStep& first() const { return steps.front(); }
@@ -33,6 +34,7 @@ struct Facts {
 
   json stored;
   std::string id;
+  corpus::Case given;
   std::vector<CuratedStep> steps;
 };
 
@@ -107,6 +109,25 @@ inline bool non_adjacent_pairs(const Facts& f, bool wanted_in_k) {
   return std::any_of(s.judgement.pairs.begin(), s.judgement.pairs.end(), [&](const auto& c) {
     return common_vertices(s, c.pair) == 0 && (!wanted_in_k || s.k().holds(c.pair));
   });
+}
+
+// What the planted fault says in the last step.
+inline std::optional<detector::StepResult> said_by(const Facts& f, const Fault* fault) {
+  return fault ? std::optional(run_case(f.given, *fault).back()) : std::nullopt;
+}
+
+// The fault whose case this is: its name there was the mutant's.
+inline std::optional<detector::StepResult> said_by_mutant(const Facts& f) {
+  const auto all = faults();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const Fault& fault) { return fault.curated == f.id; });
+  return said_by(f, found == all.end() ? nullptr : &*found);
+}
+
+inline std::optional<bool> says_all_positive(const std::optional<detector::StepResult>& result) {
+  if (!result) return std::nullopt;
+  return std::all_of(result->signs.begin(), result->signs.end(),
+                     [](auto sign) { return sign == ViewSign::positive; });
 }
 
 inline std::map<std::string, Check> checks() {
@@ -253,6 +274,17 @@ inline std::map<std::string, Check> checks() {
        of_sequence([=](const Facts& f) { return members(jumped(f)).empty(); })},
       {"K_plus_Vv_finds_nothing",
        of_sequence([=](const Facts& f) { return f.last().k_finds_nothing(jumped(f)); })},
+      {"mutant_finds_nothing_exact",
+       [](const Facts& f) {
+         const auto result = said_by_mutant(f);
+         return result ? std::optional(result->answer == detector::Answer::free) : std::nullopt;
+       }},
+      {"mutant_says_all_Vplus",
+       [](const Facts& f) { return says_all_positive(said_by_mutant(f)); }},
+      {"nonstrict_all_nonneg",
+       [](const Facts& f) {
+         return says_all_positive(said_by(f, find_fault("view/touching-zero-is-positive")));
+       }},
       {"layers_differ", with([](const Facts& f) { return layer_classes(f.first()) > 1; })},
       {"four_triangles_at_one_edge", with([](const Facts& f) {
          std::map<oracle::DirectedEdge, int> uses;

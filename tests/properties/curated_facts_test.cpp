@@ -1,5 +1,6 @@
-// The pending facts of corpus/curated, each checked by the oracle alone: cycles and ghosts, Vv, K,
-// embedding, layers, view primitives. What no check exists for is counted and listed.
+// The pending facts of corpus/curated, checked by the oracle alone (cycles and ghosts, Vv, K,
+// embedding, layers, view primitives) or, what is said of a mutant, by the planted fault. What no
+// check exists for is counted and listed.
 #include <cstdio>
 
 #include "tests/properties/curated_checks.h"
@@ -104,7 +105,7 @@ TEST(CuratedFacts, Hold) {
     pending += static_cast<int>(cases.size());
   }
   std::printf("%d facts checked, %d pending\n", checked, pending);
-  EXPECT_GE(checked, 300);
+  EXPECT_GE(checked, 360);
 }
 
 // What the files say in words only.

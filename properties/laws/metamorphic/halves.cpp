@@ -143,8 +143,11 @@ void check_halves(CaseFacts& facts, LawTally& tally) {
   const PinnedRun whole = on_a_grid(std::move(*run));
   const Halved halves = halved(whole);
   if (!halves.exact) return;
-  auto player = PinnedPlayer::make(whole, facts.options(), facts.stages_of());
-  auto half_player = PinnedPlayer::make(halves.run, facts.options(), facts.stages_of());
+  auto options = facts.options();
+  // Nobody vouches for places that were rounded, and a start that is not clean is not made up for.
+  if (options.start == detector::Start::clean) options.start = detector::Start::verified;
+  auto player = PinnedPlayer::make(whole, options, facts.stages_of());
+  auto half_player = PinnedPlayer::make(halves.run, options, facts.stages_of());
   if (!player || !half_player) return;
   const auto results = player->play(), of_halves = half_player->play();
   for (std::size_t s = 0; s < facts.steps(); ++s) {

@@ -76,19 +76,19 @@ constexpr Law all[] = {
      "A step in two halves, the state carried (all coordinates rounded to a grid before, so that "
      "the middle is exact), has the pairs of the whole, each at its time; of first contacts the "
      "first time.",
-     "nothing", check_halves},
+     "nothing", check_halves, dear},
     {"Change_EqualEndsAreAPoint", "change",
      "A segment whose ends coincide gives the result of the point, to the last bit.", "nothing",
-     check_equal_ends},
+     check_equal_ends, dear},
     {"Change_RepeatedCall", "change",
      "The same step evaluated again, by this detector or another one, gives the same bytes.",
-     "nothing", check_repeated_call},
+     "nothing", check_repeated_call, dear},
     {"Change_EvaluateChangesNothing", "change",
      "Steps that are evaluated and not committed leave no trace in the results that follow.",
-     "nothing", check_evaluate_changes_nothing},
+     "nothing", check_evaluate_changes_nothing, dear},
     {"Change_ResetStartsAnew", "change",
      "After a reset the first step gives the same bytes as it did at first.", "nothing",
-     check_reset},
+     check_reset, dear},
 };
 
 }  // namespace

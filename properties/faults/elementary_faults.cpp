@@ -1,0 +1,183 @@
+// Wrong elementary tests: contacts that are not seen, times that are not right.
+#include <cmath>
+
+#include "detector/contact/contact_exact.h"
+#include "properties/faults/planting.h"
+#include "properties/faults/view_polynomials.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::ContactResult;
+using detector::FourPoints;
+using detector::Point;
+using detector::Stages;
+using detector::Want;
+
+// Right answers, some of which are then suppressed.
+class ContactDropped : public detector::ElementaryTest {
+ public:
+  ContactResult test(const FourPoints& query, Want) const override {
+    ContactResult right = detector::test_contact_past_axis(query, Want::first_time);
+    if (right.contact && drops(query, right)) right = {false, {}, right.rung};
+    return right;
+  }
+  virtual bool drops(const FourPoints& query, const ContactResult& right) const = 0;
+};
+
+bool is_edge_edge(const FourPoints& query) { return query.first_group == 2; }
+
+struct EndExcluded : ContactDropped {
+  bool drops(const FourPoints&, const ContactResult& right) const override {
+    return right.time.lo == 1;
+  }
+};
+
+struct StartExcluded : ContactDropped {
+  bool drops(const FourPoints&, const ContactResult& right) const override {
+    return right.time.hi == 0;
+  }
+};
+
+struct CoplanarIgnored : ContactDropped {
+  bool drops(const FourPoints& query, const ContactResult&) const override {
+    return detector::coplanar_throughout(query);
+  }
+};
+
+struct ParallelIgnored : ContactDropped {
+  bool drops(const FourPoints& query, const ContactResult& right) const override {
+    if (!is_edge_edge(query)) return false;
+    const double t = right.time.lo;
+    std::array<double, 3> a, b;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto place = [&](std::size_t i) {
+        const auto& p = query.points[i];
+        return p.t0[k] + t * (p.t1[k] - p.t0[k]);
+      };
+      a[k] = place(1) - place(0);
+      b[k] = place(3) - place(2);
+    }
+    return a[1] * b[2] == a[2] * b[1] && a[2] * b[0] == a[0] * b[2] && a[0] * b[1] == a[1] * b[0];
+  }
+};
+
+struct OnlyVertexFace : ContactDropped {
+  bool drops(const FourPoints& query, const ContactResult&) const override {
+    return is_edge_edge(query);
+  }
+};
+
+struct OnlyEdgeEdge : ContactDropped {
+  bool drops(const FourPoints& query, const ContactResult&) const override {
+    return !is_edge_edge(query);
+  }
+};
+
+struct StillIgnored : ContactDropped {
+  bool drops(const FourPoints& query, const ContactResult&) const override {
+    for (const auto& point : query.points) {
+      if (point.t0 != point.t1) return false;
+    }
+    return true;
+  }
+};
+
+struct FirstRootOnly : ContactDropped {
+  bool drops(const FourPoints& query, const ContactResult& right) const override {
+    const auto& x = query.points;
+    const auto f = view_polynomials({x[1], x[2], x[3]}, {x[0], x[0]}).h0;
+    return !f.is_zero() && detector::roots_in_unit_interval(f).front().enclosure() < right.time;
+  }
+};
+
+int orientation_at(const FourPoints& query, Point detector::MovingPoint::*end) {
+  const auto& x = query.points;
+  return detector::orientation(x[1].*end, x[2].*end, x[3].*end, x[0].*end);
+}
+
+struct SignChangeOfEnds : ContactDropped {
+  bool drops(const FourPoints& query, const ContactResult&) const override {
+    return orientation_at(query, &detector::MovingPoint::t0) *
+               orientation_at(query, &detector::MovingPoint::t1) >
+           0;
+  }
+};
+
+struct BehindIgnored : ContactDropped {
+  bool drops(const FourPoints& query, const ContactResult&) const override {
+    return !is_edge_edge(query) && orientation_at(query, &detector::MovingPoint::t0) < 0;
+  }
+};
+
+struct PiercingIgnored : detector::ElementaryTest {
+  bool pierces(const Point&, const Point&, const std::array<Point, 3>&) const override {
+    return false;
+  }
+};
+
+struct TimeRoundedUp : detector::ElementaryTest {
+  ContactResult test(const FourPoints& query, Want want) const override {
+    ContactResult result = detector::test_contact_past_axis(query, want);
+    result.time.lo = result.time.hi;
+    return result;
+  }
+};
+
+struct TimeInSinglePrecision : detector::ElementaryTest {
+  ContactResult test(const FourPoints& query, Want want) const override {
+    ContactResult result = detector::test_contact_past_axis(query, want);
+    result.time.lo = result.time.hi = static_cast<float>(result.time.lo);
+    return result;
+  }
+};
+
+template <class Test>
+Fault row(std::string_view name, std::string_view about, std::string_view law,
+          std::string_view curated, int vertices) {
+  return {name,        about,   law,      FaultStatus::planted, "",
+          with_points, curated, vertices, "elementary",         with<&Stages::elementary, Test>};
+}
+
+}  // namespace
+
+std::vector<Fault> elementary_faults() {
+  return {
+      row<EndExcluded>("elementary/end-excluded", "the step is [0,1): contacts at t=1 do not count",
+                       "free-sound", "A3_nonstrict_end", 7),
+      row<StartExcluded>("elementary/start-excluded",
+                         "the step is (0,1]: contacts at t=0 do not count", "free-sound",
+                         "F_start_excluded", 4),
+      row<CoplanarIgnored>("elementary/coplanar-ignored",
+                           "four points that stay in one plane are in no contact", "free-sound",
+                           "F_coplanar_motion", 4),
+      row<ParallelIgnored>("elementary/parallel-ignored",
+                           "edges that are parallel where they meet are in no contact",
+                           "free-sound", "F_parallel_edges", 4),
+      row<OnlyVertexFace>("elementary/only-vertex-face", "no edge-edge tests", "free-sound",
+                          "F_edge_edge_only", 4),
+      row<OnlyEdgeEdge>("elementary/only-edge-edge", "no vertex-face tests", "free-sound",
+                        "F_vertex_face_only", 4),
+      row<StillIgnored>("elementary/still-ignored", "features that do not move are in no contact",
+                        "free-sound", "F_still_features", 4),
+      row<FirstRootOnly>("elementary/first-root-only",
+                         "only the first time at which the four points are coplanar is looked at",
+                         "free-sound", "F_second_root", 4),
+      row<SignChangeOfEnds>("elementary/sign-change-of-ends",
+                            "no contact where the four points are oriented alike at t=0 and t=1",
+                            "free-sound", "F_no_sign_change", 4),
+      row<BehindIgnored>("elementary/behind-ignored",
+                         "a vertex that starts behind a face does not meet it", "free-sound",
+                         "F_from_behind", 4),
+      row<PiercingIgnored>("elementary/piercing-ignored",
+                           "edges that pierce a triangle at t=0 are not looked for", "free-sound",
+                           "F_pierced_start", 5),
+      row<TimeRoundedUp>("elementary/time-rounded-up", "times are rounded to the next double",
+                         "not-late", "F_inexact_time", 4),
+      row<TimeInSinglePrecision>("elementary/time-in-single-precision",
+                                 "times are rounded to single precision", "first-time",
+                                 "F_inexact_time", 4),
+  };
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,228 @@
+// Wrong candidate pairs: blocks of K left out (L3), neighbours and zero areas skipped, closures
+// that stop too early (L7), boxes that are too small.
+#include "detector/state/winding.h"
+#include "properties/faults/planting.h"
+
+namespace assay::properties {
+namespace {
+
+namespace flag = detector::flag;
+using detector::PairSink;
+using detector::PairTables;
+using detector::PositionsView;
+using detector::SearchCounts;
+using detector::SearchInput;
+using detector::Stages;
+using detector::Topology;
+using detector::TrianglePair;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+template <std::uint8_t a, std::uint8_t b>
+struct BlockDropped : detector::PairRule {
+  PairTables candidates() const override {
+    PairTables tables = detector::PairRule::candidates();
+    tables.within.remove(a, b);
+    return tables;
+  }
+};
+
+struct OnlyOppositeSigns : detector::PairRule {
+  PairTables candidates() const override {
+    PairTables tables = detector::PairRule::candidates();
+    for (const auto u : {flag::positive, flag::negative, flag::zero}) {
+      tables.within.remove(u, flag::zero);
+    }
+    return tables;
+  }
+};
+
+struct AcrossBySign : detector::PairRule {
+  PairTables candidates() const override {
+    PairTables tables = detector::PairRule::candidates();
+    tables.across = tables.within;
+    return tables;
+  }
+};
+
+struct NoClosure : detector::PairRule {
+  PairTables closure() const override { return {}; }
+};
+
+struct ClosureFromOneSide : detector::PairRule {
+  bool joins_closure(const TrianglePair& contact, std::int32_t t) const override {
+    return t == contact.a;
+  }
+};
+
+// What joined the closure is tested against V+ alone.
+struct ClosureLeavesNegative : detector::PairRule {
+  PairTables closure() const override {
+    PairTables tables;
+    tables.within.add(flag::positive, flag::grown);
+    return tables;
+  }
+};
+
+// The standard search with some of its pairs kept from the sink.
+class FilteredSearch : public detector::TreeSearch {
+ public:
+  bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
+    return detector::TreeSearch::search(input, counts, [&](std::int32_t a, std::int32_t b) {
+      return skips(input.mesh, a, b) || sink(a, b);
+    });
+  }
+  virtual bool skips(const Topology& mesh, std::int32_t a, std::int32_t b) const = 0;
+};
+
+template <int common>
+struct NeighboursSkipped : FilteredSearch {
+  bool skips(const Topology& mesh, std::int32_t a, std::int32_t b) const override {
+    int shared = 0;
+    for (const auto u : mesh.triangles[at(a)]) {
+      for (const auto v : mesh.triangles[at(b)]) shared += u == v;
+    }
+    return shared >= common;
+  }
+};
+
+// "Nothing can be hit where there is no area", at t=0 or t=1.
+class ZeroAreaDropped : public FilteredSearch {
+ public:
+  void fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1) const override {
+    FilteredSearch::fit(tree, mesh, x_t0, x_t1);
+    dropped_.resize(mesh.triangles.size());
+    for (std::size_t t = 0; t < dropped_.size(); ++t) {
+      const auto triangle = static_cast<std::int32_t>(t);
+      dropped_[t] = detector::has_zero_area(mesh, x_t0, triangle) ||
+                    detector::has_zero_area(mesh, x_t1, triangle);
+    }
+  }
+  bool skips(const Topology&, std::int32_t a, std::int32_t b) const override {
+    return dropped_[at(a)] || dropped_[at(b)];
+  }
+
+ private:
+  mutable std::vector<std::uint8_t> dropped_;  // of the step at hand; one detector, one thread
+};
+
+// Boxes that only touch do not meet: lost are contacts in their common face.
+class OpenBoxes : public FilteredSearch {
+ public:
+  void fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1) const override {
+    FilteredSearch::fit(tree, mesh, x_t0, x_t1);
+    boxes_.clear();
+    for (const auto& triangle : mesh.triangles) {
+      boxes_.push_back(detector::swept_box(triangle, x_t0, x_t1));
+    }
+  }
+  bool skips(const Topology&, std::int32_t a, std::int32_t b) const override {
+    for (int k = 0; k < 3; ++k) {
+      const auto &box = boxes_[at(a)], &other = boxes_[at(b)];
+      if (!(box.lo[k] < other.hi[k] && other.lo[k] < box.hi[k])) return true;
+    }
+    return false;
+  }
+
+ private:
+  mutable std::vector<detector::Box> boxes_;  // of the step at hand
+};
+
+template <bool end>
+struct StillBoxes : detector::TreeSearch {
+  void fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1) const override {
+    const PositionsView& x = end ? x_t1 : x_t0;
+    tree.refit(mesh, x, x);
+  }
+};
+
+// K and one round of the closure; what that finds starts no other.
+class SinglePassClosure : public detector::TreeSearch {
+ public:
+  void fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1) const override {
+    TreeSearch::fit(tree, mesh, x_t0, x_t1);
+    searches_ = 0;
+  }
+  bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
+    return ++searches_ > 2 || TreeSearch::search(input, counts, sink);
+  }
+
+ private:
+  mutable int searches_ = 0;  // of the step at hand
+};
+
+template <class Rule>
+Fault rule(std::string_view name, std::string_view about, std::string_view law,
+           std::string_view curated, int vertices) {
+  return {name,        about,   law,      FaultStatus::planted, "",
+          with_points, curated, vertices, "pair_rule",          with<&Stages::pair_rule, Rule>};
+}
+
+template <class Search>
+Fault search(std::string_view name, std::string_view about, std::string_view law,
+             std::string_view curated, int vertices) {
+  return {name,        about,   law,      FaultStatus::planted, "",
+          with_points, curated, vertices, "pair_search",        with<&Stages::pair_search, Search>};
+}
+
+}  // namespace
+
+std::vector<Fault> pair_faults() {
+  return {
+      rule<BlockDropped<flag::zero, flag::zero>>("pair/zero-zero-dropped", "(V0,V0) is left out",
+                                                 "L3", "C6_only_ZZ", 4),
+      rule<BlockDropped<flag::positive, flag::zero>>("pair/positive-zero-dropped",
+                                                     "(V+,V0) is left out", "L3", "C6_only_PZ", 4),
+      rule<BlockDropped<flag::negative, flag::zero>>("pair/negative-zero-dropped",
+                                                     "(V-,V0) is left out", "L3", "C6_only_MZ", 5),
+      rule<BlockDropped<flag::positive, flag::negative>>(
+          "pair/positive-negative-dropped", "(V+,V-) is left out", "L3", "C6_only_PM", 5),
+      rule<OnlyOppositeSigns>("pair/only-opposite-signs", "only (V+,V-) is kept besides Vv", "L3",
+                              "M_pOnlyPM", 4),
+      rule<BlockDropped<flag::violated, flag::violated>>("pair/u-without-violated",
+                                                         "U is reduced by Vv: (Vv,Vv) is left out",
+                                                         "L11", "D5_U_minus_Vv", 7),
+      rule<BlockDropped<flag::positive, flag::violated>>(
+          "pair/positive-violated-dropped", "(V+,Vv) is left out", "L11", "F_positive_violated", 4),
+      rule<BlockDropped<flag::negative, flag::violated>>(
+          "pair/negative-violated-dropped", "(V-,Vv) is left out", "L11", "F_negative_violated", 4),
+      rule<BlockDropped<flag::zero, flag::violated>>(
+          "pair/zero-violated-dropped", "(V0,Vv) is left out", "L11", "F_zero_violated", 4),
+      rule<AcrossBySign>("pair/across-by-sign", "pairs of two components are judged by sign", "L10",
+                         "A2_nested_outward", 9),
+      rule<NoClosure>("pair/no-closure", "K is claimed to be all pairs", "all-pairs (L7)",
+                      "F_closure_one_side", 6),
+      rule<ClosureFromOneSide>("pair/closure-from-one-side",
+                               "of a pair in contact only the lower triangle joins the closure",
+                               "all-pairs (L7)", "F_closure_one_side", 6),
+      rule<ClosureLeavesNegative>("pair/closure-leaves-negative",
+                                  "the closure looks at V+ only, not at V-", "all-pairs (L7)",
+                                  "C2_lost_minus_minus", 8),
+      search<NeighboursSkipped<1>>("pair/vertex-sharing-skipped",
+                                   "triangles with a common vertex are no candidates", "L3",
+                                   "C3_skip_adjacent", 6),
+      search<NeighboursSkipped<2>>("pair/edge-sharing-skipped",
+                                   "triangles with a common edge are no candidates", "L3",
+                                   "M_pSkipEdge", 5),
+      search<ZeroAreaDropped>("pair/zero-area-dropped",
+                              "a triangle that has no area at t=0 or t=1 is no candidate", "L12",
+                              "A3_nonstrict_end", 7),
+      search<OpenBoxes>("pair/open-boxes", "boxes that only touch do not meet", "free-sound",
+                        "F_open_boxes", 4),
+      search<StillBoxes<false>>("pair/boxes-at-start", "boxes are those at t=0, not swept",
+                                "free-sound", "F_boxes_at_start", 6),
+      search<StillBoxes<true>>("pair/boxes-at-end", "boxes are those at t=1, not swept",
+                               "free-sound", "F_boxes_at_end", 6),
+      {"pair/closure-single-pass", "the closure ends after its first round", "all-pairs (L7)",
+       FaultStatus::open,
+       "a pair that only the second round asks for is not known: what the first round finds has "
+       "so far always been all",
+       with_points, "", 0, "pair_search", with<&Stages::pair_search, SinglePassClosure>},
+  };
+}
+
+}  // namespace assay::properties
