@@ -1,15 +1,16 @@
 #include "properties/agreement.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
+#include <functional>
 
 #include "detector/detector.h"
+#include "properties/first_contact_graph.h"
 
 namespace assay::properties {
 
 using detector::Answer;
 using detector::PairContact;
+using detector::TimeEnclosure;
 using detector::TrianglePair;
 
 const char* name_of(Outcome outcome) {
@@ -56,103 +57,172 @@ const char* name_of(detector::FeatureKind kind) {
 
 namespace {
 
-// Parts of the contact graph at the first time: triangles joined by pairs in contact then.
-class FirstContactGraph {
+// How a detector's times are read: `unique` is the enclosure of exact arithmetic, `interval` any
+// interval that holds the time.
+enum class Times { unique, interval };
+
+// t* of the oracle is its lo when lo == hi, else strictly between two adjacent doubles: an interval
+// of doubles holds it when it holds both ends.
+bool begins_after(const TimeEnclosure& ours, const TimeEnclosure& theirs, Times times) {
+  return times == Times::unique ? theirs < ours : ours.lo > theirs.lo;
+}
+bool ends_before(const TimeEnclosure& ours, const TimeEnclosure& theirs, Times times) {
+  return times == Times::unique ? ours < theirs : ours.hi < theirs.hi;
+}
+
+// The oracle's side that counts under a contract.
+struct Truth {
+  std::vector<PairContact> pairs;
+  bool complete = false;
+  TimeEnclosure first;  // when complete and there are pairs
+};
+
+class Comparison {
  public:
-  FirstContactGraph(const std::vector<PairContact>& pairs, const detector::TimeEnclosure& first) {
-    for (const auto& contact : pairs) {
-      if (contact.time == first) parent_[root(contact.pair.a)] = root(contact.pair.b);
+  Comparison(const detector::StepResult& result, const oracle::StepJudgement& judgement,
+             const Claims& claims, const Contract& contract, Times times)
+      : result_(result),
+        judgement_(judgement),
+        claims_(claims),
+        contract_(contract),
+        times_(times) {}
+
+  StepDiff run(const std::function<bool(TrianglePair)>& left_out) {
+    if (result_.answer == Answer::error) {
+      broken(Claim::total, true);
+      diff_.outcome = diff_.broken.empty() ? Outcome::error : Outcome::defect;
+      return std::move(diff_);
     }
-  }
-  std::int32_t root(std::int32_t triangle) {
-    const auto [entry, is_new] = parent_.try_emplace(triangle, triangle);
-    if (entry->second == triangle) return triangle;
-    const auto found = root(entry->second);
-    parent_[triangle] = found;
-    return found;
+    diff_.partial = !detector_complete() || !judgement_.complete;
+    for (const auto& contact : judgement_.pairs) {
+      (left_out(contact.pair) ? diff_.left_out : truth_.pairs).push_back(contact);
+    }
+    truth_.complete = judgement_.complete;
+    const auto earlier = [](const PairContact& a, const PairContact& b) { return a.time < b.time; };
+    const auto first = std::min_element(truth_.pairs.begin(), truth_.pairs.end(), earlier);
+    if (first != truth_.pairs.end()) truth_.first = first->time;
+
+    compare_pairs(left_out);
+    compare_answers();
+    excuse();
+    weigh();
+    return std::move(diff_);
   }
 
  private:
-  std::map<std::int32_t, std::int32_t> parent_;
-};
+  bool detector_complete() const { return result_.answer != Answer::undecided; }
 
-void excuse_later_pairs(const oracle::StepJudgement& judgement, StepDiff& diff) {
-  FirstContactGraph graph(judgement.pairs, judgement.first);
-  std::set<TrianglePair> missing;
-  for (const auto& contact : diff.missing) missing.insert(contact.pair);
-  std::set<std::int32_t> reported_parts;
-  for (const auto& contact : judgement.pairs) {
-    if (contact.time == judgement.first && !missing.count(contact.pair)) {
-      reported_parts.insert(graph.root(contact.pair.a));
+  void compare_pairs(const std::function<bool(TrianglePair)>& left_out) {
+    auto ours = result_.pairs.begin();
+    auto theirs = judgement_.pairs.begin();
+    while (ours != result_.pairs.end() || theirs != judgement_.pairs.end()) {
+      if (theirs == judgement_.pairs.end() ||
+          (ours != result_.pairs.end() && ours->pair < theirs->pair)) {
+        // An oracle that was stopped has not refuted what it has not reached.
+        if (judgement_.complete) diff_.spurious.push_back(*ours);
+        ++ours;
+      } else if (ours == result_.pairs.end() || theirs->pair < ours->pair) {
+        if (detector_complete() && !left_out(theirs->pair)) diff_.missing.push_back(*theirs);
+        ++theirs;
+      } else {
+        // A stopped run may know only later contacts of a pair than its first.
+        const WrongTime wrong{ours->pair, ours->time, theirs->time};
+        if (begins_after(ours->time, theirs->time, times_) && detector_complete()) {
+          diff_.late.push_back(wrong);
+        } else if (ends_before(ours->time, theirs->time, times_) && judgement_.complete) {
+          diff_.early.push_back(wrong);
+        }
+        ++ours;
+        ++theirs;
+      }
+    }
+    // Without all-pairs only the least time is claimed, of the pairs reported and of the step.
+    if (!claims_.all_pairs) diff_.late.clear();
+  }
+
+  void compare_answers() {
+    const bool collision = result_.answer == Answer::collision;
+    missed_ = result_.answer == Answer::free && !truth_.pairs.empty();
+    false_alarm_ = collision && judgement_.complete && judgement_.pairs.empty();
+    diff_.wrong_answer = missed_ || false_alarm_;
+    if (collision && !truth_.pairs.empty()) {
+      // Of a stopped oracle the first time is an upper bound.
+      late_ = begins_after(result_.first, truth_.first, times_);
+      diff_.wrong_first_time =
+          truth_.complete && (late_ || ends_before(result_.first, truth_.first, times_));
+    }
+    if (missed_ || late_) return;
+    for (const auto& contact : diff_.left_out) {
+      diff_.left_out_missed |= result_.answer == Answer::free ||
+                               (collision && begins_after(result_.first, contact.time, times_));
     }
   }
-  const auto excused = std::stable_partition(
-      diff.missing.begin(), diff.missing.end(), [&](const PairContact& contact) {
-        return contact.time == judgement.first && !reported_parts.count(graph.root(contact.pair.a));
-      });
-  diff.excused.assign(excused, diff.missing.end());
-  diff.missing.erase(excused, diff.missing.end());
-}
+
+  // What is left in unexcused_ of the missing pairs breaks first-pairs.
+  void excuse() {
+    unexcused_ = diff_.missing;
+    std::vector<PairContact> excused;
+    if (truth_.complete && !truth_.pairs.empty()) {
+      excuse_beside_the_first(truth_.pairs, truth_.first, unexcused_, excused);
+    } else if (result_.answer == Answer::collision) {
+      // Of a stopped oracle only what is earlier than the detector's first time is a miss for sure.
+      const auto later = std::stable_partition(
+          unexcused_.begin(), unexcused_.end(), [&](const PairContact& contact) {
+            return begins_after(result_.first, contact.time, times_);
+          });
+      excused.assign(later, unexcused_.end());
+      unexcused_.erase(later, unexcused_.end());
+    }
+    if (claims_.all_pairs) return;
+    diff_.missing = unexcused_;
+    diff_.excused = std::move(excused);
+  }
+
+  void broken(Claim claim, bool refuted) {
+    if (refuted && claims_.has(claim)) diff_.broken.push_back(claim);
+  }
+
+  void weigh() {
+    broken(Claim::free_sound, missed_);
+    broken(Claim::not_late, late_);
+    broken(Claim::first_time, diff_.wrong_first_time);
+    broken(Claim::first_pairs, !unexcused_.empty());
+    broken(Claim::all_pairs, !diff_.missing.empty() || !diff_.late.empty());
+    const bool spurious = false_alarm_ || !diff_.spurious.empty() || !diff_.early.empty();
+    broken(Claim::no_spurious, spurious && contract_.margin == 0);
+    diff_.outcome = !diff_.broken.empty() ? Outcome::defect
+                    : diff_.partial       ? Outcome::undecided
+                                          : Outcome::holds;
+  }
+
+  const detector::StepResult& result_;
+  const oracle::StepJudgement& judgement_;
+  const Claims& claims_;
+  const Contract& contract_;
+  Times times_;
+  Truth truth_;
+  bool missed_ = false, false_alarm_ = false, late_ = false;
+  std::vector<PairContact> unexcused_;
+  StepDiff diff_;
+};
 
 }  // namespace
 
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 detector::Pairs claimed) {
-  StepDiff diff;
-  if (result.answer == Answer::error) {
-    diff.outcome = Outcome::error;
-    return diff;
-  }
-  const bool detector_complete = result.answer != Answer::undecided;
-  diff.partial = !detector_complete || !judgement.complete;
+                 const Claims& claims, const Contract& contract,
+                 const detector::TrianglesView& triangles) {
+  return Comparison(result, judgement, claims, contract, Times::interval)
+      .run([&](TrianglePair pair) { return leaves_out(contract, triangles, pair); });
+}
 
-  auto ours = result.pairs.begin();
-  auto theirs = judgement.pairs.begin();
-  while (ours != result.pairs.end() || theirs != judgement.pairs.end()) {
-    if (theirs == judgement.pairs.end() ||
-        (ours != result.pairs.end() && ours->pair < theirs->pair)) {
-      // An oracle that was stopped has not refuted what it has not reached.
-      if (judgement.complete) diff.spurious.push_back(*ours);
-      ++ours;
-    } else if (ours == result.pairs.end() || theirs->pair < ours->pair) {
-      if (detector_complete) diff.missing.push_back(*theirs);
-      ++theirs;
-    } else {
-      // A stopped run may know only later contacts of a pair than its first.
-      if (theirs->time < ours->time && detector_complete) {
-        diff.late.push_back({ours->pair, ours->time, theirs->time});
-      } else if (ours->time < theirs->time && judgement.complete) {
-        diff.early.push_back({ours->pair, ours->time, theirs->time});
-      }
-      ++ours;
-      ++theirs;
-    }
-  }
-  if (claimed == detector::Pairs::first) {
-    // Only the least time is claimed, of the pairs reported and of the step.
-    diff.late.clear();
-    if (judgement.complete && judgement.answer == Answer::collision) {
-      excuse_later_pairs(judgement, diff);
-    } else if (result.answer == Answer::collision) {
-      // Of a stopped oracle only what is earlier than the detector's first time is a miss for sure.
-      const auto later = std::stable_partition(
-          diff.missing.begin(), diff.missing.end(),
-          [&](const PairContact& contact) { return contact.time < result.first; });
-      diff.excused.assign(later, diff.missing.end());
-      diff.missing.erase(later, diff.missing.end());
-    }
-  }
-  if (!diff.partial) {
-    diff.wrong_answer = result.answer != judgement.answer;
-    diff.wrong_first_time =
-        !diff.wrong_answer && result.answer == Answer::collision && result.first != judgement.first;
-  } else {
-    diff.wrong_answer = result.answer == Answer::free && !judgement.pairs.empty();
-  }
-  const bool defect = diff.wrong_answer || diff.wrong_first_time || !diff.missing.empty() ||
-                      !diff.spurious.empty() || !diff.late.empty() || !diff.early.empty();
-  diff.outcome = defect ? Outcome::defect : diff.partial ? Outcome::undecided : Outcome::holds;
-  return diff;
+StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
+                 detector::Pairs claimed) {
+  Claims claims = claims_of(claimed);
+  // Bad input is refused by name, which is an answer that nobody asked for, and no defect.
+  claims.total = false;
+  return Comparison(result, judgement, claims, {}, Times::unique).run([](TrianglePair) {
+    return false;
+  });
 }
 
 std::string stage_that_lost(const detector::TrianglesView& triangles,

@@ -7,6 +7,7 @@
 
 #include "detector/options.h"
 #include "oracle/step.h"
+#include "properties/claims.h"
 
 namespace assay::properties {
 
@@ -16,8 +17,7 @@ const char* name_of(Outcome outcome);
 const char* name_of(detector::Answer answer);
 const char* name_of(detector::FeatureKind kind);
 
-// A pair whose first time the detector has wrong. Both times are unique enclosures, so they agree
-// in every bit or not at all.
+// A pair whose first time the detector has wrong.
 struct WrongTime {
   detector::TrianglePair pair;
   detector::TimeEnclosure detector, oracle;
@@ -25,6 +25,7 @@ struct WrongTime {
 
 struct StepDiff {
   Outcome outcome = Outcome::holds;
+  std::vector<Claim> broken;  // claimed, and refuted by this step
   bool partial = false;       // detector or oracle was stopped: only what both reached is compared
   bool wrong_answer = false;  // free against a contact, or collision against none
   bool wrong_first_time = false;                // collision at both, first times differ
@@ -32,13 +33,31 @@ struct StepDiff {
   std::vector<detector::PairContact> excused;   // missing, but outside of what is claimed
   std::vector<detector::PairContact> spurious;  // of the detector, not of the oracle
   std::vector<WrongTime> late, early;           // late is unsafe
+
+  // Pairs in contact that the contract lets the detector leave out, and whether the leave is what
+  // saves the step from being a miss: else `free`, or the first time, would be wrong.
+  std::vector<detector::PairContact> left_out;
+  bool left_out_missed = false;
 };
 
-// Judges by the claims of the detector's options: with Pairs::all free-sound, first-time, all-pairs
-// and no-spurious; with Pairs::first a missing pair is excused when it is later than t* or when its
-// part of the contact graph at t* (triangles as nodes, pairs in contact at t* as edges) holds a
-// reported pair. Times that share an enclosure count as one time. An input error of the detector is
-// Outcome::error. O(n log n) in the number of pairs.
+// Judges a step by what its detector claims. The oracle's pairs outside of the contract's adjacency
+// do not count against the detector, and its first time t* is that of the others; a reported one of
+// them is not spurious. The detector's times are intervals: right when they hold the oracle's time,
+// late when they begin after it. A missing pair is excused, where all-pairs is not claimed, when it
+// is later than t* or when its part of the contact graph at t* (triangles as nodes, pairs in
+// contact at t* as edges) holds a reported pair. With a margin no-spurious is not judged. A step
+// that was answered by an error breaks `total`, or is Outcome::error where that is not claimed.
+// `deterministic` needs two runs: same_answers. O(n log n) in the number of pairs.
+//
+// What breaks a claim. free-sound: `free` against a contact. not-late: a first time that is late.
+// first-time: a first time that is wrong. first-pairs: a missing pair without excuse. all-pairs: a
+// missing or late pair. no-spurious: `collision` against none, a spurious or an early pair.
+StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
+                 const Claims& claims, const Contract& contract,
+                 const detector::TrianglesView& triangles);
+
+// The built-in detector, by claims_of(claimed): its times are the enclosures of exact arithmetic,
+// so each must agree in every bit. An input error is Outcome::error.
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  detector::Pairs claimed);
 

@@ -48,6 +48,15 @@ const char* name_of(Culling culling) {
   return "unknown";
 }
 
+std::map<std::string, std::string, std::less<>> options_text(const detector::Options& options) {
+  const char* start = options.start == detector::Start::verified ? "verified"
+                      : options.start == detector::Start::clean  ? "clean"
+                                                                 : "unknown";
+  return {{"culling", name_of(options.culling)},
+          {"start", start},
+          {"pairs", options.pairs == detector::Pairs::all ? "all" : "first"}};
+}
+
 namespace {
 
 std::string time_text(const detector::TimeEnclosure& t) {

@@ -35,6 +35,9 @@ std::optional<std::string> wrong_option(const corpus::Case& c);
 // Options of a case that wrong_option accepts.
 detector::Options options_of(const corpus::Case& c);
 
+// Options as a case states them.
+std::map<std::string, std::string, std::less<>> options_text(const detector::Options& options);
+
 // Command-line words for options: nothing for an unknown word.
 std::optional<detector::Culling> culling_named(std::string_view word);
 std::optional<detector::Start> start_named(std::string_view word);

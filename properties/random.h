@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace assay::properties {
 
@@ -11,6 +12,13 @@ class Random {
   Random(std::uint64_t seed, std::uint64_t index) : state_(seed ^ (index * 0xd1342543de82ef95u)) {
     next();
     next();
+  }
+  // The stream of a name, such as a case's id: FNV-1a, 64 bits.
+  explicit Random(std::string_view id) : Random(hash(id), 0) {}
+  static constexpr std::uint64_t hash(std::string_view text) {
+    std::uint64_t h = 0xcbf29ce484222325u;
+    for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return h;
   }
   std::uint64_t next() {
     state_ += 0x9e3779b97f4a7c15u;
@@ -22,6 +30,10 @@ class Random {
   // 0 .. n-1; n is small, so the bias of the remainder is below 2^-50.
   int below(int n) { return static_cast<int>(next() % static_cast<std::uint64_t>(n)); }
   int between(int lo, int hi) { return lo + below(hi - lo + 1); }
+  bool one_in(int n) { return below(n) == 0; }
+  // Multiples of 2^-30 in [0, 1) and in [-1, 1): exact, so sums of a few stay exact.
+  double unit() { return static_cast<double>(next() >> 34) * 0x1p-30; }
+  double signed_unit() { return 2 * unit() - 1; }
 
  private:
   std::uint64_t state_;

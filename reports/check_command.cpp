@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
-#include <iterator>
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "corpus/case_file.h"
-#include "corpus/mesh_reader.h"
-#include "detector/detector.h"
-#include "properties/case_check.h"
+#include "detector/mesh/mesh_checks.h"
+#include "detector/mesh/topology.h"
+#include "reports/check_input.h"
+#include "reports/check_outcome.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"
 #include "reports/json_output.h"
@@ -19,6 +17,7 @@
 #include "reports/progress.h"
 #include "reports/second_opinion_text.h"
 #include "reports/step_text.h"
+#include "reports/subject.h"
 
 namespace assay::reports {
 namespace {
@@ -26,86 +25,77 @@ namespace {
 using detector::Answer;
 using properties::Outcome;
 
-struct Input {
-  corpus::Sequence sequence;
-  std::optional<corpus::Case> as_case;  // when the input was a case file
-};
-
-corpus::Expected<Input> read_input(const std::vector<std::string>& files) {
-  if (files.size() == 1 && std::filesystem::path(files[0]).extension() == ".json") {
-    auto c = corpus::read_case(files[0]);
-    if (!c) return c.error();
-    if (auto wrong = properties::wrong_option(c.value())) {
-      return corpus::problem_in(corpus::FileProblem::wrong_type, files[0], *wrong);
-    }
-    return Input{{c.value().triangles, c.value().frames}, c.value()};
-  }
-  const std::vector<std::filesystem::path> paths(files.begin(), files.end());
-  auto sequence = corpus::read_sequence(paths);
-  if (!sequence) return sequence.error();
-  return Input{std::move(sequence.value()), std::nullopt};
-}
-
-detector::Options options_of(const CheckRequest& request, const Input& input) {
-  detector::Options options;
-  if (input.as_case) options = properties::options_of(*input.as_case);
-  options.culling = request.culling.value_or(options.culling);
-  options.start = request.start.value_or(options.start);
-  options.pairs = request.pairs.value_or(options.pairs);
-  return options;
-}
-
 class Check {
  public:
-  Check(const CheckRequest& request, const Input& input, detector::Detector detector,
-        const detector::Options& options)
+  Check(const CheckRequest& request, const CheckInput& input, detector::Topology mesh,
+        Subject& subject, Limits& limits)
       : request_(request),
-        input_(input),
-        detector_(std::move(detector)),
-        options_(options),
-        script_(input.as_case ? corpus::steps_of(*input.as_case)
-                              : corpus::consecutive_steps(input.sequence.frames.size())),
-        limits_(request.time_limit, request.memory_limit) {}
+        case_(input.c),
+        is_case_file_(input.is_case_file),
+        mesh_(std::move(mesh)),
+        subject_(subject),
+        script_(corpus::steps_of(input.c)),
+        limits_(limits) {}
 
   int run() {
     announce();
     nlohmann::ordered_json steps = nlohmann::ordered_json::array();
-    for (std::size_t s = 0; s < step_count(); ++s) {
-      steps.push_back(run_step(s));
-      if (refused_) return refuse(*refused_);
-      if (unsound_) break;
+    if (begin()) {
+      for (std::size_t s = 0; s < step_count(); ++s) {
+        steps.push_back(run_step(s));
+        if (refused_) return refuse(*refused_);
+        if (outcome_.unsound) break;
+      }
+      if (has_facts() && !outcome_.undecided) check_facts();
     }
-    if (input_.as_case && request_.use_oracle && !undecided_) check_facts();
-    summarise();
+    outcome_.limit_reached = limits_.reached();
+    fmt::print("{}", outcome_.summary(request_));
     if (!request_.json_file.empty()) {
       if (auto problem = write_json(std::move(steps))) return refuse(*problem);
     }
-    return exit_code();
+    return outcome_.exit_code(request_);
   }
 
  private:
   std::size_t step_count() const { return script_.size(); }
   const detector::Positions& start_of(std::size_t s) const {
-    return input_.sequence.frames[static_cast<std::size_t>(script_[s].from)];
+    return case_.frames[static_cast<std::size_t>(script_[s].from)];
   }
   const detector::Positions& end_of(std::size_t s) const {
-    return input_.sequence.frames[static_cast<std::size_t>(script_[s].to)];
+    return case_.frames[static_cast<std::size_t>(script_[s].to)];
   }
 
   void announce() const {
-    const auto& mesh = detector_.topology();
     std::size_t unclosed = 0;
-    for (const auto& component : mesh.components) unclosed += component.is_cycle ? 0 : 1;
-    fmt::print("{} triangles, {} vertices, {} component{}", mesh.triangles.size(),
-               input_.sequence.frames[0].rows(), mesh.components.size(),
-               mesh.components.size() == 1 ? "" : "s");
-    if (unclosed) fmt::print(" ({} unclosed: all dirty, answered without culling)", unclosed);
-    fmt::print("; {} step{}; culling {}{}{}\n", step_count(), step_count() == 1 ? "" : "s",
-               properties::name_of(options_.culling),
-               request_.use_oracle ? "" : "; no oracle: not judged",
+    for (const auto& component : mesh_.components) unclosed += component.is_cycle ? 0 : 1;
+    fmt::print("{} triangles, {} vertices, {} component{}", mesh_.triangles.size(),
+               case_.frames[0].rows(), mesh_.components.size(),
+               mesh_.components.size() == 1 ? "" : "s");
+    if (unclosed) {
+      fmt::print(" ({} unclosed{})", unclosed,
+                 request_.plugin_library.empty() ? ": all dirty, answered without culling" : "");
+    }
+    fmt::print("; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s",
+               subject_.title(), request_.use_oracle ? "" : "; no oracle: not judged",
                request_.time_limit ? fmt::format("; at most {} s", *request_.time_limit) : "");
     if (!request_.json_file.empty()) fmt::print("writes {}\n", request_.json_file);
     std::fflush(stdout);
+  }
+
+  // Whether there are steps to go through.
+  bool begin() {
+    const auto verdict = subject_.begin();
+    if (verdict.outcome == Outcome::holds) return true;
+    outcome_.ended = verdict.what;
+    for (const auto claim : verdict.broken) {
+      outcome_.ended +=
+          fmt::format("{}{}", outcome_.ended.empty() ? "broken: " : "; broken: ", name_of(claim));
+    }
+    fmt::print("the detector's run: {}\n", outcome_.ended);
+    outcome_.defect = verdict.outcome == Outcome::defect;
+    outcome_.undecided = !outcome_.defect;
+    // What only differs between two runs has steps to show.
+    return verdict.broken == std::vector<properties::Claim>{properties::Claim::deterministic};
   }
 
   nlohmann::ordered_json run_step(std::size_t s) {
@@ -117,16 +107,20 @@ class Check {
     const auto &x_t0 = start_of(s), &x_t1 = end_of(s);
 
     progress.phase("detector");
-    const detector::StepResult result = detect(s, x_t0, x_t1, stop);
+    const detector::StepResult result = subject_.answer(s, stop);
     if (result.answer == Answer::error) {
-      refused_ = fmt::format("step {}: {}", s + 1, result.problem->message);
-      return {};
+      const auto error = subject_.error_of(result);
+      if (error.refused) {
+        refused_ = fmt::format("step {}: {}", s + 1, error.message);
+        return {};
+      }
+      if (outcome_.ended.empty()) outcome_.ended = error.message;
     }
-    if (result.answer == Answer::collision && !collision_step_) {
-      collision_step_ = s;
-      collision_time_ = result.first;
+    if (result.answer == Answer::collision && !outcome_.collision_step) {
+      outcome_.collision_step = s;
+      outcome_.collision_time = result.first;
     }
-    undecided_ |= result.answer == Answer::undecided;
+    outcome_.undecided |= result.answer == Answer::undecided;
     if (!request_.use_oracle) {
       progress.finish();
       fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr));
@@ -136,10 +130,11 @@ class Check {
     progress.phase("oracle");
     double oracle_ms = 0;
     const oracle::StepJudgement judgement = judge(x_t0, x_t1, stop, oracle_ms);
-    const auto diff = properties::compare(result, judgement, options_.pairs);
+    const auto diff = subject_.judge(result, judgement);
     progress.finish();
-    defect_ |= diff.outcome == Outcome::defect;
-    undecided_ |= diff.outcome == Outcome::undecided;
+    outcome_.defect |= diff.outcome == Outcome::defect;
+    outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
+    outcome_.left_out_misses += diff.left_out_missed ? 1 : 0;
     fmt::print("{}", step_text(s + 1, result, &judgement, oracle_ms, &diff));
     if (diff.outcome == Outcome::defect) print_defect(s, diff);
     std::fflush(stdout);
@@ -158,7 +153,7 @@ class Check {
     const auto begin = std::chrono::steady_clock::now();
     oracle::SecondOpinion opinion;
     try {
-      opinion = oracle::second_opinion(start_of(s), end_of(s), input_.sequence.triangles, judgement,
+      opinion = oracle::second_opinion(start_of(s), end_of(s), case_.triangles, judgement,
                                        {share, request_.jobs, stop, {}});
     } catch (const std::bad_alloc&) {
       limits_.memory_failed();
@@ -167,9 +162,9 @@ class Check {
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     progress.finish();
     fmt::print("{}", second_opinion_text(opinion, milliseconds));
-    undecided_ |= !opinion.complete;
-    unsound_ = !opinion.contradictions.empty();
-    if (unsound_) fmt::print("  replay: {}\n", replay_line(s));
+    outcome_.undecided |= !opinion.complete;
+    outcome_.unsound = !opinion.contradictions.empty();
+    if (outcome_.unsound) fmt::print("  replay: {}\n", replay_line(s));
     std::fflush(stdout);
     return second_opinion_json(opinion, share, milliseconds);
   }
@@ -177,7 +172,7 @@ class Check {
   // The step alone, where each frame is a file of its own; the same queries are chosen again.
   std::string replay_line(std::size_t s) const {
     const auto& files = request_.files;
-    const bool file_a_frame = files.size() == input_.sequence.frames.size();
+    const bool file_a_frame = files.size() == case_.frames.size();
     std::string input;
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (!file_a_frame || i == s || i == s + 1) input += " " + files[i];
@@ -185,32 +180,12 @@ class Check {
     return fmt::format("assay check{} --second-opinion {}", input, *request_.second_opinion);
   }
 
-  detector::StepResult detect(std::size_t s, const detector::Positions& x_t0,
-                              const detector::Positions& x_t1, const detector::StopFunction& stop) {
-    std::vector<detector::ViewPrimitive> given;
-    if (input_.as_case) {
-      if (auto view = corpus::view_of_step(*input_.as_case, s)) {
-        if (options_.culling == detector::Culling::view_point) view->q1 = view->q0;
-        given.push_back(*view);
-      }
-    }
-    try {
-      return script_[s].commit ? detector_.step(x_t0, x_t1, given, stop)
-                               : detector_.evaluate(x_t0, x_t1, given, stop);
-    } catch (const std::bad_alloc&) {
-      limits_.memory_failed();
-      detector::StepResult result;
-      result.answer = Answer::undecided;
-      return result;
-    }
-  }
-
   oracle::StepJudgement judge(const detector::Positions& x_t0, const detector::Positions& x_t1,
                               const detector::StopFunction& stop, double& milliseconds) {
     const auto begin = std::chrono::steady_clock::now();
     oracle::StepJudgement judgement;
     try {
-      judgement = oracle::judge_step(x_t0, x_t1, input_.sequence.triangles, {request_.jobs, stop});
+      judgement = oracle::judge_step(x_t0, x_t1, case_.triangles, {request_.jobs, stop});
     } catch (const std::bad_alloc&) {
       limits_.memory_failed();
     }
@@ -222,85 +197,56 @@ class Check {
   void print_defect(std::size_t s, const properties::StepDiff& diff) const {
     if (diff.missing.empty()) return;
     const auto& lost = diff.missing.front();
-    fmt::print(
-        "  triangles {} and {} were lost at: {}\n", lost.pair.a, lost.pair.b,
-        properties::stage_that_lost(input_.sequence.triangles, start_of(s), end_of(s), lost.pair));
+    const std::string stage = subject_.stage_that_lost(s, lost.pair);
+    if (stage.empty()) return;
+    fmt::print("  triangles {} and {} were lost at: {}\n", lost.pair.a, lost.pair.b, stage);
+  }
+
+  // The facts of a case are the built-in detector's; a plug-in is judged by the oracle alone.
+  bool has_facts() const {
+    return is_case_file_ && request_.use_oracle && request_.plugin_library.empty();
   }
 
   // A case states what is true of it: an answer that differs is a defect.
   void check_facts() {
-    const auto report = properties::check_case(*input_.as_case, request_.culling, request_.jobs);
+    const auto report = properties::check_case(case_, request_.culling, request_.jobs);
     for (const auto& line : report.failed) fmt::print("expected facts: {}\n", line);
-    facts_differ_ = !report.failed.empty();
-    defect_ |= facts_differ_;
-  }
-
-  void summarise() const {
-    const std::string what =
-        collision_step_ ? fmt::format("collision at t = {} of step {}", time_text(collision_time_),
-                                      *collision_step_ + 1)
-                        : std::string(undecided_ ? "no collision found so far" : "no collision");
-    if (unsound_) {
-      fmt::print("{}; UNSOUND: oracle and second opinion contradict each other\n", what);
-    } else if (defect_) {
-      fmt::print(
-          "{}; DEFECT: {}\n", what,
-          facts_differ_ ? "the case's expected facts do not hold" : "detector and oracle differ");
-    } else if (undecided_) {
-      fmt::print("{}; undecided: {} reached\n", what,
-                 limits_.reached().empty() ? "a limit" : limits_.reached());
-    } else if (!request_.use_oracle) {
-      fmt::print("{}; not judged\n", what);
-    } else {
-      fmt::print("{}; detector and oracle agree\n", what);
-    }
+    outcome_.facts_differ = !report.failed.empty();
+    outcome_.defect |= outcome_.facts_differ;
   }
 
   std::optional<std::string> write_json(nlohmann::ordered_json steps) const {
-    const nlohmann::ordered_json report = {
-        {"schema", "assay-check/1"},
-        {"version", version_text()},
-        {"files", request_.files},
-        {"triangles", detector_.topology().triangles.size()},
-        {"components", detector_.topology().components.size()},
-        {"culling", properties::name_of(options_.culling)},
-        {"judged", request_.use_oracle},
-        {"outcome", outcome_text()},
-        {"limit_reached", limits_.reached().empty() ? nlohmann::ordered_json()
-                                                    : nlohmann::ordered_json(limits_.reached())},
-        {"peak_memory_bytes", peak_resident_bytes()},
-        {"steps", std::move(steps)}};
+    const auto or_null = [](const std::string& text) {
+      return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
+    };
+    const auto tested = subject_.to_json();
+    const nlohmann::ordered_json report = {{"schema", "assay-check/1"},
+                                           {"version", version_text()},
+                                           {"files", request_.files},
+                                           {"triangles", mesh_.triangles.size()},
+                                           {"components", mesh_.components.size()},
+                                           {"culling", tested["culling"]},
+                                           {"detector", tested["detector"]},
+                                           {"detector_ended", or_null(outcome_.ended)},
+                                           {"judged", request_.use_oracle},
+                                           {"outcome", outcome_.word(request_)},
+                                           {"limit_reached", or_null(limits_.reached())},
+                                           {"peak_memory_bytes", peak_resident_bytes()},
+                                           {"steps", std::move(steps)}};
     return write_text_file(
         request_.json_file,
         report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
 
-  const char* outcome_text() const {
-    if (unsound_) return "unsound";
-    if (!request_.use_oracle) return "not judged";
-    return properties::name_of(defect_      ? Outcome::defect
-                               : undecided_ ? Outcome::undecided
-                                            : Outcome::holds);
-  }
-
-  int exit_code() const {
-    if (unsound_) return exit_unsound;
-    if (defect_) return exit_defect;
-    if (undecided_) return exit_undecided;
-    if (request_.fail_on_collision && collision_step_) return exit_collision;
-    return exit_holds;
-  }
-
   const CheckRequest& request_;
-  const Input& input_;
-  detector::Detector detector_;
-  detector::Options options_;
+  const corpus::Case& case_;
+  bool is_case_file_;
+  detector::Topology mesh_;
+  Subject& subject_;
   std::vector<corpus::CaseStep> script_;
-  Limits limits_;
+  Limits& limits_;
   std::optional<std::string> refused_;
-  bool defect_ = false, undecided_ = false, unsound_ = false, facts_differ_ = false;
-  std::optional<std::size_t> collision_step_;
-  detector::TimeEnclosure collision_time_;
+  CheckOutcome outcome_;
 };
 
 }  // namespace
@@ -308,16 +254,20 @@ class Check {
 int run_check(const CheckRequest& request) {
   // Before the work, not after it.
   if (auto problem = cannot_write(request.json_file, request.files)) return refuse(*problem);
-  auto input = read_input(request.files);
+  auto input = read_check_input(request.files);
   if (!input) return refuse(input.error().message);
-  if (input.value().sequence.frames.size() < 2) {
-    return refuse("one frame only: a step needs two frames or more");
+  auto& c = input.value().c;
+  if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) {
+    return refuse(fmt::format("{}: {}", request.files[0], bad->message));
   }
-  const detector::Options options = options_of(request, input.value());
-  auto detector = detector::Detector::create(input.value().sequence.triangles,
-                                             input.value().sequence.frames[0], options);
-  if (!detector) return refuse(fmt::format("{}: {}", request.files[0], detector.error().message));
-  return Check(request, input.value(), std::move(detector.value()), options).run();
+  Limits limits(request.time_limit, request.memory_limit);
+  auto made = request.plugin_library.empty() ? make_built_in(request, input.value(), limits)
+                                             : make_plugin_subject(request, input.value());
+  if (const auto* problem = std::get_if<std::string>(&made)) return refuse(*problem);
+  auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());
+  return Check(request, input.value(), std::move(mesh), *std::get<std::unique_ptr<Subject>>(made),
+               limits)
+      .run();
 }
 
 }  // namespace assay::reports

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "detector/options.h"
+#include "properties/campaign/runner.h"
 
 namespace assay::reports {
 
@@ -15,6 +16,7 @@ struct CheckRequest {
   std::optional<detector::Culling> culling;  // default: the case's own, or view-point
   std::optional<detector::Start> start;
   std::optional<detector::Pairs> pairs;
+  std::string plugin_library;  // empty: the built-in detector
   bool use_oracle = true;
   std::optional<double> second_opinion;  // share in (0,1]; needs the oracle
   int jobs = 1;
@@ -58,6 +60,35 @@ struct SelfTestRequest {
   std::string replay;  // "family:seed:index"; empty: the whole self-test
 };
 int run_self_test(const SelfTestRequest& request);
+
+struct RunCommandRequest {
+  std::string campaign = "quick";  // a name or a file
+  std::uint64_t seed = 1;
+  std::optional<double> time_limit;  // seconds, in place of the campaign's
+  properties::Shard shard;
+  int jobs = 1;
+  std::string detector;  // a plug-in's library; empty: the built-in detector
+  std::string out;
+};
+int run_campaign(const RunCommandRequest& request);
+
+struct ReplayRequest {
+  std::string id_or_file;
+  std::string export_folder;  // empty: none
+  std::optional<detector::TrianglePair> why;
+  std::string detector;
+};
+int run_replay(const ReplayRequest& request);
+
+struct ShrinkRequest {
+  std::string file, out;
+  double seconds = 60;
+  std::string detector;
+};
+int run_shrink(const ShrinkRequest& request);
+
+// what: scenes, laws, faults, campaigns, failures (of the run stored in `folder`).
+int run_list(const std::string& what, const std::string& folder);
 
 // "assay 0.1.0 (CGAL 5.5.1, GMP ..., ...)"
 std::string version_text();

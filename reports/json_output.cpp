@@ -48,7 +48,10 @@ Json times_json(const std::vector<properties::WrongTime>& times) {
 }  // namespace
 
 Json to_json(const properties::StepDiff& diff) {
+  Json broken = Json::array();
+  for (const auto claim : diff.broken) broken.push_back(properties::name_of(claim));
   return {{"outcome", properties::name_of(diff.outcome)},
+          {"broken", std::move(broken)},
           {"partial", diff.partial},
           {"wrong_answer", diff.wrong_answer},
           {"wrong_first_time", diff.wrong_first_time},
@@ -56,7 +59,9 @@ Json to_json(const properties::StepDiff& diff) {
           {"excused", pairs_json(diff.excused)},
           {"spurious", pairs_json(diff.spurious)},
           {"late", times_json(diff.late)},
-          {"early", times_json(diff.early)}};
+          {"early", times_json(diff.early)},
+          {"left_out", diff.left_out.size()},
+          {"left_out_missed", diff.left_out_missed}};
 }
 
 Json step_json(const detector::StepResult& result, const oracle::StepJudgement* judgement,

@@ -89,12 +89,17 @@ void add_check(CLI::App& app, reports::CheckRequest& request) {
   verb->add_option("frames", request.files,
                    "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)")
       ->required();
+  auto* plugin = verb->add_option("--detector", request.plugin_library,
+                                  "Judge this plug-in (.so) by its claims, not the built-in");
   add_choice(verb, "--culling", request.culling, "view-point, view-line, bvh, none",
              properties::culling_named, "How the detector culls (default view-point)");
   add_choice(verb, "--start", request.start, "verified, clean, unknown", properties::start_named,
              "What is known of the first frame (default verified)");
   add_choice(verb, "--pairs", request.pairs, "all, first", properties::pairs_named,
              "Which pairs are asked for (default all)");
+  for (const char* of_the_built_in : {"--culling", "--start", "--pairs"}) {
+    plugin->excludes(verb->get_option(of_the_built_in));
+  }
   auto* no_oracle = verb->add_flag_callback(
       "--no-oracle", [&request] { request.use_oracle = false; },
       "Detector only; prints `not judged`");
@@ -156,6 +161,73 @@ void add_self_test(CLI::App& app, reports::SelfTestRequest& request) {
   verb->add_option("--replay", request.replay, "One case again, by its name family:seed:index");
 }
 
+// "2/8"
+std::optional<properties::Shard> parse_shard(const std::string& word) {
+  properties::Shard shard;
+  const auto slash = word.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  if (!CLI::detail::lexical_cast(word.substr(0, slash), shard.index) ||
+      !CLI::detail::lexical_cast(word.substr(slash + 1), shard.count)) {
+    return std::nullopt;
+  }
+  return shard.index >= 1 && shard.index <= shard.count ? std::optional(shard) : std::nullopt;
+}
+
+void add_run(CLI::App& app, reports::RunCommandRequest& request) {
+  auto* verb = app.add_subcommand(
+      "run", "A campaign of random cases: detector against oracle, laws, planted faults");
+  verb->add_option("--campaign", request.campaign,
+                   "smoke, quick, nightly, release, faults, or a campaign file (.json)")
+      ->capture_default_str();
+  verb->add_option("--seed", request.seed, "Of all random cases")->capture_default_str();
+  verb->add_option("--time", request.time_limit,
+                   "Seconds for all of it, in place of the campaign's own")
+      ->check(positive());
+  verb->add_option_function<std::string>(
+          "--shard", [&request](const std::string& word) { request.shard = *parse_shard(word); },
+          "I/N: the part of the cases that this run makes (default 1/1)")
+      ->check(one_of("I/N with 1 <= I <= N", parse_shard));
+  add_jobs(verb, request.jobs);
+  verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
+  verb->add_option("--out", request.out, "Folder for the store and the failing meshes")->required();
+}
+
+// "3,17"
+std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
+  detector::TrianglePair pair;
+  const auto comma = word.find(',');
+  if (comma == std::string::npos) return std::nullopt;
+  if (!CLI::detail::lexical_cast(word.substr(0, comma), pair.a) ||
+      !CLI::detail::lexical_cast(word.substr(comma + 1), pair.b) || pair.a == pair.b) {
+    return std::nullopt;
+  }
+  if (pair.a > pair.b) std::swap(pair.a, pair.b);
+  return pair;
+}
+
+void add_replay(CLI::App& app, reports::ReplayRequest& request) {
+  auto* verb = app.add_subcommand("replay", "One case of a campaign again, or a case file");
+  verb->add_option("case", request.id_or_file, "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file")
+      ->required();
+  verb->add_option("--export", request.export_folder,
+                   "Write frames as OBJ and a ready GoogleTest into this folder");
+  verb->add_option_function<std::string>(
+          "--why", [&request](const std::string& word) { request.why = parse_pair(word); },
+          "A,B: why this pair of triangles was or was not tested")
+      ->check(one_of("A,B: two triangles", parse_pair));
+  verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
+}
+
+void add_shrink(CLI::App& app, reports::ShrinkRequest& request) {
+  auto* verb = app.add_subcommand("shrink", "The smallest case that fails as a given one does");
+  verb->add_option("file", request.file, "A case file (.json)")->required();
+  verb->add_option("--out", request.out, "Where the smallest case goes")->required();
+  verb->add_option("--time", request.seconds, "Seconds at most")
+      ->check(positive())
+      ->capture_default_str();
+  verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Assay certifies continuous self-collision detectors for deforming triangle meshes.");
@@ -167,15 +239,23 @@ int run(int argc, char** argv) {
   reports::SceneRequest scene;
   reports::CertifyRequest certify;
   reports::SelfTestRequest self_test;
-  std::string listed = "scenes";
-  check.jobs = certify.jobs = self_test.jobs =
+  reports::RunCommandRequest campaign;
+  reports::ReplayRequest replay;
+  reports::ShrinkRequest shrink;
+  std::string listed = "scenes", listed_folder;
+  check.jobs = certify.jobs = self_test.jobs = campaign.jobs =
       static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   add_check(app, check);
   add_check_queries(app, queries);
   add_scene(app, scene);
   add_self_test(app, self_test);
-  auto* list = app.add_subcommand("list", "List what is shipped: scenes");
-  list->add_option("what", listed, "scenes")->check(CLI::IsMember({"scenes"}));
+  add_run(app, campaign);
+  add_replay(app, replay);
+  add_shrink(app, shrink);
+  auto* list = app.add_subcommand("list", "List scenes, laws, faults, campaigns, or failures");
+  list->add_option("what", listed, "scenes, laws, faults, campaigns, failures")
+      ->check(CLI::IsMember({"scenes", "laws", "faults", "campaigns", "failures"}));
+  list->add_option("folder", listed_folder, "Of a run, for failures");
   auto* certify_verb =
       app.add_subcommand("certify", "The shipped corpus and scenes through detector and oracle");
   certify_verb->add_option("--out", certify.out, "Folder for certify.json")->required();
@@ -202,8 +282,11 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("check-queries")) return reports::run_check_queries(queries);
   if (app.got_subcommand("scene")) return reports::run_scene(scene);
   if (app.got_subcommand("certify")) return reports::run_certify(certify);
+  if (app.got_subcommand("run")) return reports::run_campaign(campaign);
   if (app.got_subcommand("self-test")) return reports::run_self_test(self_test);
-  return reports::run_list_scenes();
+  if (app.got_subcommand("replay")) return reports::run_replay(replay);
+  if (app.got_subcommand("shrink")) return reports::run_shrink(shrink);
+  return reports::run_list(listed, listed_folder);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ using properties::Outcome;
 
 std::string time_text(const detector::TimeEnclosure& time) {
   if (time.lo == time.hi) return fmt::format("{}", time.lo);
-  return fmt::format("{:.9g}", time.lo);
+  const std::string lo = fmt::format("{:.9g}", time.lo), hi = fmt::format("{:.9g}", time.hi);
+  return lo == hi ? lo : fmt::format("[{}, {}]", lo, hi);
 }
 
 namespace {
@@ -31,6 +32,11 @@ std::string diff_text(const properties::StepDiff& diff) {
                                 diff.early.size(), diff.wrong_answer ? ", wrong answer" : "",
                                 diff.wrong_first_time ? ", wrong first time" : "",
                                 diff.partial ? " (partial)" : "");
+  if (!diff.broken.empty()) {
+    out += "  broken:";
+    for (const auto claim : diff.broken) out += fmt::format(" {}", properties::name_of(claim));
+    out += "\n";
+  }
   constexpr std::size_t most_listed = 10;
   const auto list = [&](const char* what, const std::vector<detector::PairContact>& pairs) {
     for (std::size_t i = 0; i < pairs.size() && i < most_listed; ++i) {

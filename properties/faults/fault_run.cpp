@@ -44,16 +44,6 @@ std::vector<StepResult> run_case(const corpus::Case& c, const Fault& fault) {
   return run_case(c, fault.options, fault.stages(fault.options));
 }
 
-std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, int jobs) {
-  std::vector<oracle::StepJudgement> judgements;
-  for (const auto& step : corpus::steps_of(c)) {
-    judgements.push_back(oracle::judge_step(c.frames[static_cast<std::size_t>(step.from)],
-                                            c.frames[static_cast<std::size_t>(step.to)],
-                                            c.triangles, {jobs, {}}));
-  }
-  return judgements;
-}
-
 std::optional<StepDefect> first_defect(std::span<const StepResult> results,
                                        std::span<const oracle::StepJudgement> judgements,
                                        detector::Pairs claimed) {

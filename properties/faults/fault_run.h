@@ -8,6 +8,7 @@
 #include "corpus/case_file.h"
 #include "properties/agreement.h"
 #include "properties/faults/fault.h"
+#include "properties/run_verdict.h"
 
 namespace assay::properties {
 
@@ -17,9 +18,6 @@ namespace assay::properties {
 std::vector<detector::StepResult> run_case(const corpus::Case& c, const detector::Options& options,
                                            const detector::Stages& stages);
 std::vector<detector::StepResult> run_case(const corpus::Case& c, const Fault& fault);
-
-// The oracle's part, which all faults and cullings share.
-std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, int jobs = 1);
 
 // A step at which a detector does not keep what its options claim.
 struct StepDefect {

@@ -79,6 +79,27 @@ TEST(House, DetectorNeedsOnlyEigenAndBoost) {
   }
 }
 
+// What the worker is made of, planted faults included: the detector under test must not reach what
+// judges it. fault_run is the side that judges.
+TEST(House, TheWorkerKnowsNoOracle) {
+  const std::regex judges("fault_run");
+  const std::regex may_use(
+      "^(detector/|corpus/case_file.h|properties/claims.h|properties/worker/|properties/faults/)");
+  std::vector<fs::path> files = {root / "properties/claims.h", root / "properties/claims.cpp"};
+  for (const auto* folder : {"properties/worker", "properties/faults"}) {
+    for (const auto& file : sources(folder)) {
+      if (!std::regex_search(file.filename().string(), judges)) files.push_back(file);
+    }
+  }
+  for (const auto& file : files) {
+    for (const auto& include : includes(file)) {
+      if (!fs::exists(root / include)) continue;
+      EXPECT_TRUE(std::regex_search(include, may_use) && !std::regex_search(include, judges))
+          << file << ": " << include;
+    }
+  }
+}
+
 TEST(House, CgalStaysOutOfHeadersAndInFewFiles) {
   std::set<std::string> users;
   for (const auto* room : {"detector", "oracle", "corpus", "properties", "reports"}) {
@@ -147,6 +168,8 @@ TEST(House, NoFastMathAndNoFusedArithmetic) {
     if (entry.path().filename() != "CMakeLists.txt" &&
         entry.path().filename() != "CMakePresets.json")
       continue;
+    // A plug-in built that way is there to be found out.
+    if (entry.path() == root / "tests/plugins/CMakeLists.txt") continue;
     std::ifstream in(entry.path());
     const std::string text(std::istreambuf_iterator<char>(in), {});
     EXPECT_EQ(text.find("-ffast-math"), std::string::npos) << entry.path();

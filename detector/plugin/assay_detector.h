@@ -1,0 +1,141 @@
+/* The C interface of a detector that wants to be certified: a shared library with one symbol,
+ * assay_detector(), which returns a table of functions. C99 or C++; no library is needed to build
+ * one. README.md beside this file has a complete example.
+ *
+ * A detector is told a mesh once and then steps of it: over t in [0,1] every vertex moves linearly
+ * from x_t0 to x_t1. It answers whether the mesh touches itself, when first, and which triangles.
+ * Two triangles are in contact when a vertex, edge or face of one meets one of the other that
+ * shares no vertex with it; touching counts, and so do t = 0 and t = 1. The doubles given are exact
+ * numbers, in the user's units of length. Times are fractions of the step.
+ *
+ * MEMORY. Nothing allocated on one side is freed on the other. Arrays that the host passes are
+ * valid during the call and must not be written. Arrays and texts that the detector returns are its
+ * own; they stay valid until the next call with the same handle.
+ *
+ * THREADS. A handle is used by one thread at a time; several handles may be used at once by
+ * different threads, so a detector keeps no mutable global data (or guards it).
+ *
+ * ERRORS are return codes. No exception, longjmp or exit() may cross this border: the host counts
+ * them as crashes. A call that fails changes nothing; the handle stays valid.
+ *
+ * ORDER. create; then any number of (evaluate, result, and commit where the host accepts the step);
+ * destroy. A step usually starts where the last committed one ended. When it starts elsewhere, it
+ * is a new start: nothing carried from earlier steps may be trusted.
+ *
+ * VERSIONS. abi_version is the first member of the table in every version and the host refuses
+ * another version than its own. Members are only ever added with a new version. */
+#ifndef ASSAY_DETECTOR_H
+#define ASSAY_DETECTOR_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define ASSAY_DETECTOR_ABI_VERSION 1u
+
+#if defined(_WIN32)
+#define ASSAY_DETECTOR_EXPORT __declspec(dllexport)
+#else
+#define ASSAY_DETECTOR_EXPORT __attribute__((visibility("default")))
+#endif
+
+/* Return codes. */
+enum {
+  ASSAY_OK = 0,
+  ASSAY_REFUSED = 1,       /* the input is outside of what this detector takes */
+  ASSAY_OUT_OF_MEMORY = 2, /* the step counts as undecided */
+  ASSAY_FAILED = 3         /* anything else */
+};
+
+/* What the detector claims; it is judged by that and no more. t* is the first contact time. */
+enum {
+  ASSAY_CLAIM_FREE_SOUND = 1u << 0,    /* never `free` when there is a contact */
+  ASSAY_CLAIM_NOT_LATE = 1u << 1,      /* first_lo <= t* */
+  ASSAY_CLAIM_FIRST_TIME = 1u << 2,    /* first_lo <= t* <= first_hi */
+  ASSAY_CLAIM_FIRST_PAIRS = 1u << 3,   /* each connected part of the contact graph at t* (triangles
+                                          as nodes, contacts as edges) holds a reported pair */
+  ASSAY_CLAIM_ALL_PAIRS = 1u << 4,     /* every pair in contact during the step, none too late */
+  ASSAY_CLAIM_NO_SPURIOUS = 1u << 5,   /* no collision, pair or contact time before there is one */
+  ASSAY_CLAIM_DETERMINISTIC = 1u << 6, /* the same calls give the same results */
+  ASSAY_CLAIM_TOTAL = 1u << 7          /* every valid input within the limits is answered */
+};
+
+/* Which neighbours are tested against each other; contacts of the others are not held against the
+ * detector, and counted. */
+enum {
+  ASSAY_ADJACENCY_ALL = 0,              /* every pair of triangles */
+  ASSAY_ADJACENCY_NOT_EDGE_SHARING = 1, /* pairs that share at most one vertex */
+  ASSAY_ADJACENCY_NO_SHARED_VERTEX = 2  /* pairs that share nothing */
+};
+
+enum {
+  ASSAY_COORDINATES_FLOAT64 = 0,
+  ASSAY_COORDINATES_FLOAT32 = 1 /* every coordinate is a float32 in a double: it was rounded before
+                                   the detector and the oracle see it */
+};
+
+typedef struct assay_description {
+  const char* name;    /* one line, not empty */
+  const char* version; /* one line */
+  uint32_t claims;     /* ASSAY_CLAIM_..., or-ed */
+  int32_t adjacency;   /* ASSAY_ADJACENCY_... */
+  int32_t coordinates; /* ASSAY_COORDINATES_... */
+  double margin;       /* distance at which triangles count as touching, user's units; finite, >= 0.
+                          Above 0 no-spurious is not judged */
+} assay_description;
+
+/* The detector's own data of one mesh. */
+typedef struct assay_handle assay_handle;
+
+enum { ASSAY_FREE = 0, ASSAY_COLLISION = 1, ASSAY_UNDECIDED = 2, ASSAY_ERROR = 3 };
+
+/* The host sets all to 0 before the call. */
+typedef struct assay_result {
+  int32_t answer;           /* ASSAY_FREE, ... */
+  double first_lo;          /* with ASSAY_COLLISION: an interval of the first contact time, */
+  double first_hi;          /* 0 <= first_lo <= first_hi <= 1. [0, 1] states nothing */
+  uint64_t pair_count;      /* pairs of triangles in contact; any order, each once or more */
+  const int32_t* pairs;     /* pair_count x 2 triangle indices; may be NULL when there are none */
+  const double* pair_times; /* pair_count x 2, lo and hi of each pair's first contact; NULL when not
+                               known: then pairs are judged without times */
+  const char* message;      /* with ASSAY_ERROR: one line, or NULL */
+} assay_result;
+
+typedef struct assay_detector_api {
+  uint32_t abi_version; /* ASSAY_DETECTOR_ABI_VERSION */
+
+  /* Valid as long as the library is loaded; the same at every call. */
+  const assay_description* (*describe)(void);
+
+  /* triangles: triangle_count x 3 vertex indices, counter-clockwise seen from outside; positions:
+   * vertex_count x 3 doubles of the first frame. Both must be copied if they are needed later. The
+   * mesh may be open, of several parts, or already in contact with itself. With a return code other
+   * than ASSAY_OK *handle is left alone, and *message may be set to a line of static text. */
+  int32_t (*create)(const int32_t* triangles, uint64_t triangle_count, const double* positions,
+                    uint64_t vertex_count, assay_handle** handle, const char** message);
+
+  /* Answers the step; state that is carried from step to step is left alone. x_t0, x_t1:
+   * vertex_count x 3 doubles, finite. */
+  int32_t (*evaluate)(assay_handle* handle, const double* x_t0, const double* x_t1);
+
+  /* Accepts the step evaluated last: state advances to its end. */
+  int32_t (*commit)(assay_handle* handle);
+
+  /* Of the step evaluated last. */
+  int32_t (*result)(assay_handle* handle, assay_result* result);
+
+  /* Frees the handle. */
+  void (*destroy)(assay_handle* handle);
+} assay_detector_api;
+
+/* The one symbol that a plug-in exports. Returns a table that is valid as long as the library is
+ * loaded. */
+ASSAY_DETECTOR_EXPORT const assay_detector_api* assay_detector(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

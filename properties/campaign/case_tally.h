@@ -1,0 +1,35 @@
+// What a campaign counts of a case besides its verdict: tags, set pairs of contacts, laws.
+#pragma once
+
+#include <span>
+
+#include "properties/campaign/record.h"
+#include "properties/generators/generated_case.h"
+#include "properties/laws/law.h"
+#include "properties/reducer/reducer.h"
+#include "properties/worker/case_run.h"
+
+namespace assay::properties {
+
+// A law that a case breaks.
+struct BrokenLaw {
+  std::string law, configuration, what;
+};
+
+struct CaseTally {
+  // "tag:NAME": 1 for each tag. "block:NAME", "first:NAME": contacts, and first contacts, by the
+  // view sets of their two triangles, seen from the view-point. "law:NAME/premise", "/close",
+  // "/broken": steps (law.h).
+  Counts counts;
+  std::vector<BrokenLaw> broken;
+};
+
+// With laws, each configuration that has view sets and asks for all pairs goes through them.
+CaseTally tally_case(const GeneratedCase& made, std::span<const Configuration> configurations,
+                     std::span<const CaseRun> runs, std::span<const oracle::StepJudgement> truth,
+                     bool with_laws);
+
+// The reducer's judge for a law, in a configuration of the built-in detector.
+Judge judge_of_law(const Law& law, const Configuration& configuration);
+
+}  // namespace assay::properties

@@ -1,0 +1,182 @@
+#include "properties/campaign/fault_hunt.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <thread>
+
+#include "properties/campaign/explicit_view.h"
+#include "properties/faults/fault_run.h"
+#include "properties/generators/families.h"
+
+namespace assay::properties {
+
+bool FaultResult::found() const {
+  return by_curated ||
+         std::any_of(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
+}
+
+std::optional<std::uint64_t> FaultResult::median() const {
+  if (needed.empty()) return std::nullopt;
+  auto sorted = needed;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto& a, const auto& b) { return a && (!b || *a < *b); });
+  return sorted[(sorted.size() - 1) / 2];
+}
+
+std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& c,
+                                        const std::vector<oracle::StepJudgement>& truth) {
+  const Configuration configuration{std::string(fault.name), fault.options};
+  CaseRun run;
+  run.steps = run_case(c, fault);
+  if (run.steps.empty()) return std::nullopt;  // refused: such a case shows nothing
+  auto verdict = judge_trial(c, truth, run, configuration, built_in_detector());
+  if (verdict.failure) verdict.failure->stage = fault.stage;
+  return verdict.failure;
+}
+
+Judge judge_of_fault(const Fault& fault) {
+  return [&fault](const corpus::Case& c) -> std::optional<Finding> {
+    const auto failure = failure_of_fault(fault, c, judge_case(c));
+    if (!failure) return std::nullopt;
+    return finding_of(*failure);
+  };
+}
+
+namespace {
+
+class Hunt {
+ public:
+  Hunt(const FaultHunt& hunt, std::span<const Fault> faults, RunDeadline deadline,
+       const std::function<void(const std::string&)>& progress)
+      : hunt_(hunt), deadline_(deadline), progress_(progress) {
+    for (const auto& fault : faults) results_.push_back({&fault, false, {}, {}, {}});
+  }
+
+  std::vector<FaultResult> run() {
+    if (!hunt_.curated.empty()) try_curated();
+    for (int s = 1; s <= hunt_.seeds && !over(); ++s) run_seed(s);
+    return std::move(results_);
+  }
+
+ private:
+  static constexpr std::uint64_t chunk = 64;  // cases judged between two looks at what is found
+
+  bool over() const { return std::chrono::steady_clock::now() >= deadline_; }
+
+  void try_curated() {
+    for (auto& result : results_) {
+      if (result.fault->curated.empty()) continue;
+      const auto c =
+          corpus::read_case(hunt_.curated / (std::string(result.fault->curated) + ".json"));
+      if (!c) continue;
+      result.by_curated =
+          failure_of_fault(*result.fault, c.value(), judge_case(c.value())).has_value();
+    }
+  }
+
+  // The cases of a seed, families in turn.
+  GeneratedCase case_of(int seed, std::uint64_t place) const {
+    const auto known = families();
+    const Family& family = known[place % known.size()];
+    return make_case(family, fmt::format("{}:{}.f{}:{}:{}", hunt_.campaign, hunt_.seed, seed,
+                                         family.name, place / known.size()));
+  }
+
+  void run_seed(int seed) {
+    std::vector<std::optional<std::uint64_t>> found(results_.size());
+    for (std::uint64_t begin = 0; begin < hunt_.cases && !over(); begin += chunk) {
+      const std::uint64_t end = std::min(hunt_.cases, begin + chunk);
+      run_chunk(seed, begin, end, found);
+      const auto left =
+          static_cast<std::size_t>(std::count(found.begin(), found.end(), std::nullopt));
+      if (progress_) {
+        progress_(fmt::format("seed {}: {} cases, {} of {} faults still hidden", seed, end, left,
+                              found.size()));
+      }
+      const bool all_planted_found = std::all_of(results_.begin(), results_.end(), [&](auto& r) {
+        return r.fault->status != FaultStatus::planted ||
+               found[static_cast<std::size_t>(&r - results_.data())];
+      });
+      // Equivalent and open ones must have had their share of cases too.
+      if (all_planted_found && end >= hunt_.cases / 4) break;
+    }
+    for (std::size_t f = 0; f < results_.size(); ++f) {
+      results_[f].needed.push_back(found[f] ? std::optional(*found[f] + 1) : std::nullopt);
+      if (found[f] && !results_[f].shown_by) results_[f].shown_by = case_of(seed, *found[f]).c;
+    }
+  }
+
+  void run_chunk(int seed, std::uint64_t begin, std::uint64_t end,
+                 std::vector<std::optional<std::uint64_t>>& found) {
+    std::vector<std::uint64_t> first(found.size(), end);
+    std::mutex mutex;
+    std::uint64_t next = begin;
+    const auto work = [&] {
+      while (true) {
+        std::uint64_t place = 0;
+        {
+          const std::lock_guard lock(mutex);
+          if (next >= end || over()) return;
+          place = next++;
+        }
+        const auto made = case_of(seed, place);
+        const auto truth = judge_case(made.c);
+        for (std::size_t f = 0; f < found.size(); ++f) {
+          if (found[f] || !failure_of_fault(*results_[f].fault, made.c, truth)) continue;
+          const std::lock_guard lock(mutex);
+          first[f] = std::min(first[f], place);
+        }
+      }
+    };
+    std::vector<std::thread> threads;
+    for (int j = 0; j < hunt_.jobs; ++j) threads.emplace_back(work);
+    for (auto& thread : threads) thread.join();
+    for (std::size_t f = 0; f < found.size(); ++f) {
+      if (!found[f] && first[f] < end) found[f] = first[f];
+    }
+  }
+
+  const FaultHunt& hunt_;
+  const RunDeadline deadline_;
+  const std::function<void(const std::string&)>& progress_;
+  std::vector<FaultResult> results_;
+};
+
+}  // namespace
+
+std::vector<FaultResult> hunt_faults(const FaultHunt& hunt, std::span<const Fault> faults,
+                                     RunDeadline deadline,
+                                     const std::function<void(const std::string&)>& progress) {
+  return Hunt(hunt, faults, deadline, progress).run();
+}
+
+void shrink_faults(std::vector<FaultResult>& results, const ReduceLimits& limits, int jobs,
+                   RunDeadline deadline, const std::function<void(const std::string&)>& progress) {
+  std::mutex mutex;
+  std::size_t next = 0;
+  const auto work = [&] {
+    while (true) {
+      FaultResult* result = nullptr;
+      {
+        const std::lock_guard lock(mutex);
+        if (next >= results.size() || std::chrono::steady_clock::now() >= deadline) return;
+        result = &results[next++];
+      }
+      if (!result->shown_by) continue;
+      const auto options = result->fault->options;
+      result->reduction =
+          reduce(*result->shown_by, judge_of_fault(*result->fault), limits, {},
+                 [&options](const corpus::Case& c) { return with_explicit_view(c, options); });
+      if (!progress) continue;
+      const std::lock_guard lock(mutex);
+      progress(fmt::format("{} shrunk", result->fault->name));
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int j = 0; j < jobs; ++j) threads.emplace_back(work);
+  for (auto& thread : threads) thread.join();
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,195 @@
+#include "properties/campaign/plan.h"
+
+#include <algorithm>
+#include <boost/outcome/try.hpp>
+#include <nlohmann/json.hpp>
+
+#include "corpus/file_bytes.h"
+#include "corpus/json_fields.h"
+#include "corpus/json_text.h"
+#include "properties/generators/families.h"
+
+namespace assay::properties {
+namespace {
+
+constexpr const char* schema = "assay-campaign/1";
+
+// The same number of cases for generic families, and for the others.
+std::vector<StratumPlan> strata(std::uint64_t generic, std::uint64_t others, double generic_bound,
+                                double other_bound) {
+  std::vector<StratumPlan> list;
+  for (const auto& family : families()) {
+    const bool is_generic = family.name.ends_with("-generic");
+    list.push_back({std::string(family.name), is_generic ? generic : others,
+                    is_generic ? generic_bound : other_bound});
+  }
+  return list;
+}
+
+std::vector<CampaignPlan> make_named_plans() {
+  constexpr double minute = 60, hour = 60 * minute;
+  CampaignPlan smoke;
+  smoke.name = "smoke";
+  smoke.about = "a short form of all of it, in 2 minutes";
+  smoke.strata = strata(600, 200, 0, 0);
+  smoke.seconds = 2 * minute;
+  smoke.law_premises = 20;
+  smoke.fault_cases = 300;
+  smoke.fault_seeds = 1;
+  smoke.tetrahedron_seconds = 5;
+
+  CampaignPlan quick;
+  quick.name = "quick";
+  quick.about = "all claims, laws and planted faults, in at most 10 minutes on 2 cores";
+  quick.strata = strata(4000, 1500, 5e-3, 5e-2);
+  quick.seconds = 10 * minute;
+  quick.law_premises = 1000;
+  quick.fault_cases = 4000;
+  quick.fault_seeds = 3;
+  quick.tetrahedron_seconds = 40;
+
+  CampaignPlan nightly = quick;
+  nightly.name = "nightly";
+  nightly.about = "one night";
+  nightly.strata = strata(30'000, 20'000, 1e-3, 1e-3);
+  nightly.seconds = 8 * hour;
+  nightly.laws_every = 4;
+  nightly.fault_cases = 20'000;
+  nightly.fault_seeds = 5;
+  nightly.tetrahedron_seconds = 5 * minute;
+
+  CampaignPlan release = nightly;
+  release.name = "release";
+  release.about = "before a release; best in shards";
+  release.strata = strata(120'000, 60'000, 2e-4, 2e-4);
+  release.seconds = 72 * hour;
+
+  CampaignPlan faults;
+  faults.name = "faults";
+  faults.about = "planted faults alone: how many cases each takes, and how small its mesh becomes";
+  faults.seconds = hour;
+  faults.fault_cases = 20'000;
+  faults.fault_seeds = 3;
+  faults.shrink_faults = true;
+  return {smoke, quick, nightly, release, faults};
+}
+
+class PlanReader {
+ public:
+  explicit PlanReader(corpus::JsonField top) : top_(std::move(top)) {}
+
+  corpus::Expected<CampaignPlan> read() {
+    BOOST_OUTCOME_TRY(schema_field, top_.at("schema"));
+    if (schema_field.json() != schema) {
+      return schema_field.problem(std::string(schema) + " expected",
+                                  corpus::FileProblem::wrong_schema);
+    }
+    BOOST_OUTCOME_TRY(name_field, top_.at("name"));
+    BOOST_OUTCOME_TRY(name, name_field.text());
+    plan_.name = name;
+    if (name.empty() || name.find(':') != std::string::npos) {
+      return name_field.problem("a name without ':' expected");
+    }
+    BOOST_OUTCOME_TRY(read_strata());
+    BOOST_OUTCOME_TRY(read_number("seconds", plan_.seconds));
+    BOOST_OUTCOME_TRY(read_number("case_seconds", plan_.case_seconds));
+    BOOST_OUTCOME_TRY(read_number("tetrahedron_seconds", plan_.tetrahedron_seconds));
+    BOOST_OUTCOME_TRY(read_number("shrink_share", plan_.shrink_share));
+    BOOST_OUTCOME_TRY(read_count("laws_every", plan_.laws_every));
+    BOOST_OUTCOME_TRY(read_count("law_premises", plan_.law_premises));
+    BOOST_OUTCOME_TRY(read_count("fault_cases", plan_.fault_cases));
+    auto seeds = static_cast<std::uint64_t>(plan_.fault_seeds);
+    BOOST_OUTCOME_TRY(read_count("fault_seeds", seeds));
+    plan_.fault_seeds = static_cast<int>(seeds);
+    if (plan_.seconds <= 0) return top_.problem("seconds above 0 expected");
+    return plan_;
+  }
+
+ private:
+  corpus::Expected<void> read_strata() {
+    BOOST_OUTCOME_TRY(field, top_.at("strata"));
+    BOOST_OUTCOME_TRY(size, field.size());
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto item = field.item(i);
+      StratumPlan stratum;
+      BOOST_OUTCOME_TRY(family_field, item.at("family"));
+      BOOST_OUTCOME_TRY(family, family_field.text());
+      const auto known = families();
+      if (std::none_of(known.begin(), known.end(),
+                       [&](const Family& f) { return f.name == family; })) {
+        return family_field.problem("no family of this name");
+      }
+      stratum.family = family;
+      BOOST_OUTCOME_TRY(cases_field, item.at("cases"));
+      BOOST_OUTCOME_TRY(cases, cases_field.integer(0, most_cases));
+      stratum.cases = static_cast<std::uint64_t>(cases);
+      if (item.has("bound")) {
+        BOOST_OUTCOME_TRY(bound_field, item.at("bound"));
+        BOOST_OUTCOME_TRY(bound, bound_field.number());
+        if (bound < 0 || bound >= 1) return bound_field.problem("0 <= bound < 1 expected");
+        stratum.wanted_bound = bound;
+      }
+      plan_.strata.push_back(std::move(stratum));
+    }
+    return boost::outcome_v2::success();
+  }
+
+  corpus::Expected<void> read_number(const char* key, double& value) {
+    if (!top_.has(key)) return boost::outcome_v2::success();
+    BOOST_OUTCOME_TRY(field, top_.at(key));
+    BOOST_OUTCOME_TRY(number, field.number());
+    if (number < 0) return field.problem("a number of at least 0 expected");
+    value = number;
+    return boost::outcome_v2::success();
+  }
+
+  corpus::Expected<void> read_count(const char* key, std::uint64_t& value) {
+    if (!top_.has(key)) return boost::outcome_v2::success();
+    BOOST_OUTCOME_TRY(field, top_.at(key));
+    BOOST_OUTCOME_TRY(number, field.integer(0, most_cases));
+    value = static_cast<std::uint64_t>(number);
+    return boost::outcome_v2::success();
+  }
+
+  static constexpr std::int64_t most_cases = 1'000'000'000;
+  corpus::JsonField top_;
+  CampaignPlan plan_;
+};
+
+}  // namespace
+
+const std::vector<CampaignPlan>& named_plans() {
+  static const std::vector<CampaignPlan> plans = make_named_plans();
+  return plans;
+}
+
+corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file) {
+  for (const auto& plan : named_plans()) {
+    if (plan.name == name_or_file) return plan;
+  }
+  BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(name_or_file));
+  const std::filesystem::path file(name_or_file);
+  BOOST_OUTCOME_TRY(json, corpus::parse_json(bytes, file));
+  return PlanReader(corpus::JsonField(json, file)).read();
+}
+
+std::string plan_text(const CampaignPlan& plan) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& s : plan.strata) {
+    list.push_back({{"family", s.family}, {"cases", s.cases}, {"bound", s.wanted_bound}});
+  }
+  return nlohmann::ordered_json{{"schema", schema},
+                                {"name", plan.name},
+                                {"strata", std::move(list)},
+                                {"seconds", plan.seconds},
+                                {"case_seconds", plan.case_seconds},
+                                {"laws_every", plan.laws_every},
+                                {"law_premises", plan.law_premises},
+                                {"fault_cases", plan.fault_cases},
+                                {"fault_seeds", plan.fault_seeds},
+                                {"tetrahedron_seconds", plan.tetrahedron_seconds},
+                                {"shrink_share", plan.shrink_share}}
+      .dump();
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,44 @@
+// What a campaign consists of: fixed before it runs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "corpus/problem.h"
+
+namespace assay::properties {
+
+// One family of cases. Each case is a trial of every configuration of the detector.
+struct StratumPlan {
+  std::string family;       // name in families()
+  std::uint64_t cases = 0;  // n, fixed beforehand
+  double wanted_bound = 0;  // on the share of defects; 0: none is wanted
+};
+
+struct CampaignPlan {
+  std::string name, about;
+  std::vector<StratumPlan> strata;
+  double seconds = 0;              // of the whole run; trials left over make it incomplete
+  double case_seconds = 10;        // of one case in one configuration; then it hangs: undecided
+  std::uint64_t laws_every = 1;    // every k-th case of a family goes through the laws
+  std::uint64_t law_premises = 0;  // each law's premise must hold at least so often
+  std::uint64_t fault_cases = 0;   // a planted fault must show within so many cases of a seed
+  int fault_seeds = 0;             // seeds over which the median is taken
+  bool shrink_faults = false;      // also shrink what each planted fault shows
+  double tetrahedron_seconds = 0;  // of the exhaustive world
+  double shrink_share = 0.2;       // of `seconds`, at most, for shrinking failures
+};
+
+// smoke, quick, nightly, release, faults.
+const std::vector<CampaignPlan>& named_plans();
+
+// A plan by its name, or from a file: schema `assay-campaign/1`, see properties/README.md.
+corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file);
+
+// The same plan, the same text: what a store is bound to.
+std::string plan_text(const CampaignPlan& plan);
+
+}  // namespace assay::properties

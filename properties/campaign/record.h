@@ -1,0 +1,53 @@
+// What a campaign keeps of each trial, and sums of it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "properties/agreement.h"
+
+namespace assay::properties {
+
+// Named counts: laws, tags, blocks of set pairs.
+using Counts = std::map<std::string, std::uint64_t, std::less<>>;
+
+void add(Counts& sum, const Counts& more);
+// "name=3;other=1", names free of ';'; and back.
+std::string counts_text(const Counts& counts);
+Counts parse_counts(std::string_view text);
+
+struct TrialRecord {
+  std::string id;  // campaign:seed:family:index
+  std::string family;
+  std::uint64_t index = 0;
+  std::string outcomes;  // one letter a configuration: H(olds) D(efect) U(ndecided) E(rror)
+  std::uint64_t triangles = 0, steps = 0, collisions = 0, pairs = 0;
+  std::uint64_t oracle_us = 0, detector_us = 0;
+  Counts counts;  // "law:..", "tag:..", "block:.."
+};
+
+char letter_of(Outcome outcome);
+
+// Sums over the trials of one family.
+struct StratumTally {
+  std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
+  std::uint64_t oracle_us = 0, detector_us = 0;
+  struct Outcomes {
+    std::uint64_t holds = 0, defects = 0, undecided = 0, errors = 0;
+  };
+  std::vector<Outcomes> by_configuration;
+  std::map<int, std::uint64_t> sizes;     // cases by floor(log2(triangles))
+  std::map<int, std::uint64_t> contacts;  // cases by floor(log2(pairs)), -1: none
+  void add(const TrialRecord& record);
+};
+
+struct Tally {
+  std::map<std::string, StratumTally, std::less<>> strata;  // by family
+  Counts counts;
+  void add(const TrialRecord& record);
+};
+
+}  // namespace assay::properties

@@ -1,0 +1,59 @@
+// The trials and failures of one shard, in one file: SQLite, safe under a kill at any moment.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "properties/campaign/record.h"
+
+namespace assay::properties {
+
+// A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
+struct StoredFailure {
+  std::string id;  // of the trial
+  std::string configuration, signature, what;
+  std::string mesh;
+  std::string smallest;  // empty: not shrunk
+  bool flaky = false;    // two runs of it differ: a failure of its own
+};
+
+class Store {
+ public:
+  // Opens or makes the file. `binding` says what the trials are of (plan, seed, shard, detector):
+  // a file that was made for another one is refused. Nothing, and `problem` set, on failure.
+  static std::optional<Store> open(const std::filesystem::path& file, const std::string& binding,
+                                   std::string& problem);
+  // An existing file, whatever it was made for.
+  static std::optional<Store> read(const std::filesystem::path& file, std::string& problem);
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+  ~Store();
+
+  std::string binding() const;
+
+  // Each is whole on disk when it returns. Throws std::runtime_error when the disk is full or the
+  // file cannot be written any more. Not for several threads at once.
+  void add(const TrialRecord& record);
+  void add(const StoredFailure& failure);
+  void set_smallest(const StoredFailure& failure);  // by id and configuration
+  void set_note(const std::string& key, const std::string& value);
+
+  bool has_trial(const std::string& id) const;
+  std::optional<std::string> note(const std::string& key) const;
+  void for_each_trial(const std::function<void(const TrialRecord&)>& visit) const;
+  std::vector<StoredFailure> failures() const;  // by signature, then id
+  // How many failures of each signature were met, kept or not.
+  Counts signatures() const;
+  void count_signature(const std::string& signature);
+
+ private:
+  struct Parts;
+  explicit Store(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace assay::properties

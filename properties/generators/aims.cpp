@@ -1,0 +1,183 @@
+#include "properties/generators/aims.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace assay::properties {
+namespace {
+
+bool has(const Face& f, std::int32_t v) { return f[0] == v || f[1] == v || f[2] == v; }
+
+struct Aimed {
+  std::int32_t vertex = 0;
+  Face target{};
+};
+
+class Aimer {
+ public:
+  Aimer(Random& random, Draft& draft)
+      : random_(random),
+        draft_(draft),
+        step_(static_cast<std::size_t>(random.below(static_cast<int>(draft.frames.size()) - 1))) {}
+
+  Points& x_t0() { return draft_.frames[step_]; }
+  Points& x_t1() { return draft_.frames[step_ + 1]; }
+
+  // A vertex of the mesh and a face beside it that does not hold it: the nearest of a few.
+  std::optional<Aimed> choose() {
+    const Face& own = any_of(random_, draft_.faces);
+    const std::int32_t v = own[static_cast<std::size_t>(random_.below(3))];
+    const Point& from = at(x_t0(), v);
+    std::optional<Aimed> best;
+    double nearest = 0;
+    for (int tries = random_.one_in(3) ? 2 : 12; tries > 0; --tries) {
+      const Face& f = any_of(random_, draft_.faces);
+      if (has(f, v)) continue;
+      const Point offset = at(x_t0(), f[0]) + at(x_t0(), f[1]) - 2 * from;
+      const double distance = dot(offset, offset);
+      if (best && distance >= nearest) continue;
+      best = Aimed{v, f};
+      nearest = distance;
+    }
+    if (best)
+      std::rotate(best->target.begin(), best->target.begin() + random_.below(3),
+                  best->target.end());
+    return best;
+  }
+
+  Point place_at(std::int32_t v, double t) const {
+    return between(at(draft_.frames[step_], v), at(draft_.frames[step_ + 1], v), t);
+  }
+
+  // The vertex is at `place` at time t; its start stays, but for t = 0.
+  void send(std::int32_t v, const Point& place, double t) {
+    if (t == 0) {
+      at(x_t0(), v) = place;
+    } else {
+      at(x_t1(), v) = at(x_t0(), v) + (1 / t) * (place - at(x_t0(), v));
+    }
+  }
+
+  // On the target at time t: at a vertex, on an edge, or inside.
+  Point place_on(const Face& f, double t) {
+    const Point a = place_at(f[0], t), b = place_at(f[1], t), c = place_at(f[2], t);
+    const double s = random_.between(1, 3) / 4.0;
+    switch (random_.below(4)) {
+      case 0:
+        draft_.tag("aim:vertex");
+        return a;
+      case 1:
+        draft_.tag("aim:edge");
+        return between(a, b, s);
+      default:
+        draft_.tag("aim:face");
+        return between(between(a, b, s), c, 0.25);
+    }
+  }
+
+  // The middle of an edge (v, u) meets an edge of the target.
+  bool cross_edges(const Aimed& aimed, double t) {
+    const auto own = std::find_if(draft_.faces.begin(), draft_.faces.end(),
+                                  [&](const Face& f) { return has(f, aimed.vertex); });
+    const auto u = (*own)[0] == aimed.vertex ? (*own)[1] : (*own)[0];
+    if (aimed.target[0] == u || aimed.target[1] == u) return false;
+    const Point meet = between(place_at(aimed.target[0], t), place_at(aimed.target[1], t),
+                               random_.between(1, 3) / 4.0);
+    send(aimed.vertex, 2 * meet - place_at(u, t), t);
+    draft_.tag("aim:edge-edge");
+    return true;
+  }
+
+  // Vertex and face touch without crossing, at t = s. In the face's own axes, with the corner p2
+  // going up by w: p2(t) = p2 + t w spans the plane "height = t * part along e"; the vertex, at
+  // part 2 s - t and height s^2, is above it by s^2 - t (2 s - t) = (t - s)^2.
+  void graze(const Aimed& aimed) {
+    const double s = random_.one_in(2) ? 0.5 : 0.25;
+    const auto [a, b, c] = aimed.target;
+    at(x_t1(), a) = at(x_t0(), a);
+    at(x_t1(), b) = at(x_t0(), b);
+    const Point middle = between(at(x_t0(), a), at(x_t0(), b), 0.5);
+    const Point e = at(x_t0(), c) - middle;
+    const Point w = random_.between(1, 4) / 4.0 * cross(at(x_t0(), b) - at(x_t0(), a), e);
+    at(x_t1(), c) = at(x_t0(), c) + w;
+    at(x_t0(), aimed.vertex) = middle + 2 * s * e + s * s * w;
+    at(x_t1(), aimed.vertex) = middle + (2 * s - 1) * e + s * s * w;
+    draft_.tag("aim:grazing");
+  }
+
+  // Vertex's face and target stay in the plane of the target's rest throughout all frames.
+  void flatten(const Aimed& aimed) {
+    const auto own = std::find_if(draft_.faces.begin(), draft_.faces.end(),
+                                  [&](const Face& f) { return has(f, aimed.vertex); });
+    const auto axis = static_cast<std::size_t>(random_.below(3));
+    const double level = at(x_t0(), aimed.target[0])[axis];
+    for (auto& x : draft_.frames) {
+      for (const auto v : aimed.target) at(x, v)[axis] = level;
+      for (const auto v : *own) at(x, v)[axis] = level;
+    }
+    draft_.tag("aim:coplanar");
+  }
+
+  // A view-line whose end region borders on the slab exactly at `place`, in every frame.
+  void border_of_regions(const Point& place) {
+    const auto axis = static_cast<std::size_t>(random_.below(3));
+    Point q = place;
+    q[(axis + 1) % 3] += random_.between(-4, 4) / 4.0;
+    q[(axis + 2) % 3] += random_.between(-4, 4) / 4.0;
+    Point end = q;
+    end[axis] += random_.one_in(2) ? 1 : -1;
+    draft_.q0.assign(draft_.frames.size(), q);
+    draft_.q1.assign(draft_.frames.size(), end);
+    draft_.tag("aim:region-border");
+    draft_.tag("view:line");
+  }
+
+ private:
+  Random& random_;
+  Draft& draft_;
+  std::size_t step_;
+};
+
+double any_time(Random& random, Draft& draft, bool may_touch_at_start) {
+  const int kind = random.below(8);
+  if (kind == 0 && may_touch_at_start) {
+    draft.tag("aim:start");
+    return 0;
+  }
+  if (kind <= 2) {
+    draft.tag("aim:end");
+    return 1;
+  }
+  draft.tag("aim:mid-step");
+  // Dyadic divisors: 1/t is exact.
+  constexpr double times[] = {0.5, 0.5, 0.25, 0.125};
+  return any_of(random, times);
+}
+
+}  // namespace
+
+void aim(Random& random, Draft& draft, bool may_touch_at_start) {
+  Aimer aimer(random, draft);
+  const auto aimed = aimer.choose();
+  if (!aimed) return;
+  const int kind = random.below(10);
+  if (kind == 0) return aimer.graze(*aimed);
+  if (kind == 1 && may_touch_at_start) return aimer.flatten(*aimed);
+  const double t = any_time(random, draft, may_touch_at_start);
+  if (kind <= 4 && aimer.cross_edges(*aimed, t)) return;
+  const Point place = aimer.place_on(aimed->target, t);
+  aimer.send(aimed->vertex, place, t);
+  if (kind == 5) {
+    const auto other = aimer.choose();
+    // The second must leave alone what the first rests on.
+    if (other && other->vertex != aimed->vertex && !has(aimed->target, other->vertex) &&
+        !has(other->target, aimed->vertex)) {
+      aimer.send(other->vertex, aimer.place_on(other->target, t), t);
+      draft.tag("aim:simultaneous");
+    }
+  } else if (kind == 6 && draft.q0.empty()) {
+    aimer.border_of_regions(place);
+  }
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,91 @@
+#include "properties/generators/draft.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace assay::properties {
+
+void drop_unused_vertices(Draft& draft) {
+  std::vector<std::int32_t> number(draft.rest().size(), -1);
+  for (const auto& face : draft.faces) {
+    for (const auto v : face) number[static_cast<std::size_t>(v)] = 0;
+  }
+  std::int32_t used = 0, second = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (static_cast<std::int32_t>(v) == draft.second_piece) second = used;
+    if (number[v] == 0) number[v] = used++;
+  }
+  draft.second_piece = second;
+  for (auto& face : draft.faces) {
+    for (auto& v : face) v = number[static_cast<std::size_t>(v)];
+  }
+  for (auto& x : draft.frames) {
+    Points kept;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+      if (number[v] >= 0) kept.push_back(x[v]);
+    }
+    x = std::move(kept);
+  }
+}
+
+void drop_invalid_faces(Draft& draft) {
+  std::set<Face> known;
+  std::erase_if(draft.faces, [&](Face face) {
+    std::sort(face.begin(), face.end());
+    const bool repeats = face[0] == face[1] || face[1] == face[2];
+    return repeats || !known.insert(face).second;
+  });
+}
+
+bool is_cycle(const std::vector<Face>& faces) {
+  // An edge and its reverse sort to the same place and cancel.
+  std::vector<std::array<std::int32_t, 3>> edges;
+  for (const auto& f : faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t u = f[k], v = f[(k + 1) % 3];
+      edges.push_back({std::min(u, v), std::max(u, v), u < v ? 1 : -1});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size();) {
+    int sum = 0;
+    std::size_t j = i;
+    for (; j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1]; ++j) {
+      sum += edges[j][2];
+    }
+    if (sum != 0) return false;
+    i = j;
+  }
+  return true;
+}
+
+GeneratedCase finished(Draft draft, std::string id) {
+  GeneratedCase made;
+  corpus::Case& c = made.c;
+  c.id = std::move(id);
+  c.triangles.resize(static_cast<Eigen::Index>(draft.faces.size()), 3);
+  for (std::size_t t = 0; t < draft.faces.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      c.triangles(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(k)) = draft.faces[t][k];
+    }
+  }
+  for (const auto& x : draft.frames) {
+    detector::Positions frame(static_cast<Eigen::Index>(x.size()), 3);
+    for (std::size_t v = 0; v < x.size(); ++v) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        frame(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(k)) = x[v][k];
+      }
+    }
+    c.frames.push_back(std::move(frame));
+  }
+  if (!draft.q0.empty()) c.view = corpus::CaseView{std::move(draft.q0), std::move(draft.q1)};
+  std::sort(draft.tags.begin(), draft.tags.end());
+  draft.tags.erase(std::unique(draft.tags.begin(), draft.tags.end()), draft.tags.end());
+  made.tags = std::move(draft.tags);
+  for (const auto& tag : made.tags) c.about += (c.about.empty() ? "" : ", ") + tag;
+  c.source = "random";
+  return made;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,203 @@
+#include "properties/generators/motions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "corpus/scenes/trigonometry.h"
+
+namespace assay::properties {
+
+void breathe(Random& random, const Point& centre, Points& x, double amount) {
+  for (auto& p : x) p = between(centre, p, 1 + 0.5 * amount * random.signed_unit());
+}
+
+void roughen(Random& random, Points& x, double amount) {
+  for (auto& p : x) {
+    for (double& c : p) c += amount / 32 * random.signed_unit();
+  }
+}
+
+namespace {
+
+Point any_vector(Random& random) {
+  return {random.signed_unit(), random.signed_unit(), random.signed_unit()};
+}
+
+void turn(Point& p, std::size_t axis, double turns) {
+  double& a = p[(axis + 1) % 3];
+  double& b = p[(axis + 2) % 3];
+  const double c = corpus::cos_turn(turns), s = corpus::sin_turn(turns), a_before = a;
+  a = c * a_before - s * b;
+  b = s * a_before + c * b;
+}
+
+// Half the length of the mesh along an axis; never 0.
+double reach(const Points& x, std::size_t axis) {
+  double r = 0x1p-10;
+  for (const auto& p : x) r = std::max(r, std::abs(p[axis]));
+  return r;
+}
+
+std::size_t any_axis(Random& random) { return static_cast<std::size_t>(random.below(3)); }
+
+void rigid(Random& random, const Draft&, Points& x, double amount) {
+  const auto axis = any_axis(random);
+  const double turns = 0.25 * amount * random.signed_unit();
+  const Point by = amount * any_vector(random);
+  for (auto& p : x) {
+    turn(p, axis, turns);
+    p = p + by;
+  }
+}
+
+void affine(Random& random, const Draft&, Points& x, double amount) {
+  const std::array<Point, 3> rows = {any_vector(random), any_vector(random), any_vector(random)};
+  for (auto& p : x) p = p + amount * Point{dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)};
+}
+
+void quadratic(Random& random, const Draft&, Points& x, double amount) {
+  const std::array<Point, 3> a = {any_vector(random), any_vector(random), any_vector(random)};
+  const std::array<Point, 3> b = {any_vector(random), any_vector(random), any_vector(random)};
+  for (auto& p : x) {
+    Point by;
+    for (std::size_t k = 0; k < 3; ++k) by[k] = dot(a[k], p) * dot(b[k], p);
+    p = p + amount * by;
+  }
+}
+
+void breathing(Random& random, const Draft&, Points& x, double amount) {
+  breathe(random, mean(x), x, amount);
+}
+
+void jitter(Random& random, const Draft&, Points& x, double amount) {
+  for (auto& p : x) p = p + 0.25 * amount * any_vector(random);
+}
+
+// The z axis becomes an arc of up to a whole turn.
+void bend(Random& random, const Draft&, Points& x, double amount) {
+  const double half = reach(x, 2), turns = amount * (random.one_in(2) ? 0.5 : -0.5);
+  const double radius = half / (2 * corpus::pi * turns);
+  for (auto& p : x) {
+    const double angle = turns * p[2] / half, r = radius - p[0];
+    p = {radius - r * corpus::cos_turn(angle), p[1], r * corpus::sin_turn(angle)};
+  }
+}
+
+void twist(Random& random, const Draft&, Points& x, double amount) {
+  const auto axis = any_axis(random);
+  const double turns = 0.5 * amount / reach(x, axis);
+  for (auto& p : x) turn(p, axis, turns * p[axis]);
+}
+
+// A waist, which goes through itself when the amount is large.
+void pinch(Random& random, const Draft&, Points& x, double amount) {
+  const auto axis = any_axis(random);
+  const double half = reach(x, axis);
+  for (auto& p : x) {
+    const double h = p[axis] / half, width = 1 - 1.5 * amount * std::max(0.0, 1 - 2 * h * h);
+    p[(axis + 1) % 3] *= width;
+    if (amount > 0.5) p[(axis + 2) % 3] *= width;
+  }
+}
+
+// One half goes over to the other.
+void fold(Random& random, const Draft&, Points& x, double amount) {
+  const auto axis = any_axis(random);
+  for (auto& p : x) {
+    if (p[axis] > 0) p[axis] *= 1 - 2 * amount;
+  }
+}
+
+// To a plane, a line or a point, exactly.
+void collapse(Random& random, const Draft&, Points& x, double) {
+  const auto first = any_axis(random);
+  const int axes = random.between(1, 4) == 4 ? random.between(2, 3) : 1;
+  for (int i = 0; i < axes; ++i) {
+    for (auto& p : x) p[(first + static_cast<std::size_t>(i)) % 3] = 0;
+  }
+}
+
+void flatten(Random& random, const Draft&, Points& x, double amount) {
+  const auto axis = any_axis(random);
+  const double height = 1 - amount * random.between(2, 5) / 4.0;
+  for (auto& p : x) p[axis] *= height;
+}
+
+void jump(Random& random, const Draft&, Points& x, double amount) {
+  Point& p = any_of(random, x);
+  p = p + 2 * amount * any_vector(random);
+}
+
+// A vertex, alone or with those beside it, through the middle, or through a hole where there is
+// one.
+void poke(Random& random, const Draft& draft, Points& x, double amount) {
+  const Point from = any_of(random, x);
+  const Point goal = draft.holes.empty() ? -0.75 * from
+                                         : 1.5 * draft.holes[static_cast<std::size_t>(random.below(
+                                                     static_cast<int>(draft.holes.size())))];
+  const Point by = amount * (goal - from);
+  const double near = random.one_in(2) ? 0 : 0.25;
+  for (auto& p : x) {
+    if (dot(p - from, p - from) <= near) p = p + by;
+  }
+}
+
+// All on one side of a plane go together.
+void part(Random& random, const Draft&, Points& x, double amount) {
+  const Point normal = any_vector(random), by = amount * any_vector(random);
+  for (auto& p : x) {
+    if (dot(normal, p) > 0.25) p = p + by;
+  }
+}
+
+// The second piece goes towards the first, or anywhere.
+void piece(Random& random, const Draft& draft, Points& x, double amount) {
+  if (draft.second_piece == 0) return part(random, draft, x, amount);
+  const auto second = static_cast<std::size_t>(draft.second_piece);
+  const Point gap = x[0] - x[second];
+  const Point by = amount * (random.one_in(3) ? any_vector(random) : gap);
+  for (std::size_t v = second; v < x.size(); ++v) x[v] = x[v] + by;
+}
+
+void zero(Random&, const Draft&, Points&, double) {}
+
+void fast(Random& random, const Draft&, Points& x, double) {
+  for (auto& p : x) p = p + 8 * any_vector(random);
+}
+
+constexpr Motion all[] = {
+    {"rigid", rigid, 2, false, false},         {"affine", affine, 3, false, false},
+    {"quadratic", quadratic, 3, false, false}, {"breathe", breathing, 2, false, false},
+    {"jitter", jitter, 3, false, false},       {"bend", bend, 2, false, false},
+    {"twist", twist, 2, false, false},         {"pinch", pinch, 2, false, false, true},
+    {"fold", fold, 2, false, false, true},     {"flatten", flatten, 2, false, false, true},
+    {"jump", jump, 5, false, false},           {"poke", poke, 4, false, false},
+    {"part", part, 2, false, false},           {"piece", piece, 4, false, false},
+    {"zero", zero, 1, false, false},           {"fast", fast, 1, false, true},
+    {"collapse", collapse, 3, true, true},
+};
+
+}  // namespace
+
+std::span<const Motion> motions() { return all; }
+
+std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too, bool dear_too) {
+  const auto weight = [=](const Motion& m) {
+    return (m.exact && !exact_too) || (m.dear && !dear_too) ? 0 : m.weight;
+  };
+  int total = 0;
+  for (const auto& m : all) total += weight(m);
+  std::vector<const Motion*> chosen;
+  while (static_cast<int>(chosen.size()) < count) {
+    int place = random.below(total);
+    for (const auto& m : all) {
+      place -= weight(m);
+      if (place >= 0) continue;
+      if (std::find(chosen.begin(), chosen.end(), &m) == chosen.end()) chosen.push_back(&m);
+      break;
+    }
+  }
+  return chosen;
+}
+
+}  // namespace assay::properties

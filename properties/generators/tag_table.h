@@ -1,0 +1,60 @@
+// How often each tag and each block of set pairs occurs in a run: what the generators reached.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+#include "oracle/step.h"
+
+namespace assay::properties {
+
+// The view sets of a pair's two triangles (THEORY: L3); Vv goes before the signs.
+enum class PairBlock : std::uint8_t {
+  positive_negative,
+  positive_zero,
+  negative_zero,
+  zero_zero,
+  violated,  // one of them at least
+  positive_positive,
+  negative_negative,  // the last two are outside K, unless of two groups
+};
+inline constexpr std::size_t kPairBlocks = 7;
+
+const char* name_of(PairBlock block);
+PairBlock block_of(detector::ViewSign a, detector::ViewSign b, bool either_violated);
+
+class TagTable {
+ public:
+  // One case, and how many of its steps collide.
+  void add(const std::vector<std::string>& tags, std::uint64_t steps, std::uint64_t collisions);
+  // The contacts of one step. By triangle: signs of all; Vv as 0 or 1, or empty for none.
+  void add_contacts(const detector::TrianglesView& triangles,
+                    const oracle::StepJudgement& judgement,
+                    std::span<const detector::ViewSign> signs,
+                    std::span<const std::uint8_t> violated);
+  void merge(const TagTable& other);
+
+  struct TagCount {
+    std::uint64_t cases = 0, steps = 0, collisions = 0;
+  };
+  // Pairs by number of shared vertices: 0, 1, 2.
+  struct BlockCount {
+    std::array<std::uint64_t, 3> contacts = {}, first_contacts = {};
+  };
+  const std::map<std::string, TagCount>& tags() const { return tags_; }
+  const BlockCount& block(PairBlock b) const { return blocks_[static_cast<std::size_t>(b)]; }
+
+  // Two tables of plain text, tags ascending; one line a row.
+  std::string text() const;
+
+ private:
+  std::map<std::string, TagCount> tags_;
+  std::array<BlockCount, kPairBlocks> blocks_;
+};
+
+}  // namespace assay::properties

@@ -1,0 +1,99 @@
+// L5: all of S positive and winding number 1, without history.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "properties/laws/law_groups.h"
+#include "properties/laws/step_law.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::ViewSign;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+bool is_cycle(const CaseFacts& facts, std::size_t component) {
+  return facts.surface().mesh.components[component].is_cycle;
+}
+
+// Mesh and ghosts of the component positive over the step, w = 1 at its start.
+bool is_positive_around(CaseFacts& facts, std::size_t s, std::size_t component) {
+  const auto& triangles = facts.surface().all().components[component].triangles;
+  return std::all_of(triangles.begin(), triangles.end(),
+                     [&](std::int32_t t) { return facts.signs(s)[at(t)] == ViewSign::positive; }) &&
+         facts.winding_at_start(s, component) == 1;
+}
+
+std::string what_is_not_free(CaseFacts& facts, std::size_t s, std::size_t component) {
+  for (const auto t : facts.surface().mesh.components[component].triangles) {
+    if (facts.own_contacts(s)[at(t)]) return fmt::format("triangle {} is in contact", t);
+    if (facts.touched(s)[at(t)]) return fmt::format("triangle {} is touched by a ghost", t);
+    for (const auto* layers : {&facts.layers_at_start(s), &facts.layers_at_end(s)}) {
+      if (!layers->clean[at(t)] || *layers->layer[at(t)] != oracle::Layer{1, 0}) {
+        return fmt::format("triangle {} is not clean at an end", t);
+      }
+    }
+    if (facts.in_doubt(s, t)) return fmt::format("the detector doubts triangle {}", t);
+  }
+  for (const auto& contact : facts.result(s).pairs) {
+    if (facts.same_component(contact.pair) &&
+        facts.component_of(contact.pair.a) == static_cast<std::int32_t>(component)) {
+      return fmt::format("the detector reports ({}, {})", contact.pair.a, contact.pair.b);
+    }
+  }
+  return {};
+}
+
+template <bool closed>
+Observation all_positive_is_free(CaseFacts& facts, std::size_t s) {
+  if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
+  bool met = false;
+  for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c) {
+    if (is_cycle(facts, c) != closed || !is_positive_around(facts, s, c)) continue;
+    met = true;
+    const std::string wrong = what_is_not_free(facts, s, c);
+    if (!wrong.empty()) return fmt::format("component {}: {}", c, wrong);
+  }
+  return met ? holds() : not_met();
+}
+
+Observation detector_takes_the_free_path(CaseFacts& facts, std::size_t s) {
+  if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
+  const auto components = facts.surface().mesh.components.size();
+  std::size_t free = 0;
+  for (std::size_t c = 0; c < components; ++c) free += is_positive_around(facts, s, c);
+  if (free == 0 && facts.result(s).counts.free_components == 0) return not_met();
+  if (facts.result(s).counts.free_components != free) {
+    return fmt::format("the detector released {} components, the oracle {}",
+                       facts.result(s).counts.free_components, free);
+  }
+  const auto& pairs = facts.judgement(s).pairs;
+  if (free == components && pairs.empty()) {
+    return holds_if(facts.result(s).answer == detector::Answer::free, "not answered free");
+  }
+  return holds();
+}
+
+constexpr Law all[] = {
+    {"L5_AllPositiveAndWindingOneIsFree_Closed", "L5",
+     "A closed component that is positive over the step and has winding number 1 at its primitive "
+     "at t=0 is free whatever came before, and at both ends every triangle is clean, of layer "
+     "(1,0).",
+     "pair set, view signs, winding number, layers", each_step<all_positive_is_free<true>>},
+    {"L5_AllPositiveAndWindingOneIsFree_Unclosed", "L5",
+     "The same for a component with holes when its ghosts are positive too; then no ghost touches "
+     "anything.",
+     "pair set, view signs, winding number, layers, triangles touched by ghosts",
+     each_step<all_positive_is_free<false>>},
+    {"L5_TheFreePathIsTaken", "L5",
+     "The detector releases exactly the components that are positive with their ghosts and have "
+     "winding number 1, and answers free when that is all of them and no two components meet.",
+     "pair set, view signs, winding number", each_step<detector_takes_the_free_path>},
+};
+
+}  // namespace
+
+std::span<const Law> all_positive_laws() { return all; }
+
+}  // namespace assay::properties

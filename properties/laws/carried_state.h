@@ -1,0 +1,26 @@
+// What the laws of state ask of one instant: who shares a layer, who may have been released.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "properties/laws/case_facts.h"
+
+namespace assay::properties {
+
+using TriangleFlags = std::vector<std::uint8_t>;  // by triangle of the mesh, 0 or 1
+
+// What contradicts that the triangles held are untouched and share one layer in each component;
+// empty when nothing does.
+std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& layers,
+                              const TriangleFlags& held);
+
+// Who of `in_question` the oracle lets go at the start of step s: untouched, and of the layer of
+// the other triangles of the component that were carried on as clean; where there is none of these,
+// of the common layer (L9). REQUIRES has_views(s).
+TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags& in_question);
+
+// The triangles with some or with no mark of doubt::dirty in the result of step s.
+TriangleFlags dirty_triangles(const CaseFacts& facts, std::size_t s);
+
+}  // namespace assay::properties

@@ -1,0 +1,18 @@
+// The places of contact at a time: parts of the contact graph.
+#pragma once
+
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+
+namespace assay::properties {
+
+using ContactPart = std::vector<detector::PairContact>;
+
+// Triangles are nodes and the pairs whose first time is `time` are edges; the connected parts, each
+// with its pairs. Two times that share an enclosure count as one: parts may then be joined, never
+// split. O(n log n).
+std::vector<ContactPart> contact_parts(const std::vector<detector::PairContact>& pairs,
+                                       const detector::TimeEnclosure& time);
+
+}  // namespace assay::properties

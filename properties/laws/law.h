@@ -1,0 +1,43 @@
+// A law: a statement that holds of every step of every case, as code, and how often it was met.
+//
+// A law that is never met proves nothing, so each one counts the steps in which its premise held,
+// and of these the close ones: the smallest |view value| over the step is at most 1 % of the
+// largest (case_facts.h), so that the law was near to being broken or to not applying.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace assay::properties {
+
+class CaseFacts;
+
+struct LawTally {
+  std::uint64_t premise = 0;  // steps in which the premise held
+  std::uint64_t close = 0;    // of these, the close ones
+  std::uint64_t broken = 0;   // of these, the ones that refute the law
+  std::string first_broken;   // case id, step, what; of several tallies the least text
+
+  LawTally& operator+=(const LawTally& other);
+  friend bool operator==(const LawTally&, const LawTally&) = default;
+};
+
+struct Law {
+  std::string_view name;       // "L4_AllPositiveIsCollisionFree_Line"
+  std::string_view number;     // "L1" .. "L12"; "sets", "claim", "change" for what has no number
+  std::string_view statement;  // in one or two sentences
+  std::string_view needs;      // of the oracle
+  void (*check)(CaseFacts&, LawTally&);  // adds what it met in this case
+  int one_in =
+      1;  // a LawTable asks it of one case in so many: laws that run the case again are dear
+};
+
+// All laws in a fixed order: by number, then sets, claims, changes.
+std::span<const Law> laws();
+
+// nullptr for an unknown name.
+const Law* law_named(std::string_view name);
+
+}  // namespace assay::properties

@@ -1,0 +1,197 @@
+// Changes of the mesh that leave its self-collisions as they are.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "properties/laws/law_groups.h"
+#include "properties/laws/metamorphic/change_law.h"
+#include "properties/laws/metamorphic/grid.h"
+#include "properties/random.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Point;
+using Numbers = std::vector<std::int32_t>;
+
+Random random_of(const CaseFacts& facts, std::string_view law) {
+  return {Random::hash(facts.source().id), Random::hash(law)};
+}
+
+Numbers in_order(Eigen::Index count) {
+  Numbers numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+Numbers backwards(Eigen::Index count) {
+  Numbers numbers = in_order(count);
+  std::reverse(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+Numbers shuffled(Random& random, Eigen::Index count) {
+  Numbers numbers = in_order(count);
+  for (std::size_t i = numbers.size(); i > 1; --i) {
+    std::swap(numbers[i - 1], numbers[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  }
+  return numbers;
+}
+
+Change unchanged(const PinnedRun& run) { return {run, in_order(run.triangles.rows()), false}; }
+
+// Vertex v becomes new_number[v].
+void renumber_vertices(PinnedRun& run, const Numbers& new_number) {
+  const auto of = [&](std::int32_t v) { return new_number[static_cast<std::size_t>(v)]; };
+  run.triangles = run.triangles.unaryExpr(of).eval();
+  for (auto& loop : run.loops) std::transform(loop.begin(), loop.end(), loop.begin(), of);
+  for (auto& frame : run.frames) {
+    const detector::Positions old = frame;
+    for (Eigen::Index v = 0; v < old.rows(); ++v) {
+      frame.row(of(static_cast<std::int32_t>(v))) = old.row(v);
+    }
+  }
+}
+
+void renumber_triangles(Change& change, const Numbers& new_number) {
+  const detector::Triangles old = change.run.triangles;
+  for (Eigen::Index t = 0; t < old.rows(); ++t) {
+    change.run.triangles.row(new_number[static_cast<std::size_t>(t)]) = old.row(t);
+  }
+  for (auto& seat : change.run.seats) seat = new_number[static_cast<std::size_t>(seat)];
+  change.triangle = new_number;
+}
+
+void turn_triangles_over(PinnedRun& run) { run.triangles.col(1).swap(run.triangles.col(2)); }
+
+std::optional<Change> vertices_renumbered(const CaseFacts& facts, const PinnedRun& run) {
+  Random random = random_of(facts, "vertices");
+  Change change = unchanged(run);
+  renumber_vertices(change.run, shuffled(random, run.frames.front().rows()));
+  return change;
+}
+
+std::optional<Change> triangles_reordered(const CaseFacts& facts, const PinnedRun& run) {
+  Random random = random_of(facts, "triangles");
+  Change change = unchanged(run);
+  for (Eigen::Index t = 0; t < run.triangles.rows(); ++t) {
+    const int turn = random.below(3);
+    for (int i = 0; i < 3; ++i) change.run.triangles(t, i) = run.triangles(t, (i + turn) % 3);
+  }
+  renumber_triangles(change, shuffled(random, run.triangles.rows()));
+  return change;
+}
+
+std::optional<Change> scaled_by_a_power_of_two(const CaseFacts& facts, const PinnedRun& run) {
+  Random random = random_of(facts, "scale");
+  const int exponent = random.one_in(2) ? random.between(1, 60) : -random.between(1, 60);
+  Change change = unchanged(run);
+  bool exact = true;
+  move_points(change.run, [&](Point p) {
+    for (double& c : p) {
+      const double scaled = std::ldexp(c, exponent);
+      exact &= std::isfinite(scaled) && std::ldexp(scaled, -exponent) == c;
+      c = scaled;
+    }
+    return p;
+  });
+  if (!exact) return std::nullopt;
+  return change;
+}
+
+// REQUIRES coordinates on a grid: sums with multiples of it are exact.
+std::optional<Change> translated(const CaseFacts& facts, const PinnedRun& run) {
+  Random random = random_of(facts, "translation");
+  const int exponent = exponent_above(run);
+  Point by;
+  for (double& c : by) {
+    // A multiple of 2^-20 of all that there is, up to 2^20 times that.
+    c = std::ldexp(random.between(-(1 << 20), 1 << 20), exponent - random.between(0, 20));
+  }
+  Change change = unchanged(run);
+  bool exact = true;
+  move_points(change.run, [&](Point p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double moved = p[k] + by[k];
+      exact &= std::isfinite(moved) && moved - by[k] == p[k] && moved - p[k] == by[k];
+      p[k] = moved;
+    }
+    return p;
+  });
+  if (!exact) return std::nullopt;
+  return change;
+}
+
+std::optional<Change> mirrored(const CaseFacts& facts, const PinnedRun& run) {
+  Random random = random_of(facts, "mirror");
+  const auto axis = static_cast<std::size_t>(random.below(3));
+  Change change = unchanged(run);
+  move_points(change.run, [&](Point p) {
+    p[axis] = -p[axis];
+    return p;
+  });
+  turn_triangles_over(change.run);
+  return change;
+}
+
+std::optional<Change> axes_exchanged(const CaseFacts& facts, const PinnedRun& run) {
+  constexpr std::array<std::array<std::size_t, 3>, 5> orders = {
+      {{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  constexpr int even_orders = 2;
+  Random random = random_of(facts, "axes");
+  const int order = random.below(static_cast<int>(orders.size()));
+  Change change = unchanged(run);
+  move_points(change.run, [&](const Point& p) {
+    const auto& axis = orders[static_cast<std::size_t>(order)];
+    return Point{p[axis[0]], p[axis[1]], p[axis[2]]};
+  });
+  if (order >= even_orders) turn_triangles_over(change.run);
+  return change;
+}
+
+std::optional<Change> turned_inside_out(const CaseFacts&, const PinnedRun& run) {
+  Change change = unchanged(run);
+  turn_triangles_over(change.run);
+  change.swaps_signs = true;
+  return change;
+}
+
+constexpr Law all[] = {
+    {"Change_VertexNumbers", "change",
+     "With its vertices numbered otherwise a mesh has the same pairs, times, signs and sets.",
+     "layers, where two classes tie", check_change<vertices_renumbered>, dear},
+    {"Change_TriangleOrder", "change",
+     "With its triangles in another order, each begun at another corner, a mesh has the same "
+     "pairs, times and signs, and the same sets unless two layer classes tie.",
+     "layers, where two classes tie", check_change<triangles_reordered>, dear},
+    {"Change_PowerOfTwo", "change",
+     "Scaled by a power of two, where no coordinate loses a bit, all answers are the same.",
+     "nothing", check_change<scaled_by_a_power_of_two>, dear},
+    {"Change_Translation", "change",
+     "Translated exactly (all coordinates rounded to a grid before) all answers are the same.",
+     "nothing", check_change_on_a_grid<translated>, dear},
+    {"Change_Mirror", "change",
+     "Mirrored, and turned over so that outside stays outside, all answers are the same.",
+     "nothing", check_change<mirrored>, dear},
+    {"Change_AxesExchanged", "change",
+     "With axes exchanged (turned over where that mirrors) all answers are the same.", "nothing",
+     check_change<axes_exchanged>, dear},
+    {"Change_InsideOutSwapsSigns", "change",
+     "With all triangles turned over V+ and V- change places; pairs and times stay, and so do the "
+     "doubts of a verified start (L5 releases outward surfaces alone).",
+     "nothing", check_change<turned_inside_out>, dear},
+};
+
+}  // namespace
+
+std::span<const Law> change_laws() { return all; }
+
+std::optional<Change> holes_in_another_order(const CaseFacts&, const PinnedRun& run) {
+  if (run.loops.size() < 2) return std::nullopt;
+  Change change = unchanged(run);
+  renumber_vertices(change.run, backwards(run.frames.front().rows()));
+  renumber_triangles(change, backwards(run.triangles.rows()));
+  return change;
+}
+
+}  // namespace assay::properties

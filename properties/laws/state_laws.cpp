@@ -1,0 +1,141 @@
+// L8 and L9: what is clean from step to step, and at a new start.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "oracle/view_sign.h"
+#include "properties/laws/carried_state.h"
+#include "properties/laws/law_groups.h"
+#include "properties/laws/step_law.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Start;
+
+bool any(const TriangleFlags& flags) {
+  return std::find(flags.begin(), flags.end(), 1) != flags.end();
+}
+
+Observation carried_clean_is_clean(CaseFacts& facts, std::size_t s) {
+  if (!facts.has_views(s) || !facts.known_from(s) || !facts.is_trusted(s)) return not_met();
+  TriangleFlags held = dirty_triangles(facts, s);
+  for (auto& flag : held) flag = !flag;
+  if (!any(held)) return not_met();
+  return what_is_not_clean(facts, facts.layers_at_start(s), held);
+}
+
+Observation what_is_not_clean_stays_dirty(CaseFacts& facts, std::size_t s) {
+  const auto p = facts.known_from(s);
+  if (!p || !facts.has_views(s) || !facts.has_views(*p) || !facts.is_judged(*p)) return not_met();
+  if (!facts.is_trusted(s)) return not_met();
+  TriangleFlags in_question = dirty_triangles(facts, *p);
+  for (std::size_t t = 0; t < in_question.size(); ++t) {
+    in_question[t] |= facts.own_contacts(*p)[t] | facts.touched(*p)[t];
+  }
+  if (!any(in_question)) return not_met();
+  const auto clean = may_be_clean(facts, s, in_question);
+  const auto dirty = dirty_triangles(facts, s);
+  for (std::size_t t = 0; t < dirty.size(); ++t) {
+    if (in_question[t] && !clean[t] && !dirty[t]) {
+      return fmt::format("triangle {} was released, and is not clean", t);
+    }
+  }
+  return holds();
+}
+
+Observation clean_and_untouched_stays_clean(CaseFacts& facts, std::size_t s) {
+  if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
+  TriangleFlags held = dirty_triangles(facts, s);
+  for (std::size_t t = 0; t < held.size(); ++t) {
+    held[t] = !held[t] && !facts.own_contacts(s)[t] && !facts.touched(s)[t];
+  }
+  if (!any(held)) return not_met();
+  const std::string wrong = what_is_not_clean(facts, facts.layers_at_end(s), held);
+  if (!wrong.empty() || facts.options().pairs != detector::Pairs::all) return wrong;
+  for (std::size_t next = s + 1; next < facts.steps(); ++next) {
+    if (facts.known_from(next) != s || !facts.has_views(next)) continue;
+    const auto dirty = dirty_triangles(facts, next);
+    for (std::size_t t = 0; t < held.size(); ++t) {
+      if (held[t] && dirty[t]) return fmt::format("triangle {} became dirty for nothing", t);
+    }
+  }
+  return holds();
+}
+
+Observation new_start_is_the_oracles_layers(CaseFacts& facts, std::size_t s) {
+  if (!facts.has_views(s) || facts.known_from(s) || facts.options().start != Start::verified) {
+    return not_met();
+  }
+  const auto& clean = facts.layers_at_start(s).clean;
+  const auto dirty = dirty_triangles(facts, s);
+  for (std::size_t t = 0; t < dirty.size(); ++t) {
+    if ((dirty[t] != 0) == (clean[t] != 0)) {
+      return fmt::format("triangle {} is {}, by the oracle {}", t, dirty[t] ? "dirty" : "clean",
+                         clean[t] ? "clean" : "not");
+    }
+  }
+  return holds();
+}
+
+bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component) {
+  auto still = facts.result(s).primitives[component];
+  still.q0.t1 = still.q0.t0;
+  still.q1.t1 = still.q1.t0;
+  const auto x = facts.all_t0(s);
+  const auto& surface = facts.surface().all();
+  const auto& triangles = surface.components[component].triangles;
+  return std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
+    const auto& v = surface.triangles[static_cast<std::size_t>(t)];
+    const auto corner = [&](std::size_t i) { return detector::moving_point(x, x, v[i]); };
+    return oracle::view_sign({corner(0), corner(1), corner(2)}, still) ==
+           detector::ViewSign::positive;
+  });
+}
+
+Observation all_positive_at_the_start_releases(CaseFacts& facts, std::size_t s) {
+  if (!facts.has_views(s)) return not_met();
+  if (!facts.known_from(s) && facts.options().start == Start::unknown) return not_met();
+  bool met = false;
+  for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c) {
+    if (!is_positive_at_start(facts, s, c) || facts.winding_at_start(s, c) != 1) continue;
+    met = true;
+    for (const auto t : facts.surface().mesh.components[c].triangles) {
+      const auto i = static_cast<std::size_t>(t);
+      if (!facts.layers_at_start(s).clean[i]) return fmt::format("triangle {} is not clean", t);
+      if (facts.result(s).doubts[i] & detector::doubt::dirty) {
+        return fmt::format("triangle {} is not released", t);
+      }
+    }
+  }
+  return met ? holds() : not_met();
+}
+
+constexpr Law all[] = {
+    {"L8_CarriedCleanIsClean", "L8",
+     "What a step that continues from a committed one starts with as clean touches nothing of S "
+     "then, and is of one layer in each component.",
+     "layers", each_step<carried_clean_is_clean>},
+    {"L8_WhatIsNotCleanStaysDirty", "L8",
+     "What was in contact with its own component, touched by a ghost, or dirty, and is not clean "
+     "at the end, is dirty in the next step.",
+     "pair set, triangles touched by ghosts, layers", each_step<what_is_not_clean_stays_dirty>},
+    {"L8_CleanAndUntouchedStaysClean", "L8",
+     "What is clean at the start, in no contact with its own component and touched by no ghost, is "
+     "untouched and of one layer at the end, and starts the next step as clean.",
+     "pair set, triangles touched by ghosts, layers", each_step<clean_and_untouched_stays_clean>},
+    {"L9_NewStartIsTheOraclesLayers", "L9",
+     "At a new start that is verified, dirty is what touches something of S or is not of the "
+     "common layer of its component.",
+     "layers", each_step<new_start_is_the_oracles_layers>},
+    {"L9_AllPositiveAtTheStartReleases", "L9",
+     "Where all of S is positive at t=0 and has winding number 1 at the primitive, the component "
+     "is clean, whatever came before.",
+     "view signs at rest, winding number, layers", each_step<all_positive_at_the_start_releases>},
+};
+
+}  // namespace
+
+std::span<const Law> state_laws() { return all; }
+
+}  // namespace assay::properties

@@ -1,0 +1,31 @@
+// How a law is written: a function that looks at one step (or at a whole case).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "properties/laws/case_facts.h"
+#include "properties/laws/law.h"
+
+namespace assay::properties {
+
+// Nothing where the premise does not hold; else what is wrong, empty when the law holds.
+using Observation = std::optional<std::string>;
+
+inline Observation not_met() { return std::nullopt; }
+inline Observation holds() { return std::string(); }
+inline Observation holds_if(bool condition, std::string_view otherwise) {
+  return condition ? holds() : Observation(otherwise);
+}
+
+// Share of the cases for laws that run the case again.
+inline constexpr int dear = 16;
+
+void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTally& tally);
+
+template <Observation (*look)(CaseFacts&, std::size_t)>
+void each_step(CaseFacts& facts, LawTally& tally) {
+  for (std::size_t s = 0; s < facts.steps(); ++s) note(facts, s, look(facts, s), tally);
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,277 @@
+#include "properties/reducer/case_edits.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "oracle/loops.h"
+
+namespace assay::properties {
+namespace {
+
+using corpus::Case;
+using Corners = std::array<std::int32_t, 3>;
+
+bool all_finite(const std::vector<detector::Point>& points) {
+  return std::all_of(points.begin(), points.end(), [](const detector::Point& x) {
+    return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+  });
+}
+
+detector::Triangles matrix_of(const std::vector<Corners>& triangles) {
+  detector::Triangles matrix(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      matrix(static_cast<Eigen::Index>(t), i) = triangles[t][static_cast<std::size_t>(i)];
+    }
+  }
+  return matrix;
+}
+
+Corners sorted(Corners corners) {
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+// +1 when the corners are an even permutation of their ascending order.
+int orientation(const Corners& c) {
+  return ((c[0] < c[1]) + (c[1] < c[2]) + (c[2] < c[0])) == 2 ? 1 : -1;
+}
+
+// Vertices keep their numbers of before; compacting is the caller's.
+corpus::CaseGhosts renewed_ghosts(const Case& before, const detector::Triangles& triangles,
+                                  const std::vector<std::int32_t>& target) {
+  const auto& old = *before.ghosts;
+  const auto vertices = static_cast<std::int32_t>(before.frames.front().rows());
+  std::map<std::int32_t, std::int32_t> apex_at;  // by loop vertex; the first ghost that has it
+  for (Eigen::Index g = 0; g < old.triangles.rows(); ++g) {
+    std::int32_t apex = -1;
+    for (int i = 0; i < 3; ++i) {
+      if (old.triangles(g, i) >= vertices) apex = old.triangles(g, i) - vertices;
+    }
+    for (int i = 0; i < 3 && apex >= 0; ++i) {
+      const auto v = old.triangles(g, i);
+      if (v < vertices) apex_at.emplace(target[static_cast<std::size_t>(v)], apex);
+    }
+  }
+  const auto loops = oracle::boundary_loops(triangles);
+  corpus::CaseGhosts ghosts;
+  ghosts.triangles = oracle::ghost_triangles(loops, vertices);
+  ghosts.apexes.resize(before.frames.size());
+  for (const auto& loop : loops) {
+    const auto known =
+        std::find_if(loop.begin(), loop.end(), [&](std::int32_t v) { return apex_at.contains(v); });
+    for (std::size_t f = 0; f < before.frames.size(); ++f) {
+      if (known != loop.end()) {
+        ghosts.apexes[f].push_back(old.apexes[f][static_cast<std::size_t>(apex_at.at(*known))]);
+        continue;
+      }
+      detector::Point mean = {0, 0, 0};
+      for (const auto v : loop) {
+        for (int k = 0; k < 3; ++k) {
+          mean[static_cast<std::size_t>(k)] +=
+              before.frames[f](v, k) / static_cast<double>(loop.size());
+        }
+      }
+      ghosts.apexes[f].push_back(mean);
+    }
+  }
+  return ghosts;
+}
+
+// The mesh `triangles` over the vertices of c, then without those that no triangle has.
+Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
+             const std::vector<std::int32_t>& target) {
+  Case result;
+  result.id = c.id;
+  result.about = c.about;
+  result.source = c.source;
+  result.script = c.script;
+  result.view = c.view;
+  result.options = c.options;
+  result.triangles = matrix_of(triangles);
+  if (c.ghosts) result.ghosts = renewed_ghosts(c, result.triangles, target);
+
+  const auto vertices = static_cast<std::size_t>(c.frames.front().rows());
+  std::vector<std::int32_t> number(vertices, -1);
+  for (const auto& corners : triangles) {
+    for (const auto v : corners) number[static_cast<std::size_t>(v)] = 0;
+  }
+  std::vector<Eigen::Index> kept;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<std::int32_t>(kept.size());
+    kept.push_back(static_cast<Eigen::Index>(v));
+  }
+  for (const auto& frame : c.frames) {
+    detector::Positions x(static_cast<Eigen::Index>(kept.size()), 3);
+    for (std::size_t v = 0; v < kept.size(); ++v) {
+      x.row(static_cast<Eigen::Index>(v)) = frame.row(kept[v]);
+    }
+    result.frames.push_back(std::move(x));
+  }
+  const auto renumber = [&](detector::Triangles& matrix) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) {
+      auto& v = matrix.data()[i];
+      const auto old = static_cast<std::size_t>(v);
+      v = old < vertices ? number[old] : static_cast<std::int32_t>(old - vertices + kept.size());
+    }
+  };
+  renumber(result.triangles);
+  if (!result.ghosts) return result;
+  if (result.ghosts->triangles.rows() == 0) {
+    result.ghosts.reset();
+  } else {
+    renumber(result.ghosts->triangles);
+  }
+  return result;
+}
+
+std::vector<std::int32_t> identity(const Case& c) {
+  std::vector<std::int32_t> map(static_cast<std::size_t>(c.frames.front().rows()));
+  for (std::size_t v = 0; v < map.size(); ++v) map[v] = static_cast<std::int32_t>(v);
+  return map;
+}
+
+}  // namespace
+
+bool is_valid(const Case& c) {
+  if (c.triangles.rows() == 0 || c.frames.empty() || corpus::steps_of(c).empty()) return false;
+  const auto vertices = c.frames.front().rows();
+  for (const auto& frame : c.frames) {
+    if (frame.rows() != vertices || !frame.allFinite()) return false;
+  }
+  for (const auto& step : c.script) {
+    const auto frames = static_cast<std::int32_t>(c.frames.size());
+    if (step.from < 0 || step.to < 0 || step.from >= frames || step.to >= frames) return false;
+  }
+  std::set<Corners> seen;
+  for (const auto& corners : triangles_of(c)) {
+    const auto key = sorted(corners);
+    if (key[0] < 0 || key[2] >= vertices || key[0] == key[1] || key[1] == key[2]) return false;
+    if (!seen.insert(key).second) return false;
+  }
+  if (c.view) {
+    const auto fits = [&](const std::vector<detector::Point>& places) {
+      return places.size() == c.frames.size() && all_finite(places);
+    };
+    if (!fits(c.view->q0) || (!c.view->q1.empty() && !fits(c.view->q1))) return false;
+  }
+  if (!c.ghosts) return true;
+  if (c.ghosts->apexes.size() != c.frames.size()) return false;
+  for (const auto& apexes : c.ghosts->apexes) {
+    if (apexes.size() != c.ghosts->apexes.front().size() || !all_finite(apexes)) return false;
+  }
+  const auto limit = vertices + static_cast<Eigen::Index>(c.ghosts->apexes.front().size());
+  return c.ghosts->triangles.size() == 0 ||
+         (c.ghosts->triangles.minCoeff() >= 0 && c.ghosts->triangles.maxCoeff() < limit);
+}
+
+std::vector<Corners> triangles_of(const Case& c) {
+  std::vector<Corners> triangles;
+  triangles.reserve(static_cast<std::size_t>(c.triangles.rows()));
+  for (Eigen::Index t = 0; t < c.triangles.rows(); ++t) {
+    triangles.push_back({c.triangles(t, 0), c.triangles(t, 1), c.triangles(t, 2)});
+  }
+  return triangles;
+}
+
+Case with_triangles(const Case& c, const std::vector<Corners>& triangles) {
+  return rebuilt(c, triangles, identity(c));
+}
+
+Case keep_triangles(const Case& c, const std::vector<std::uint8_t>& keep) {
+  std::vector<Corners> kept;
+  const auto all = triangles_of(c);
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    if (keep[t] != 0) kept.push_back(all[t]);
+  }
+  return with_triangles(c, kept);
+}
+
+Case merge_vertices(const Case& c, const std::vector<std::int32_t>& target) {
+  std::vector<std::int32_t> end = target;
+  for (auto& v : end) {
+    while (target[static_cast<std::size_t>(v)] != v) v = target[static_cast<std::size_t>(v)];
+  }
+  const auto all = triangles_of(c);
+  std::vector<Corners> moved;
+  std::map<Corners, int> surplus;  // by corners: orientations added up
+  for (const auto& corners : all) {
+    Corners m;
+    for (std::size_t i = 0; i < 3; ++i) m[i] = end[static_cast<std::size_t>(corners[i])];
+    if (m[0] == m[1] || m[1] == m[2] || m[2] == m[0]) continue;
+    moved.push_back(m);
+    surplus[sorted(m)] += orientation(m);
+  }
+  std::vector<Corners> kept;
+  for (const auto& m : moved) {
+    auto& rest = surplus[sorted(m)];
+    if (rest * orientation(m) <= 0) continue;
+    rest -= orientation(m);
+    kept.push_back(m);
+  }
+  return rebuilt(c, kept, end);
+}
+
+Case close_loops(const Case& c, std::size_t corner) {
+  auto triangles = triangles_of(c);
+  for (const auto& loop : oracle::boundary_loops(c.triangles)) {
+    const auto n = loop.size();
+    const auto at = [&](std::size_t i) { return loop[(corner + i) % n]; };
+    // The loop runs along the mesh's own edges (u,v); the fan has them as (v,u).
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      const Corners fan = {at(0), at(i + 1), at(i)};
+      if (fan[0] == fan[1] || fan[1] == fan[2] || fan[2] == fan[0]) continue;
+      triangles.push_back(fan);
+    }
+  }
+  return with_triangles(c, triangles);
+}
+
+Case seen_from_its_middle(const Case& c) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (const auto& frame : c.frames) sum += frame.colwise().mean();
+  sum /= static_cast<double>(c.frames.size());
+  Case result = c;
+  const std::vector<detector::Point> middle(c.frames.size(), {sum[0], sum[1], sum[2]});
+  result.view = corpus::CaseView{middle, {}};
+  return result;
+}
+
+Case with_steps(const Case& c, const std::vector<corpus::CaseStep>& steps) {
+  Case result = c;
+  result.expected = {};
+  result.pending = "{}";
+  std::vector<std::int32_t> number(c.frames.size(), -1);
+  for (const auto& step : steps) {
+    number[static_cast<std::size_t>(step.from)] = 0;
+    number[static_cast<std::size_t>(step.to)] = 0;
+  }
+  std::int32_t kept = 0;
+  for (auto& n : number) n = n < 0 ? -1 : kept++;
+  const auto select = [&](auto& rows) {
+    if (rows.size() != number.size()) return;
+    auto all = std::move(rows);
+    rows.clear();
+    for (std::size_t f = 0; f < number.size(); ++f) {
+      if (number[f] >= 0) rows.push_back(std::move(all[f]));
+    }
+  };
+  select(result.frames);
+  if (result.view) {
+    select(result.view->q0);
+    select(result.view->q1);
+  }
+  if (result.ghosts) select(result.ghosts->apexes);
+  result.script = steps;
+  for (auto& step : result.script) {
+    step.from = number[static_cast<std::size_t>(step.from)];
+    step.to = number[static_cast<std::size_t>(step.to)];
+  }
+  if (result.script == corpus::consecutive_steps(result.frames.size())) result.script.clear();
+  return result;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,38 @@
+// How large a case is: the order in which the reducer prefers one case to another.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "corpus/case_file.h"
+
+namespace assay::properties {
+
+// Smaller = shorter first, then simpler: compared field by field in this order. Every field is a
+// count that is bounded from below, so a search that only ever goes to smaller sizes ends.
+struct MeshSize {
+  std::size_t steps = 0, triangles = 0, vertices = 0;
+  std::size_t frames = 0;
+  std::size_t moving = 0;     // vertices that move, summed over the steps
+  int view = 0;               // 0 none given, 1 fixed point, 2 moving point, 3 fixed line, 4 moving
+  std::size_t ghosts = 0;     // ghost triangles given
+  std::uint64_t numbers = 0;  // sum of number_cost over all coordinates, view and apexes included
+  friend auto operator<=>(const MeshSize&, const MeshSize&) = default;
+};
+
+// 0 for 0, the magnitude for -9 to 9, 10 for each digit of a longer integer; for others 100 and 10
+// for each character of the shortest decimal that reads back to the same double.
+std::uint64_t number_cost(double value);
+
+// O(size of the case).
+MeshSize size_of(const corpus::Case& c);
+
+// "162 triangles, 83 vertices, 8 steps".
+std::string size_text(const MeshSize& size);
+
+// "162 triangles, 83 vertices, 8 steps -> 4 triangles, 4 vertices, 1 step".
+std::string size_text(const MeshSize& before, const MeshSize& after);
+
+}  // namespace assay::properties

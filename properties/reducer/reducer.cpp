@@ -1,0 +1,83 @@
+#include "properties/reducer/reducer.h"
+
+#include "properties/reducer/passes.h"
+#include "properties/reducer/search.h"
+
+namespace assay::properties {
+namespace {
+
+// Once through a list; whether anything became smaller.
+bool run(std::span<const Pass> passes, ReductionSearch& search) {
+  const MeshSize before = search.size();
+  for (const Pass& pass : passes) {
+    if (search.ended()) break;
+    search.begin_pass(pass.name);
+    pass.run(search);
+  }
+  return search.size() < before;
+}
+
+bool run_to_fixed_point(std::span<const Pass> passes, ReductionSearch& search) {
+  bool any = false;
+  while (run(passes, search)) any = true;
+  return any;
+}
+
+// Where there are few numbers, simple ones help the passes that shorten; where there are many, the
+// mesh is stuck at a large size and they would take all the time.
+bool has_few_numbers(const ReductionSearch& search) {
+  constexpr std::size_t few = 300;
+  return 3 * search.size().vertices * search.size().frames <= few;
+}
+
+// After a pass of a later list has found something, the earlier lists may again: from the start.
+void run_all(ReductionSearch& search) {
+  bool smaller = true;
+  while (smaller) {
+    run_to_fixed_point(shortening_passes(), search);
+    smaller = run(simplifying_passes(), search);
+    if (!smaller && has_few_numbers(search)) smaller = run(number_passes(), search);
+    if (!smaller) smaller = run(escaping_passes(), search);
+    if (!smaller && !has_few_numbers(search)) smaller = run(number_passes(), search);
+  }
+}
+
+void drop_view_at_the_end(ReductionSearch& search) {
+  const MeshSize before = search.size();
+  search.begin_pass("drop view");
+  drop_view(search);
+  if (search.size() < before) run_all(search);
+}
+
+}  // namespace
+
+Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
+                 const OnBetter& on_better, const MakeViewExplicit& make_view_explicit) {
+  ReductionSearch search(failing, judge, limits, on_better);
+  if (search.found()) {
+    // Steps first: a view is made explicit for each of those that remain.
+    search.begin_pass("drop later steps");
+    drop_later_steps(search);
+    if (make_view_explicit && !search.best().view) {
+      search.begin_pass("make view explicit");
+      if (const auto with_view = make_view_explicit(search.best())) search.replace(*with_view);
+    }
+    run_all(search);
+    drop_view_at_the_end(search);
+    search.begin_pass("canonical order");
+    canonical_order(search);
+  }
+  search.begin_pass("end");
+  Reduction reduction;
+  reduction.fixed_point = search.found() && !search.ended();
+  reduction.smallest = search.best();
+  reduction.finding = search.finding();
+  reduction.calls = search.calls();
+  reduction.seconds = search.seconds();
+  for (const auto& pass : search.statistics()) {
+    if (pass.tried + pass.accepted > 0) reduction.passes.push_back(pass);
+  }
+  return reduction;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,62 @@
+// The reducer: from a failing case to the smallest one that fails with the same signature.
+//
+// It is a list of passes (passes.h) run in a fixed order to a fixed point. A pass proposes cases;
+// one is kept when it is smaller (mesh_size.h) and the judge finds the same signature in it. No
+// proposal is judged twice, only valid cases are judged (case_edits.h). The same case, judge and
+// limit of calls give the same bytes; a limit of time only ends the search earlier.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/case_file.h"
+
+namespace assay::properties {
+
+// What a case shows.
+struct Finding {
+  // Claim, outcome, stage and feature type: "all-pairs/missing/view sets/vertex-face".
+  std::string signature;
+  // Triangles of the reported pair, if any: what is far from them is tried first.
+  std::vector<std::int32_t> focus;
+  std::size_t step = 0;  // the step that shows it: those behind it are dropped
+};
+
+// Runs a case: nothing when it holds. Must be deterministic.
+using Judge = std::function<std::optional<Finding>(const corpus::Case&)>;
+
+struct ReduceLimits {
+  double seconds = 60;
+  std::uint64_t calls = 100000;  // of the judge
+};
+
+struct PassStatistics {
+  std::string name;
+  std::uint64_t tried = 0, accepted = 0;  // calls of the judge; smaller cases found
+  double seconds = 0;
+};
+
+struct Reduction {
+  corpus::Case smallest;
+  Finding finding;  // of `smallest`; no signature when the judge found nothing in the case given
+  std::uint64_t calls = 0;
+  double seconds = 0;
+  bool fixed_point = false;  // no pass finds anything smaller; false when a limit ended the search
+  std::vector<PassStatistics> passes;
+};
+
+// Hears of each smaller case as it is found: what is saved there is never lost.
+using OnBetter = std::function<void(const corpus::Case&)>;
+
+// The case with the view primitive that the detector chose by itself written into it, if it chose
+// one: the mesh can then shrink without moving it.
+using MakeViewExplicit = std::function<std::optional<corpus::Case>(const corpus::Case&)>;
+
+// The result keeps the case's id, texts and options; expected facts are cleared.
+Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
+                 const OnBetter& on_better = {}, const MakeViewExplicit& make_view_explicit = {});
+
+}  // namespace assay::properties

@@ -1,0 +1,59 @@
+#include "properties/reducer/rings.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace assay::properties {
+
+Rings rings_of(const ReductionSearch& search) {
+  const auto& triangles = search.best().triangles;
+  const auto vertices = static_cast<std::size_t>(search.best().frames.front().rows());
+  Rings rings;
+  rings.distance.assign(vertices, Rings::unreached);
+  rings.parent.resize(vertices);
+  std::iota(rings.parent.begin(), rings.parent.end(), 0);
+  rings.neighbours.resize(vertices);
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      auto& row = rings.neighbours[static_cast<std::size_t>(triangles(t, i))];
+      row.push_back(triangles(t, (i + 1) % 3));
+      row.push_back(triangles(t, (i + 2) % 3));
+    }
+  }
+  for (auto& row : rings.neighbours) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+  }
+
+  std::vector<std::int32_t> queue;
+  auto focus = search.finding().focus;
+  std::erase_if(focus, [&](std::int32_t t) { return t < 0 || t >= triangles.rows(); });
+  if (focus.empty()) focus.push_back(0);
+  for (const auto t : focus) {
+    for (int i = 0; i < 3; ++i) {
+      auto& distance = rings.distance[static_cast<std::size_t>(triangles(t, i))];
+      if (distance == Rings::unreached) queue.push_back(triangles(t, i));
+      distance = 0;
+    }
+  }
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const auto v = static_cast<std::size_t>(queue[head]);
+    rings.farthest = rings.distance[v];
+    for (const auto w : rings.neighbours[v]) {
+      auto& distance = rings.distance[static_cast<std::size_t>(w)];
+      if (distance != Rings::unreached) continue;
+      distance = rings.distance[v] + 1;
+      rings.parent[static_cast<std::size_t>(w)] = queue[head];
+      queue.push_back(w);
+    }
+  }
+  rings.far_first.resize(vertices);
+  std::iota(rings.far_first.begin(), rings.far_first.end(), 0);
+  std::stable_sort(rings.far_first.begin(), rings.far_first.end(), [&](auto a, auto b) {
+    return rings.distance[static_cast<std::size_t>(a)] >
+           rings.distance[static_cast<std::size_t>(b)];
+  });
+  return rings;
+}
+
+}  // namespace assay::properties

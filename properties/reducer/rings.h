@@ -1,0 +1,41 @@
+// How far the vertices of a mesh are from the triangles of the reported pair.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "properties/reducer/search.h"
+
+namespace assay::properties {
+
+struct Rings {
+  // By vertex. Distance in edges from the nearest vertex of the focus; `unreached` when there is no
+  // way. Parent: a neighbour that is nearer by one; the vertex itself at distance 0 and unreached.
+  std::vector<int> distance;
+  std::vector<std::int32_t> parent;
+  std::vector<std::vector<std::int32_t>> neighbours;  // ascending
+  std::vector<std::int32_t> far_first;                // by falling distance, then by number
+  int farthest = 0;                                   // greatest distance that is reached
+
+  static constexpr int unreached = 1 << 30;
+};
+
+// Around finding().focus of the best case; around its first triangle when that names none. O(n log
+// n).
+Rings rings_of(const ReductionSearch& search);
+
+// Offers to drop or change ranges [begin, end) of a list, halves first: `try_range` is called with
+// ever smaller ranges and tells whether it succeeded, after which the list (`size`) has become
+// shorter and the same place is tried again. No range is tried a second time after a success
+// elsewhere: a later call of the pass does that.
+template <class Size, class TryRange>
+void try_halves(const ReductionSearch& search, Size size, TryRange try_range) {
+  for (std::size_t chunk = std::max<std::size_t>(1, (size() + 1) / 2);; chunk /= 2) {
+    for (std::size_t begin = 0; begin < size() && !search.ended();) {
+      if (!try_range(begin, std::min(begin + chunk, size()))) begin += chunk;
+    }
+    if (chunk == 1 || search.ended()) return;
+  }
+}
+
+}  // namespace assay::properties

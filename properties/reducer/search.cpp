@@ -1,0 +1,139 @@
+#include "properties/reducer/search.h"
+
+#include <bit>
+
+#include "properties/reducer/case_edits.h"
+
+namespace assay::properties {
+namespace {
+
+using corpus::Case;
+
+// 64 bits over all that a pass may change. Two of a million contents are taken for one another with
+// a chance of 3e-8; the price is a proposal not judged.
+class ContentHash {
+ public:
+  void add(std::uint64_t word) {
+    state_ = (std::rotl(state_, 23) ^ word) * 0x9e3779b97f4a7c15u;
+    state_ ^= state_ >> 32;
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(const std::vector<detector::Point>& points) {
+    add(static_cast<std::uint64_t>(points.size()));
+    for (const auto& point : points) {
+      for (const double value : point) add(value);
+    }
+  }
+  void add(const detector::Triangles& triangles) {
+    add(static_cast<std::uint64_t>(triangles.rows()));
+    for (Eigen::Index i = 0; i < triangles.size(); ++i) {
+      add(static_cast<std::uint64_t>(triangles.data()[i]));
+    }
+  }
+  std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0x243f6a8885a308d3u;
+};
+
+std::uint64_t hash_of(const Case& c) {
+  ContentHash hash;
+  hash.add(c.triangles);
+  hash.add(static_cast<std::uint64_t>(c.frames.size()));
+  for (const auto& frame : c.frames) {
+    for (Eigen::Index i = 0; i < frame.size(); ++i) hash.add(frame.data()[i]);
+  }
+  for (const auto& step : corpus::steps_of(c)) {
+    hash.add((static_cast<std::uint64_t>(step.from) << 33) ^
+             (static_cast<std::uint64_t>(step.to) << 1) ^ (step.commit ? 1u : 0u));
+  }
+  if (c.view) {
+    hash.add(c.view->q0);
+    hash.add(c.view->q1);
+  }
+  if (c.ghosts) {
+    hash.add(c.ghosts->triangles);
+    for (const auto& apexes : c.ghosts->apexes) hash.add(apexes);
+  }
+  return hash.value();
+}
+
+}  // namespace
+
+ReductionSearch::ReductionSearch(const Case& failing, const Judge& judge,
+                                 const ReduceLimits& limits, const OnBetter& on_better)
+    : judge_(judge), limits_(limits), on_better_(on_better), best_(failing) {
+  best_.expected = {};
+  best_.pending = "{}";
+  size_ = reported_ = size_of(best_);
+  begin_pass("start");
+  if (!is_valid(best_)) return;
+  ++calls_;
+  ++statistics_[pass_].tried;
+  if (auto found = judge_(best_)) finding_ = std::move(*found);
+  judged_.emplace(hash_of(best_), finding_);
+}
+
+double ReductionSearch::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+bool ReductionSearch::ended() const {
+  return calls_ >= limits_.calls || seconds() >= limits_.seconds;
+}
+
+std::optional<Finding> ReductionSearch::ask(const Case& candidate) {
+  const auto [place, is_new] = judged_.try_emplace(hash_of(candidate));
+  if (!is_new) return place->second;
+  if (ended() || !is_valid(candidate)) {
+    judged_.erase(place);
+    return std::nullopt;
+  }
+  ++calls_;
+  ++statistics_[pass_].tried;
+  auto found = judge_(candidate);
+  if (found && found->signature == finding_.signature) place->second = std::move(found);
+  return place->second;
+}
+
+void ReductionSearch::keep(const Case& candidate, const MeshSize& size, Finding finding) {
+  best_ = candidate;
+  size_ = size;
+  finding_ = std::move(finding);
+  if (size >= reported_) return;
+  reported_ = size;
+  if (on_better_) on_better_(best_);
+}
+
+bool ReductionSearch::offer(const Case& candidate) {
+  const MeshSize size = size_of(candidate);
+  if (size >= size_) return false;
+  auto finding = ask(candidate);
+  if (!finding) return false;
+  ++statistics_[pass_].accepted;
+  keep(candidate, size, std::move(*finding));
+  return true;
+}
+
+bool ReductionSearch::replace(const Case& candidate) {
+  auto finding = ask(candidate);
+  if (!finding) return false;
+  keep(candidate, size_of(candidate), std::move(*finding));
+  return true;
+}
+
+void ReductionSearch::begin_pass(const std::string& name) {
+  const double now = seconds();
+  if (!statistics_.empty()) statistics_[pass_].seconds += now - pass_start_;
+  pass_start_ = now;
+  for (std::size_t p = 0; p < statistics_.size(); ++p) {
+    if (statistics_[p].name == name) {
+      pass_ = p;
+      return;
+    }
+  }
+  pass_ = statistics_.size();
+  statistics_.push_back({name, 0, 0, 0});
+}
+
+}  // namespace assay::properties

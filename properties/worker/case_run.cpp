@@ -1,0 +1,123 @@
+#include "properties/worker/case_run.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+#include "detector/detector.h"
+#include "properties/faults/fault.h"
+
+namespace assay::properties {
+
+using detector::Culling;
+using detector::StepResult;
+
+const char* name_of(RunEnd end) {
+  switch (end) {
+    case RunEnd::completed:
+      return "completed";
+    case RunEnd::crashed:
+      return "crashed";
+    case RunEnd::hung:
+      return "hung";
+    case RunEnd::refused:
+      return "refused";
+    case RunEnd::out_of_memory:
+      return "out of memory";
+    case RunEnd::not_run:
+      return "not run";
+  }
+  return "unknown";
+}
+
+CaseRun out_of_memory() { return {RunEnd::out_of_memory, "out of memory", {}}; }
+
+namespace {
+
+std::vector<detector::ViewPrimitive> given_view(const corpus::Case& c, std::size_t step,
+                                                Culling culling) {
+  auto view = corpus::view_of_step(c, step);
+  if (!view || (culling != Culling::view_point && culling != Culling::view_line)) return {};
+  // A segment serves as a point by its first end.
+  if (culling == Culling::view_point) view->q1 = view->q0;
+  return {*view};
+}
+
+detector::Stages stages_of(const Configuration& configuration) {
+  const Fault* fault = configuration.fault.empty() ? nullptr : find_fault(configuration.fault);
+  return fault ? fault->stages(configuration.options)
+               : detector::standard_stages(configuration.options.culling);
+}
+
+StepResult undecided() {
+  StepResult result;
+  result.answer = detector::Answer::undecided;
+  return result;
+}
+
+StepResult run_step(detector::Detector& detector, const corpus::Case& c, std::size_t s,
+                    const corpus::CaseStep& step, Culling culling) {
+  const auto& x_t0 = c.frames[static_cast<std::size_t>(step.from)];
+  const auto& x_t1 = c.frames[static_cast<std::size_t>(step.to)];
+  const auto given = given_view(c, s, culling);
+  try {
+    return step.commit ? detector.step(x_t0, x_t1, given) : detector.evaluate(x_t0, x_t1, given);
+  } catch (const std::bad_alloc&) {
+    return undecided();
+  }
+}
+
+// Counters are plain numbers without gaps between them.
+static_assert(std::has_unique_object_representations_v<detector::StepCounts>);
+
+bool same_primitive(const detector::ViewPrimitive& a, const detector::ViewPrimitive& b) {
+  return a.q0.t0 == b.q0.t0 && a.q0.t1 == b.q0.t1 && a.q1.t0 == b.q1.t0 && a.q1.t1 == b.q1.t1;
+}
+
+bool same_path(const detector::MovingPoint& a, const detector::MovingPoint& b) {
+  return a.t0 == b.t0 && a.t1 == b.t1;
+}
+
+bool same_contact(const detector::PairContact& a, const detector::PairContact& b) {
+  return a.pair == b.pair && a.time == b.time && a.feature.kind == b.feature.kind &&
+         a.feature.vertices == b.feature.vertices;
+}
+
+bool same_result(const StepResult& a, const StepResult& b) {
+  const auto equal = [](const auto& x, const auto& y, auto same) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(), same);
+  };
+  return a.answer == b.answer && a.first == b.first && a.signs == b.signs &&
+         a.view_positive == b.view_positive && a.view_negative == b.view_negative &&
+         a.view_zero == b.view_zero && a.doubts == b.doubts &&
+         equal(a.apexes, b.apexes, same_path) && equal(a.pairs, b.pairs, same_contact) &&
+         equal(a.primitives, b.primitives, same_primitive) &&
+         std::memcmp(&a.counts, &b.counts, sizeof a.counts) == 0;
+}
+
+}  // namespace
+
+CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try {
+  CaseRun run;
+  auto made = detector::Detector::assemble(c.triangles, c.frames.front(), configuration.options,
+                                           stages_of(configuration));
+  if (!made) return {RunEnd::refused, made.error().message, {}};
+  const auto script = corpus::steps_of(c);
+  for (std::size_t s = 0; s < script.size(); ++s) {
+    run.steps.push_back(run_step(made.value(), c, s, script[s], configuration.options.culling));
+    const auto& problem = run.steps.back().problem;
+    if (problem && run.what.empty()) {
+      run.what = "step " + std::to_string(s + 1) + ": " + problem->message;
+    }
+  }
+  return run;
+} catch (const std::bad_alloc&) {
+  return out_of_memory();
+}
+
+bool same_answers(const CaseRun& a, const CaseRun& b) {
+  return a.end == b.end && a.what == b.what &&
+         std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same_result);
+}
+
+}  // namespace assay::properties

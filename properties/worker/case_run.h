@@ -1,0 +1,50 @@
+// One case through one configuration of a detector: every step of its script, state carried.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corpus/case_file.h"
+#include "detector/options.h"
+
+namespace assay::properties {
+
+// The built-in detector with these options; of a plug-in only the name is used.
+struct Configuration {
+  std::string name;
+  detector::Options options;
+  std::string fault = {};  // the planted fault to plant in it (faults/fault.h), or empty
+};
+
+enum class RunEnd : std::uint8_t {
+  completed,      // every step has a result, which may be undecided or an error
+  crashed,        // the process ended under the detector
+  hung,           // stopped at the time limit: undecided
+  refused,        // the mesh was refused by name when the detector was made
+  out_of_memory,  // before the first step: undecided
+  not_run,        // there is no worker to run it: the harness failed, not the detector
+};
+
+const char* name_of(RunEnd end);
+
+struct CaseRun {
+  RunEnd end = RunEnd::completed;
+  // One line: the signal, the refusal, or the first step's error. Empty when nothing is wrong.
+  std::string what;
+  // One for each step of the case when completed, else none. A pair or first time that a plug-in
+  // does not state is [0, 1].
+  std::vector<detector::StepResult> steps;
+};
+
+// Steps of the case that commit advance the state. The case's view primitive is given where the
+// culling is one of views (its q0 alone for view-point). A step that runs out of memory is
+// undecided. Runs in this process: what the detector does to it, it does to the caller.
+CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
+
+// The run of a case that did not fit into memory.
+CaseRun out_of_memory();
+
+// Whether two runs of one case gave the same: all but the times that a step took.
+bool same_answers(const CaseRun& a, const CaseRun& b);
+
+}  // namespace assay::properties

@@ -1,0 +1,40 @@
+// A stream socket that carries whole messages: 8 bytes of length, then the bytes. Never raises
+// SIGPIPE.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace assay::properties {
+
+enum class Transfer { done, closed, timed_out };
+
+using Deadline = std::optional<std::chrono::steady_clock::time_point>;  // none: wait for ever
+
+class Channel {
+ public:
+  explicit Channel(int descriptor) : descriptor_(descriptor) {}
+  Channel(Channel&& other) noexcept
+      : descriptor_(std::exchange(other.descriptor_, -1)), received_(std::move(other.received_)) {}
+  Channel& operator=(Channel&&) = delete;
+  ~Channel();  // closes
+
+  // Two connected channels, both closed on exec; nothing when the system has no more.
+  static std::optional<std::pair<Channel, Channel>> connected();
+
+  int descriptor() const { return descriptor_; }
+  Transfer send(const std::string& message, Deadline deadline = {});
+  Transfer receive(std::string& message, Deadline deadline = {});
+  // Whether the other end has closed, without waiting.
+  bool is_closed() const;
+
+ private:
+  Transfer wait_for(short events, Deadline deadline) const;
+
+  int descriptor_;
+  std::string received_;  // beyond the message returned last
+};
+
+}  // namespace assay::properties

@@ -1,0 +1,93 @@
+// assay-worker: runs detectors on the cases that its host sends, until the host closes the channel.
+// Holds the built-in detector and, with a library named, a plug-in; never the oracle.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdio>
+#include <new>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "properties/worker/channel.h"
+#include "properties/worker/plugin_host.h"
+#include "properties/worker/wire_fields.h"
+
+namespace {
+
+using namespace assay::properties;
+
+constexpr int exit_usage = 2;
+
+std::optional<std::uint64_t> number(std::string_view word) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+// Dies with its host, leaves no core file, keeps to its memory, prints nothing on stdout.
+bool settle(std::uint64_t host, std::uint64_t bytes) {
+  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
+  // The host may have died before that took hold.
+  if (static_cast<std::uint64_t>(::getppid()) != host) return false;
+  const rlimit no_core = {0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  if (bytes > 0) {
+    const rlimit limit = {bytes, bytes};
+    if (::setrlimit(RLIMIT_AS, &limit) != 0) return false;
+  }
+  return ::dup2(STDERR_FILENO, STDOUT_FILENO) >= 0;
+}
+
+int serve(Channel channel, const char* plugin_library) {
+  Hello hello;
+  hello.wire_version = wire_version();
+  hello.description = {"built-in", "", claims_of(assay::detector::Pairs::all), {}};
+  std::optional<PluginHost> plugin;
+  if (plugin_library) {
+    auto opened = PluginHost::open(plugin_library);
+    if (opened) {
+      plugin = std::move(opened.value());
+      hello.description = plugin->description();
+    } else {
+      hello.problem = opened.error().message;
+    }
+  }
+  if (channel.send(encode(hello)) != Transfer::done) return 0;
+  try {
+    std::string message;
+    while (channel.receive(message) == Transfer::done) {
+      RunRequest request;
+      if (!decode(message, request)) return exit_usage;
+      for (const auto& configuration : request.configurations) {
+        const CaseRun run = plugin ? plugin->run(request.c) : run_case(request.c, configuration);
+        if (channel.send(encode(run)) != Transfer::done) return 0;
+        if (run.end == RunEnd::out_of_memory) return 0;
+      }
+    }
+  } catch (const std::bad_alloc&) {
+    // The host goes on with a new worker.
+    channel.send(encode(out_of_memory()));
+  }
+  return 0;
+}
+
+}  // namespace
+
+// Arguments: the channel's descriptor, the host's process, a limit in bytes, a plug-in if any.
+int main(int argc, char** argv) {
+  const std::span<char*> words(argv, static_cast<std::size_t>(argc));
+  if (words.size() == 4 || words.size() == 5) {
+    const auto channel = number(words[1]), host = number(words[2]), bytes = number(words[3]);
+    if (channel && host && bytes && settle(*host, *bytes)) {
+      return serve(Channel(static_cast<int>(*channel)), words.size() == 5 ? words[4] : nullptr);
+    }
+  }
+  std::fputs("assay-worker: is started by assay, not by hand\n", stderr);
+  return exit_usage;
+}

@@ -1,0 +1,34 @@
+// Loads a plug-in and runs cases through it. The library's code, its constructors included, runs in
+// this process: only the worker does that.
+#pragma once
+
+#include <filesystem>
+
+#include "detector/plugin/assay_detector.h"
+#include "properties/worker/case_run.h"
+#include "properties/worker/plugin_description.h"
+
+namespace assay::properties {
+
+class PluginHost {
+ public:
+  // Problems: no such file, not a shared library, no assay_detector() in it, another ABI version,
+  // a table with a gap, a description that says nothing sensible. Never unloaded again.
+  static PluginExpected<PluginHost> open(const std::filesystem::path& library);
+
+  const PluginDescription& description() const { return description_; }
+
+  // As run_case. A result that breaks the header's rules (an index out of range, an interval that
+  // is none) makes its step an error; errors are told in `what`. Coordinates are rounded to what
+  // the contract says.
+  CaseRun run(const corpus::Case& c) const;
+
+ private:
+  PluginHost(const assay_detector_api* api, PluginDescription description)
+      : api_(api), description_(std::move(description)) {}
+
+  const assay_detector_api* api_;
+  PluginDescription description_;
+};
+
+}  // namespace assay::properties

@@ -1,0 +1,81 @@
+#include "properties/worker/plugin_result.h"
+
+#include <algorithm>
+
+namespace assay::properties {
+
+using detector::Answer;
+using detector::PairContact;
+using detector::TimeEnclosure;
+
+namespace {
+
+bool is_interval(const TimeEnclosure& time) {
+  return 0 <= time.lo && time.lo <= time.hi && time.hi <= 1;  // no NaN passes
+}
+
+// Nothing when the pair is none of this mesh.
+bool read_pair(const std::int32_t* raw, std::int32_t triangle_count, detector::TrianglePair& pair) {
+  pair = {std::min(raw[0], raw[1]), std::max(raw[0], raw[1])};
+  return 0 <= pair.a && pair.a < pair.b && pair.b < triangle_count;
+}
+
+std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
+                       std::vector<PairContact>& pairs) {
+  if (raw.pair_count > 0 && !raw.pairs) return "pairs are counted but not given";
+  for (std::uint64_t i = 0; i < raw.pair_count; ++i) {
+    PairContact contact;
+    if (!read_pair(raw.pairs + 2 * i, triangle_count, contact.pair)) {
+      return "pair " + std::to_string(i) + " names no two triangles";
+    }
+    contact.time = {0, 1};
+    if (raw.pair_times) contact.time = {raw.pair_times[2 * i], raw.pair_times[2 * i + 1]};
+    if (!is_interval(contact.time)) {
+      return "the time of pair " + std::to_string(i) + " is no interval in [0, 1]";
+    }
+    pairs.push_back(contact);
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const PairContact& a, const PairContact& b) {
+    return a.pair != b.pair ? a.pair < b.pair : a.time < b.time;
+  });
+  const auto same_pair = [](const PairContact& a, const PairContact& b) {
+    return a.pair == b.pair;
+  };
+  pairs.erase(std::unique(pairs.begin(), pairs.end(), same_pair), pairs.end());
+  return "";
+}
+
+std::string read_result(const assay_result& raw, std::int32_t triangle_count,
+                        detector::StepResult& result) {
+  switch (raw.answer) {
+    case ASSAY_FREE:
+      result.answer = Answer::free;
+      return raw.pair_count == 0 ? "" : "answers free and gives pairs";
+    case ASSAY_UNDECIDED:
+      result.answer = Answer::undecided;
+      return read_pairs(raw, triangle_count, result.pairs);
+    case ASSAY_COLLISION:
+      result.answer = Answer::collision;
+      result.first = {raw.first_lo, raw.first_hi};
+      if (!is_interval(result.first)) return "its first time is no interval in [0, 1]";
+      return read_pairs(raw, triangle_count, result.pairs);
+    case ASSAY_ERROR:
+      return raw.message && *raw.message ? raw.message : "an error without a message";
+    default:
+      return "answer " + std::to_string(raw.answer) + " is none";
+  }
+}
+
+}  // namespace
+
+detector::StepResult step_result(const assay_result& raw, std::int32_t triangle_count,
+                                 std::string& problem) {
+  detector::StepResult result;
+  problem = read_result(raw, triangle_count, result);
+  if (problem.empty()) return result;
+  detector::StepResult error;
+  error.answer = Answer::error;
+  return error;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,146 @@
+// Messages between the host and its worker: own bytes, length first. Both ends are builds of the
+// same sources on the same machine, which wire_version checks, so plain data travels as it lies in
+// memory.
+//
+// What a message holds is listed once, in wire_fields.h, for both directions.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace assay::properties {
+
+// Types whose every value travels as its bytes. Listed by name: a type that grows a pointer must
+// not slip through.
+template <class T>
+struct TravelsAsBytes : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
+
+class WireWriter {
+ public:
+  template <class... T>
+  void operator()(T&... items) {
+    (put(items), ...);
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  template <class T>
+  void put(T& item) {
+    if constexpr (TravelsAsBytes<std::remove_const_t<T>>::value) {
+      put_bytes(&item, sizeof item);
+    } else {
+      fields(*this, item);
+    }
+  }
+  void put(std::string& text) { put_array(text.data(), text.size()); }
+  template <class T>
+  void put(std::vector<T>& items) {
+    if constexpr (TravelsAsBytes<T>::value) {
+      put_array(items.data(), items.size());
+    } else {
+      put_size(items.size());
+      for (auto& item : items) put(item);
+    }
+  }
+  template <class T>
+  void put(std::optional<T>& item) {
+    bool is_there = item.has_value();
+    put(is_there);
+    if (item) put(*item);
+  }
+  // Rows x 3.
+  template <class T>
+  void put(Eigen::Matrix<T, Eigen::Dynamic, 3, Eigen::RowMajor>& rows) {
+    put_array(rows.data(), static_cast<std::size_t>(rows.size()));
+  }
+  template <class T>
+  void put_array(const T* items, std::size_t count) {
+    put_size(count);
+    put_bytes(items, count * sizeof(T));
+  }
+  void put_size(std::size_t size) {
+    auto count = static_cast<std::uint64_t>(size);
+    put(count);
+  }
+  void put_bytes(const void* data, std::size_t size) {
+    if (size) bytes_.append(static_cast<const char*>(data), size);
+  }
+
+  std::string bytes_;
+};
+
+// Reads what a WireWriter wrote. A message that is short or states more than it has leaves ok()
+// false and the rest untouched: the other end was damaged by what it ran.
+class WireReader {
+ public:
+  explicit WireReader(const std::string& bytes) : next_(bytes.data()), left_(bytes.size()) {}
+  template <class... T>
+  void operator()(T&... items) {
+    (get(items), ...);
+  }
+  bool ok() const { return ok_; }
+  // All read, nothing left.
+  bool complete() const { return ok_ && left_ == 0; }
+
+ private:
+  template <class T>
+  void get(T& item) {
+    if constexpr (TravelsAsBytes<T>::value) {
+      get_bytes(&item, sizeof item);
+    } else {
+      fields(*this, item);
+    }
+  }
+  void get(std::string& text) {
+    text.resize(get_count(1));
+    get_bytes(text.data(), text.size());
+  }
+  template <class T>
+  void get(std::vector<T>& items) {
+    if constexpr (TravelsAsBytes<T>::value) {
+      items.resize(get_count(sizeof(T)));
+      get_bytes(items.data(), items.size() * sizeof(T));
+    } else {
+      items.resize(get_count(1));
+      for (auto& item : items) get(item);
+    }
+  }
+  template <class T>
+  void get(std::optional<T>& item) {
+    bool is_there = false;
+    get(is_there);
+    item.reset();
+    if (is_there && ok_) get(item.emplace());
+  }
+  template <class T>
+  void get(Eigen::Matrix<T, Eigen::Dynamic, 3, Eigen::RowMajor>& rows) {
+    const std::size_t count = get_count(sizeof(T));
+    rows.resize(static_cast<Eigen::Index>(count / 3), 3);
+    get_bytes(rows.data(), count / 3 * 3 * sizeof(T));
+  }
+  // A number of items of at least `size` bytes each; 0 when the message cannot hold them.
+  std::size_t get_count(std::size_t size) {
+    std::uint64_t count = 0;
+    get(count);
+    if (count > left_ / size) ok_ = false;
+    return ok_ ? static_cast<std::size_t>(count) : 0;
+  }
+  void get_bytes(void* data, std::size_t size) {
+    ok_ = ok_ && size <= left_;
+    if (!ok_ || size == 0) return;
+    std::memcpy(data, next_, size);
+    next_ += size;
+    left_ -= size;
+  }
+
+  const char* next_;
+  std::size_t left_;
+  bool ok_ = true;
+};
+
+}  // namespace assay::properties

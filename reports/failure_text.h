@@ -1,0 +1,26 @@
+// The failures of a run: their files, and what is printed of them.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "properties/campaign/runner.h"
+
+namespace assay::reports {
+
+// OUT/shard-1-of-4.sqlite
+std::filesystem::path store_file(const std::filesystem::path& out, const properties::Shard& shard);
+
+struct FailureReport {
+  std::string text;                    // a paragraph for each signature; empty without failures
+  std::optional<std::string> problem;  // what could not be written
+};
+
+// Writes OUT/failures/N-original.json and N-smallest.json for each stored failure. A failure is
+// told once for each signature: claim, how often it was met, both sizes, triangles, feature, the
+// line that replays it.
+FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
+                             const properties::CampaignRequest& request);
+
+}  // namespace assay::reports

@@ -1,0 +1,81 @@
+// `assay list`: laws, planted faults, campaigns, and the failures of a run.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "properties/campaign/plan.h"
+#include "properties/faults/fault.h"
+#include "properties/laws/law.h"
+#include "reports/commands.h"
+#include "reports/complaint.h"
+#include "reports/failure_text.h"
+
+namespace assay::reports {
+namespace {
+
+int list_laws() {
+  for (const auto& law : properties::laws()) {
+    fmt::print("{:4} {}\n     {}\n", law.number, law.name, law.statement);
+  }
+  return exit_holds;
+}
+
+int list_faults() {
+  fmt::print("{:44} {:11} {:20} {:>9}  {}\n", "fault", "status", "found by", "vertices", "what");
+  for (const auto& fault : properties::faults()) {
+    fmt::print("{:44} {:11} {:20} {:>9}  {}{}\n", fault.name, properties::name_of(fault.status),
+               fault.law,
+               fault.smallest_vertices ? fmt::format("{}", fault.smallest_vertices) : "-",
+               fault.about, fault.reason.empty() ? "" : fmt::format(" [{}]", fault.reason));
+  }
+  return exit_holds;
+}
+
+int list_campaigns() {
+  fmt::print("{:10} {:>9} {:>9}  {}\n", "campaign", "cases", "seconds", "what it is");
+  for (const auto& plan : properties::named_plans()) {
+    std::uint64_t cases = 0;
+    for (const auto& stratum : plan.strata) cases += stratum.cases;
+    fmt::print("{:10} {:>9} {:>9.0f}  {}\n", plan.name, cases, plan.seconds, plan.about);
+  }
+  return exit_holds;
+}
+
+int list_failures(const std::string& folder) {
+  std::error_code error;
+  std::size_t stores = 0, failures = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
+    if (file.path().extension() != ".sqlite") continue;
+    ++stores;
+    std::string problem;
+    const auto store = properties::Store::read(file.path(), problem);
+    if (!store) return refuse(problem);
+    for (const auto& [signature, met] : store->signatures()) {
+      fmt::print("{:>8} times  {}\n", met, signature);
+      ++failures;
+    }
+    for (const auto& failure : store->failures()) {
+      fmt::print("    {} ({}): {}\n", failure.id, failure.configuration, failure.what);
+    }
+  }
+  if (error) return refuse(fmt::format("{}: {}", folder, error.message()));
+  if (stores == 0) return refuse(fmt::format("{}: no run is stored here", folder));
+  if (failures == 0) fmt::print("no failures\n");
+  return exit_holds;
+}
+
+}  // namespace
+
+int run_list(const std::string& what, const std::string& folder) {
+  if (what == "failures") {
+    return folder.empty() ? refuse("list failures needs the folder of a run")
+                          : list_failures(folder);
+  }
+  if (!folder.empty()) return refuse(fmt::format("list {} takes no folder", what));
+  if (what == "laws") return list_laws();
+  if (what == "faults") return list_faults();
+  if (what == "campaigns") return list_campaigns();
+  return run_list_scenes();
+}
+
+}  // namespace assay::reports

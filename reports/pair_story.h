@@ -1,0 +1,20 @@
+// Why a pair of triangles was or was not tested.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corpus/case_file.h"
+#include "detector/options.h"
+#include "oracle/step.h"
+
+namespace assay::reports {
+
+// For each step of the case: both signs, doubts, components, layers at the start by the oracle,
+// whether the pair is in K, whether the swept boxes meet, what the oracle says of it. Runs the
+// built-in detector in this process.
+std::string pair_story(const corpus::Case& c, const detector::Options& options,
+                       const detector::TrianglePair& pair,
+                       const std::vector<oracle::StepJudgement>& truth);
+
+}  // namespace assay::reports

@@ -1,0 +1,28 @@
+// How far long work is: a line rewritten in place on a terminal, plain lines now and then
+// elsewhere.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace assay::reports {
+
+class PlainProgress {
+ public:
+  explicit PlainProgress(std::string what);
+  ~PlainProgress() { finish(); }
+  PlainProgress(const PlainProgress&) = delete;
+  PlainProgress& operator=(const PlainProgress&) = delete;
+
+  // At most five times a second on a terminal, every 20 s elsewhere.
+  void show(const std::string& text);
+  void finish();
+
+ private:
+  const bool on_terminal_;
+  bool drawn_ = false;
+  std::string what_;
+  std::chrono::steady_clock::time_point last_;
+};
+
+}  // namespace assay::reports

@@ -1,0 +1,136 @@
+// `assay replay`: one case again, by its id or from its file, and what is known of a pair in it.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+
+#include "properties/campaign/runner.h"
+#include "properties/case_check.h"
+#include "properties/generators/families.h"
+#include "properties/reducer/mesh_size.h"
+#include "properties/worker/worker_process.h"
+#include "reports/case_export.h"
+#include "reports/commands.h"
+#include "reports/complaint.h"
+#include "reports/detector_choice.h"
+#include "reports/pair_story.h"
+#include "reports/step_text.h"
+
+namespace assay::reports {
+namespace {
+
+using properties::Outcome;
+
+// "campaign:seed:family:index" makes the case again; anything else is a file.
+corpus::Expected<corpus::Case> case_of(const std::string& id_or_file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(id_or_file, ignored)) {
+    for (const auto& family : properties::families()) {
+      if (id_or_file.find(fmt::format(":{}:", family.name)) != std::string::npos) {
+        return properties::make_case(family, id_or_file).c;
+      }
+    }
+  }
+  return corpus::read_case(id_or_file);
+}
+
+// A case that states options is about them; one that does not, about every configuration.
+std::optional<std::string> choose_configurations(const corpus::Case& c,
+                                                 properties::DetectorUnderTest& detector) {
+  if (!detector.built_in || c.options.empty()) return std::nullopt;
+  if (auto wrong = properties::wrong_option(c)) return wrong;
+  const auto options = properties::options_of(c);
+  const char* first = options.pairs == detector::Pairs::first ? "/first" : "";
+  detector.configurations = {
+      {fmt::format("{}{}", properties::name_of(options.culling), first), options}};
+  return std::nullopt;
+}
+
+void print_steps(const corpus::Case& c, const std::vector<oracle::StepJudgement>& truth) {
+  const auto script = corpus::steps_of(c);
+  for (std::size_t s = 0; s < script.size(); ++s) {
+    fmt::print("step {} (frame {} to {}, {}): oracle {}", s + 1, script[s].from, script[s].to,
+               script[s].commit ? "committed" : "evaluated only",
+               properties::name_of(truth[s].answer));
+    if (!truth[s].pairs.empty()) {
+      fmt::print(" at t = {}, {} pairs in contact", time_text(truth[s].first),
+                 truth[s].pairs.size());
+    }
+    fmt::print("\n");
+  }
+}
+
+std::string sets_text(const detector::StepResult& result) {
+  if (result.doubts.empty()) return "";
+  return fmt::format("; V+ {}  V- {}  V0 {}  Vv {} (violated {}, dirty {})", result.view_positive,
+                     result.view_negative, result.view_zero, result.against_all, result.violated,
+                     result.dirty);
+}
+
+void print_run(const properties::Configuration& configuration, const properties::CaseRun& run,
+               const properties::Verdict& verdict) {
+  fmt::print("{}: {}{}\n", configuration.name, properties::name_of(verdict.outcome),
+             run.what.empty() ? "" : " (" + run.what + ")");
+  for (std::size_t s = 0; s < run.steps.size(); ++s) {
+    const auto& result = run.steps[s];
+    fmt::print("  step {}: {}{}, {} pairs{}\n", s + 1, properties::name_of(result.answer),
+               result.answer == detector::Answer::collision
+                   ? fmt::format(" at t = {}", time_text(result.first))
+                   : "",
+               result.pairs.size(), sets_text(result));
+  }
+  if (verdict.failure) {
+    fmt::print("  DEFECT {} in step {}: {}\n", verdict.failure->signature(),
+               verdict.failure->step + 1, verdict.failure->what);
+  }
+}
+
+}  // namespace
+
+int run_replay(const ReplayRequest& request) {
+  auto made = case_of(request.id_or_file);
+  if (!made) return refuse(made.error().message);
+  const corpus::Case& c = made.value();
+  properties::CampaignRequest subject;
+  subject.worker = properties::worker_program();
+  if (auto problem = choose_detector(request.detector, subject)) return refuse(*problem);
+  if (auto problem = choose_configurations(c, subject.detector)) {
+    return refuse(fmt::format("{}: {}", request.id_or_file, *problem));
+  }
+  if (request.why && (request.why->a < 0 || request.why->b >= c.triangles.rows())) {
+    return refuse(fmt::format("--why {},{}: the mesh has {} triangles", request.why->a,
+                              request.why->b, c.triangles.rows()));
+  }
+  fmt::print("{}: {}{}\n", c.id, properties::size_text(properties::size_of(c)),
+             c.about.empty() ? "" : "; " + c.about);
+  const auto seen = properties::contracted(c, subject.detector.contract);
+  if (!seen) return refuse("a coordinate of the case is beyond the detector's contract");
+  const auto truth = properties::judge_case(*seen);
+  print_steps(c, truth);
+  properties::WorkerProcess worker(subject.worker, subject.plugin);
+  const auto runs = worker.run(c, subject.detector.configurations);
+  int code = exit_holds;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto& configuration = subject.detector.configurations[i];
+    const auto verdict =
+        properties::judge_trial(*seen, truth, runs[i], configuration, subject.detector);
+    print_run(configuration, runs[i], verdict);
+    if (verdict.outcome == Outcome::defect) code = exit_defect;
+    if (verdict.outcome != Outcome::defect && verdict.outcome != Outcome::holds &&
+        code == exit_holds) {
+      code = exit_undecided;
+    }
+    if (request.why && subject.detector.built_in) {
+      fmt::print("{}", pair_story(c, configuration.options, *request.why, truth));
+    }
+  }
+  if (!request.export_folder.empty()) {
+    if (auto problem = export_case(request.export_folder, c, subject.detector, truth)) {
+      return refuse(*problem);
+    }
+    fmt::print("exported to {}\n", request.export_folder);
+  }
+  return code;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,192 @@
+// A detector is judged by what it claims: each claim is broken once, alone, and a claim that is not
+// made is never broken.
+#include "properties/claims.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "properties/agreement.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Answer;
+using detector::PairContact;
+using detector::TimeEnclosure;
+
+// Triangles 0-1 share an edge, 0-2 and 1-2 a vertex; 3 and 4 are apart.
+detector::Triangles mesh() {
+  detector::Triangles triangles(5, 3);
+  triangles << 0, 1, 2, 1, 0, 3, 0, 4, 5, 6, 7, 8, 9, 10, 11;
+  return triangles;
+}
+
+PairContact contact(std::int32_t a, std::int32_t b, double lo, double hi) {
+  return {{a, b}, {lo, hi}, {}};
+}
+PairContact contact(std::int32_t a, std::int32_t b, double t) { return contact(a, b, t, t); }
+
+detector::StepResult collision(TimeEnclosure first, std::vector<PairContact> pairs) {
+  detector::StepResult result;
+  result.answer = Answer::collision;
+  result.first = first;
+  result.pairs = std::move(pairs);
+  return result;
+}
+
+detector::StepResult answer(Answer value) {
+  detector::StepResult result;
+  result.answer = value;
+  return result;
+}
+
+oracle::StepJudgement truth(std::vector<PairContact> pairs) {
+  oracle::StepJudgement judgement;
+  judgement.complete = true;
+  judgement.answer = pairs.empty() ? Answer::free : Answer::collision;
+  judgement.first = {1, 1};
+  for (const auto& p : pairs) judgement.first = std::min(judgement.first, p.time);
+  judgement.pairs = std::move(pairs);
+  return judgement;
+}
+
+using List = std::vector<Claim>;
+
+StepDiff judged(const detector::StepResult& result, const oracle::StepJudgement& judgement,
+                Claims claims = claims_of(detector::Pairs::all), Contract contract = {}) {
+  return compare(result, judgement, claims, contract, mesh());
+}
+
+TEST(Claims, TheBuiltInClaimsAllButAllPairsWhenItIsAskedForTheFirst) {
+  EXPECT_EQ(list_of(claims_of(detector::Pairs::all)), all_claims());
+  const auto first = claims_of(detector::Pairs::first);
+  for (const auto claim : all_claims()) EXPECT_EQ(first.has(claim), claim != Claim::all_pairs);
+}
+
+TEST(Claims, FreeAgainstAContactIsUnsoundAndLosesItsPairs) {
+  const auto diff = judged(answer(Answer::free), truth({contact(3, 4, .5)}));
+  EXPECT_EQ(diff.outcome, Outcome::defect);
+  EXPECT_EQ(diff.broken, (List{Claim::free_sound, Claim::first_pairs, Claim::all_pairs}));
+  // A detector that promises nothing about `free` has broken nothing.
+  EXPECT_EQ(judged(answer(Answer::free), truth({contact(3, 4, .5)}), {.first_time = true}).outcome,
+            Outcome::holds);
+}
+
+TEST(Claims, CollisionAgainstNoneIsSpurious) {
+  const auto alarm = collision({0, 0}, {contact(3, 4, 0)});
+  EXPECT_EQ(judged(alarm, truth({})).broken, List{Claim::no_spurious});
+  const Claims others = {.free_sound = true, .not_late = true, .first_time = true};
+  EXPECT_EQ(judged(alarm, truth({})).outcome, Outcome::defect);
+  EXPECT_EQ(judged(alarm, truth({}), others).outcome, Outcome::holds);
+  const auto with_margin =
+      judged(alarm, truth({}), claims_of(detector::Pairs::all), {.margin = .1});
+  EXPECT_EQ(with_margin.outcome, Outcome::holds);
+}
+
+TEST(Claims, ATimeIsAnIntervalThatMustHoldTheOracles) {
+  const double half_up = std::nextafter(.5, 1);
+  const auto step = truth({contact(3, 4, .5, half_up)});  // strictly between the two
+  const auto broken_by = [&](double lo, double hi) {
+    return judged(collision({lo, hi}, {contact(3, 4, 0, 1)}), step).broken;
+  };
+  EXPECT_EQ(broken_by(.5, half_up), List{});
+  EXPECT_EQ(broken_by(.25, .75), List{});
+  EXPECT_EQ(broken_by(0, 1), List{});
+  EXPECT_EQ(broken_by(.5, .5), List{Claim::first_time});
+  EXPECT_EQ(broken_by(0, .25), List{Claim::first_time});
+  EXPECT_EQ(broken_by(half_up, 1), (List{Claim::not_late, Claim::first_time}));
+  // Early is not late.
+  const auto early = collision({.25, .25}, {});
+  EXPECT_EQ(judged(early, step, {.not_late = true}).outcome, Outcome::holds);
+  const auto late = collision({.75, .75}, {});
+  EXPECT_EQ(judged(late, step, {.not_late = true}).broken, List{Claim::not_late});
+}
+
+TEST(Claims, APairWithoutATimeIsJudgedByTheFirstTimeOnly) {
+  const auto step = truth({contact(0, 3, .75), contact(3, 4, .5)});
+  const auto without =
+      judged(collision({.5, .5}, {contact(0, 3, 0, 1), contact(3, 4, 0, 1)}), step);
+  EXPECT_EQ(without.outcome, Outcome::holds);
+  const auto late = judged(collision({.5, .5}, {contact(0, 3, .8), contact(3, 4, .5)}), step);
+  EXPECT_EQ(late.broken, List{Claim::all_pairs});
+  EXPECT_EQ(late.late.size(), 1u);
+  const auto early = judged(collision({.5, .5}, {contact(0, 3, .7), contact(3, 4, .5)}), step);
+  EXPECT_EQ(early.broken, List{Claim::no_spurious});
+}
+
+TEST(Claims, L6_MissingPairsAreExcusedWhereAllPairsIsNotClaimed) {
+  // 0-3 and 3-4 are one part of the contact graph at t*, 1-2 another; 2-4 comes later.
+  const auto step =
+      truth({contact(0, 3, .5), contact(1, 2, .5), contact(2, 4, .75), contact(3, 4, .5)});
+  const auto both_parts = collision({.5, .5}, {contact(1, 2, .5), contact(3, 4, .5)});
+  const auto first = judged(both_parts, step, claims_of(detector::Pairs::first));
+  EXPECT_EQ(first.outcome, Outcome::holds);
+  EXPECT_EQ(first.excused.size(), 2u);
+  EXPECT_EQ(judged(both_parts, step).broken, List{Claim::all_pairs});
+
+  const auto one_part = collision({.5, .5}, {contact(3, 4, .5)});
+  const auto lost = judged(one_part, step, claims_of(detector::Pairs::first));
+  EXPECT_EQ(lost.broken, List{Claim::first_pairs});
+  ASSERT_EQ(lost.missing.size(), 1u);
+  EXPECT_EQ(lost.missing[0].pair, (detector::TrianglePair{1, 2}));
+  // Neither claimed: a detector of times alone.
+  EXPECT_EQ(judged(collision({.5, .5}, {}), step, {.first_time = true}).outcome, Outcome::holds);
+}
+
+TEST(Claims, TheContractIsTakenFromTheOraclesSide) {
+  // Sharing an edge at 0.25, a vertex at 0.5, nothing at 0.75.
+  const auto step = truth({contact(0, 1, .25), contact(0, 2, .5), contact(3, 4, .75)});
+  const Claims all = claims_of(detector::Pairs::all);
+  const Contract no_edges = {.adjacency = Adjacency::not_edge_sharing};
+  const Contract no_neighbours = {.adjacency = Adjacency::no_shared_vertex};
+
+  const auto a = collision({.5, .5}, {contact(0, 2, .5), contact(3, 4, .75)});
+  EXPECT_EQ(judged(a, step, all, no_edges).outcome, Outcome::holds);
+  EXPECT_EQ(judged(a, step, all, no_edges).left_out.size(), 1u);
+  EXPECT_TRUE(judged(a, step, all, no_edges).left_out_missed);  // 0.25 is before 0.5
+  EXPECT_EQ(judged(a, step).outcome, Outcome::defect);
+  // The first time of the contract's pairs is 0.75 here: 0.5 is wrong, and 0-2 is no alarm.
+  EXPECT_EQ(judged(a, step, all, no_neighbours).broken, List{Claim::first_time});
+  EXPECT_EQ(judged(a, step, all, no_neighbours).left_out.size(), 2u);
+
+  const auto neighbours_only = truth({contact(0, 1, .25)});
+  const auto free = judged(answer(Answer::free), neighbours_only, all, no_edges);
+  EXPECT_EQ(free.outcome, Outcome::holds);
+  EXPECT_TRUE(free.left_out_missed);
+  const auto reported = collision({.25, .25}, {contact(0, 1, .25)});
+  EXPECT_EQ(judged(reported, neighbours_only, all, no_edges).outcome, Outcome::holds);
+  EXPECT_FALSE(judged(reported, neighbours_only, all, no_edges).left_out_missed);
+}
+
+TEST(Claims, AnErrorIsNoAnswer) {
+  EXPECT_EQ(judged(answer(Answer::error), truth({})).broken, List{Claim::total});
+  EXPECT_EQ(judged(answer(Answer::error), truth({}), {.free_sound = true}).outcome, Outcome::error);
+  EXPECT_EQ(judged(answer(Answer::undecided), truth({contact(3, 4, 0)})).outcome,
+            Outcome::undecided);
+}
+
+TEST(Claims, AStoppedOracleRefutesOnlyWithWhatItFound) {
+  auto judgement = truth({contact(3, 4, .5)});
+  judgement.complete = false;
+  judgement.answer = Answer::undecided;
+  EXPECT_EQ(judged(answer(Answer::free), judgement).broken.front(), Claim::free_sound);
+  const auto other = collision({.25, .25}, {contact(0, 3, .25), contact(3, 4, .5)});
+  EXPECT_EQ(judged(other, judgement).outcome, Outcome::undecided);
+  const auto late = collision({.75, .75}, {contact(0, 3, .75)});
+  EXPECT_EQ(judged(late, judgement, {.not_late = true}).broken, List{Claim::not_late});
+}
+
+TEST(Claims, Float32RoundsToNearest) {
+  detector::Positions x(1, 3);
+  x << .1, 1e-60, 1e300;
+  const auto rounded = contracted(x, Coordinates::float32);
+  EXPECT_EQ(rounded(0, 0), static_cast<double>(.1f));
+  EXPECT_EQ(rounded(0, 1), 0);
+  EXPECT_EQ(rounded(0, 2), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(contracted(x, Coordinates::float64), x);
+}
+
+}  // namespace
+}  // namespace assay::properties

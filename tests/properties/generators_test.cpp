@@ -1,0 +1,218 @@
+// Random meshes: every case is valid input, the same bytes whenever it is made, and the families
+// hold what they are for. Rates are printed beside the wanted ones.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "detector/mesh/mesh_checks.h"
+#include "oracle/loops.h"
+#include "properties/generators/families.h"
+#include "properties/generators/motions.h"
+
+namespace assay::properties {
+namespace {
+
+std::string id_of(const Family& family, int index) {
+  return "test:1:" + std::string(family.name) + ":" + std::to_string(index);
+}
+
+// FNV-1a over the bits of triangles, frames, view primitive and script.
+class Digest {
+ public:
+  void add(const corpus::Case& c) {
+    for (const auto v : c.triangles.reshaped()) add(static_cast<std::uint64_t>(v));
+    for (const auto& x : c.frames) {
+      for (const auto p : x.reshaped()) add(std::bit_cast<std::uint64_t>(p));
+    }
+    if (c.view) {
+      for (const auto* end : {&c.view->q0, &c.view->q1}) {
+        for (const auto& q : *end) {
+          for (const double p : q) add(std::bit_cast<std::uint64_t>(p));
+        }
+      }
+    }
+    for (const auto& step : c.script) {
+      add(static_cast<std::uint64_t>(step.from));
+      add(static_cast<std::uint64_t>(step.to));
+      add(step.commit ? 1 : 0);
+    }
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  void add(std::uint64_t word) {
+    for (int i = 0; i < 64; i += 8) value_ = (value_ ^ (word >> i & 0xff)) * 0x100000001b3u;
+  }
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+TEST(Generators, EightFamiliesWithNames) {
+  ASSERT_EQ(families().size(), 8u);
+  std::map<std::string_view, int> names;
+  for (const auto& family : families()) {
+    ++names[family.name];
+    EXPECT_FALSE(family.about.empty());
+    EXPECT_EQ(family.closed, family.name.starts_with("closed"));
+  }
+  EXPECT_EQ(names.size(), 8u);
+}
+
+TEST(Generators, EveryCaseIsValidInputAndHasATextThatReadsBack) {
+  for (const auto& family : families()) {
+    for (int i = 0; i < 500; ++i) {
+      const auto made = make_case(family, id_of(family, i));
+      SCOPED_TRACE(made.c.id);
+      ASSERT_EQ(made.c.id, id_of(family, i));
+      const auto vertices = made.c.frames.front().rows();
+      const auto problem = detector::check_triangles(made.c.triangles, vertices);
+      ASSERT_FALSE(problem) << problem->message;
+      ASSERT_GE(made.c.frames.size(), 2u);
+      const std::size_t most = made.c.script.empty() ? 9 : 17;  // each step tried and shortened
+      ASSERT_LE(made.c.frames.size(), most);
+      for (const auto& x : made.c.frames) ASSERT_FALSE(detector::check_positions(x, vertices));
+      ASSERT_GE(made.c.triangles.rows(), 1);
+      ASSERT_LE(made.c.triangles.rows(), 220);
+      const bool cycle = oracle::boundary_loops(made.c.triangles).empty();
+      ASSERT_TRUE(cycle || !family.closed);
+      ASSERT_FALSE(cycle && family.name.starts_with("unclosed"));
+      ASSERT_TRUE(made.c.options.empty());
+      const auto text = corpus::case_text(made.c);
+      const auto read = corpus::parse_case(text, "case");
+      ASSERT_TRUE(read) << read.error().message;
+      ASSERT_EQ(corpus::case_text(read.value()), text);
+    }
+  }
+}
+
+TEST(Generators, AnIdGivesTheSameBytesAndAnotherIdOthers) {
+  for (const auto& family : families()) {
+    for (int i = 0; i < 200; ++i) {
+      const auto text = corpus::case_text(make_case(family, id_of(family, i)).c);
+      ASSERT_EQ(corpus::case_text(make_case(family, id_of(family, i)).c), text);
+      auto other = make_case(family, id_of(family, i + 1000)).c;
+      other.id = id_of(family, i);
+      ASSERT_NE(corpus::case_text(other), text);
+    }
+  }
+}
+
+// The generators' digest: whoever changes what they make changes it here, and a compiler or machine
+// that makes other bytes is noticed.
+TEST(Generators, MakeTheseBytesOnEveryMachine) {
+  const std::map<std::string_view, std::uint64_t> wanted = {
+      {"closed-generic", 0xef2d2de4f33abed5u},
+      {"closed-near-degenerate", 0xa8e624bfa48b40a6u},
+      {"closed-degenerate", 0xbf06a4712c29ef9u},
+      {"closed-far-large-step", 0x362ea20fc5675680u},
+      {"unclosed-generic", 0xeff7cce4534b6a41u},
+      {"unclosed-degenerate", 0xc38babe5f9e9aa9du},
+      {"unclosed-near-degenerate", 0x75e9b99c5df9cbf9u},
+      {"broken", 0x443a14782d664782u},
+  };
+  for (const auto& family : families()) {
+    Digest digest;
+    for (int i = 0; i < 200; ++i) digest.add(make_case(family, id_of(family, i)).c);
+    const auto place = wanted.find(family.name);
+    EXPECT_TRUE(place != wanted.end() && place->second == digest.value())
+        << "now: {\"" << family.name << "\", 0x" << std::hex << digest.value() << "u},";
+  }
+}
+
+TEST(Generators, EveryTagOccurs) {
+  std::map<std::string, int> tags;
+  for (const auto& family : families()) {
+    for (int i = 0; i < 1200; ++i) {
+      for (const auto& tag : make_case(family, id_of(family, i)).tags) ++tags[tag];
+    }
+  }
+  std::vector<std::string> wanted = {"closed",
+                                     "unclosed",
+                                     "broken",
+                                     "response",
+                                     "orientation:inward",
+                                     "order:shuffled",
+                                     "mode:positive",
+                                     "mode:aimed",
+                                     "mode:free",
+                                     "size:2-12",
+                                     "size:13-40",
+                                     "size:41-100",
+                                     "size:101-200",
+                                     "shape:tetrahedron",
+                                     "shape:bipyramid",
+                                     "shape:sphere",
+                                     "shape:split-sphere",
+                                     "shape:capsule",
+                                     "shape:star",
+                                     "shape:torus",
+                                     "shape:sheet",
+                                     "shape:tube",
+                                     "shape:spiral",
+                                     "pieces:apart",
+                                     "pieces:nested",
+                                     "pieces:cavity",
+                                     "pieces:at-a-vertex",
+                                     "pieces:at-an-edge",
+                                     "holes:1",
+                                     "holes:2",
+                                     "holes:3",
+                                     "holes:4",
+                                     "holes:vertex-twice",
+                                     "broken:missing-faces",
+                                     "broken:turned-faces",
+                                     "broken:leaves",
+                                     "broken:zero-area",
+                                     "broken:open-seam",
+                                     "broken:doubled-vertex",
+                                     "broken:unused-vertices",
+                                     "broken:any-faces",
+                                     "motion:positive",
+                                     "motion:and-back",
+                                     "motion:large-step",
+                                     "close:dent",
+                                     "close:edge-on",
+                                     "close:below-surface",
+                                     "view:own",
+                                     "view:point",
+                                     "view:line",
+                                     "view:ends-apart",
+                                     "view:moving",
+                                     "view:inside",
+                                     "view:outside",
+                                     "view:anywhere",
+                                     "view:pierced",
+                                     "view:on-a-vertex",
+                                     "view:on-an-edge",
+                                     "view:on-a-face",
+                                     "aim:vertex",
+                                     "aim:edge",
+                                     "aim:face",
+                                     "aim:edge-edge",
+                                     "aim:grazing",
+                                     "aim:simultaneous",
+                                     "aim:coplanar",
+                                     "aim:region-border",
+                                     "aim:start",
+                                     "aim:end",
+                                     "aim:mid-step",
+                                     "menu:small-integers",
+                                     "menu:dyadics",
+                                     "menu:ulp",
+                                     "menu:sliver",
+                                     "menu:near-coincidence",
+                                     "menu:far",
+                                     "menu:mixed-scales",
+                                     "menu:wide-scales",
+                                     "menu:denormal"};
+  for (const auto& motion : motions()) wanted.push_back(std::string("motion:") + motion.name);
+  for (int steps = 1; steps <= 8; ++steps) wanted.push_back("steps:" + std::to_string(steps));
+  for (const auto& tag : wanted) EXPECT_GE(tags[tag], 5) << tag;
+  // And no other: a new tag belongs into the list.
+  EXPECT_EQ(tags.size(), wanted.size());
+}
+
+}  // namespace
+}  // namespace assay::properties

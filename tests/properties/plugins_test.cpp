@@ -1,0 +1,245 @@
+// Each plug-in of tests/plugins gets the verdict that it deserves, over curated and random cases,
+// through the worker; and the oracle stays right whatever they do.
+#include <gtest/gtest.h>
+#include <xmmintrin.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include "properties/run_verdict.h"
+#include "properties/worker/worker_process.h"
+#include "tests/properties/small_case.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Answer;
+using test::plugin;
+using test::small_case;
+
+const std::vector<Configuration> twice(2, {"plug-in", {}});
+
+struct Judged {
+  corpus::Case c;
+  std::vector<oracle::StepJudgement> truth;
+};
+
+// Curated cases and random small steps, with the oracle's judgements made before any plug-in runs.
+const std::vector<Judged>& cases() {
+  static const std::vector<Judged> all = [] {
+    std::vector<corpus::Case> found;
+    const auto files = corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated");
+    for (const auto& file : files.value()) found.push_back(corpus::read_case(file).value());
+    EXPECT_GE(found.size(), 50u);
+    constexpr std::uint64_t small_steps = 1200, seed = 41;
+    for (std::uint64_t i = 0; i < small_steps; ++i) found.push_back(small_case(seed, i));
+    std::vector<Judged> judged;
+    for (auto& c : found) {
+      auto truth = judge_case(c);
+      judged.push_back({std::move(c), std::move(truth)});
+    }
+    return judged;
+  }();
+  return all;
+}
+
+struct Tally {
+  std::map<Outcome, std::size_t> outcomes;
+  std::map<Claim, std::size_t> broken;
+  std::size_t crashes = 0, left_out_misses = 0;
+  std::uint64_t starts = 0;
+  PluginDescription description;
+};
+
+Tally run_all(const std::string& name) {
+  WorkerProcess worker(ASSAY_WORKER, plugin(name), {.seconds = 20});
+  auto description = worker.describe();
+  Tally tally;
+  if (!description) {
+    ADD_FAILURE() << description.error().message;
+    return tally;
+  }
+  tally.description = description.value();
+  const auto& [plugin_name, version, claims, contract] = tally.description;
+  for (const auto& [c, truth] : cases()) {
+    const auto runs = worker.run(c, twice);
+    const auto verdict = judge_run(c, runs[0], truth, claims, contract, &runs[1]);
+    ++tally.outcomes[verdict.outcome];
+    for (const auto claim : verdict.broken) ++tally.broken[claim];
+    for (const auto& run : runs) tally.crashes += run.end == RunEnd::crashed ? 1 : 0;
+    tally.left_out_misses += verdict.left_out_misses;
+  }
+  tally.starts = worker.starts();
+  std::printf("%s: %zu hold, %zu defects;", plugin_name.c_str(), tally.outcomes[Outcome::holds],
+              tally.outcomes[Outcome::defect]);
+  for (const auto& [claim, count] : tally.broken) std::printf(" %s %zu", name_of(claim), count);
+  std::printf("\n");
+  return tally;
+}
+
+std::size_t steps_with(Answer answer) {
+  std::size_t count = 0;
+  for (const auto& [c, truth] : cases()) {
+    for (const auto& judgement : truth) count += judgement.answer == answer ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(Plugins, TheBuiltInHolds) {
+  const auto tally = run_all("wrapped_builtin");
+  EXPECT_EQ(tally.outcomes.at(Outcome::holds), cases().size());
+  EXPECT_EQ(list_of(tally.description.claims), all_claims());
+  EXPECT_EQ(tally.starts, 1u);
+}
+
+TEST(Plugins, TheExampleHoldsAndItsContractLeavesMissesOut) {
+  const auto tally = run_all("example");
+  EXPECT_EQ(tally.outcomes.at(Outcome::holds), cases().size());
+  EXPECT_EQ(tally.description.contract.adjacency, Adjacency::no_shared_vertex);
+  EXPECT_FALSE(tally.description.claims.no_spurious);
+  EXPECT_GT(tally.left_out_misses, 100u);
+}
+
+TEST(Plugins, AlwaysFreeIsUnsoundAndNothingElse) {
+  auto tally = run_all("always_free");
+  ASSERT_GT(steps_with(Answer::collision), 100u);
+  EXPECT_GT(tally.broken[Claim::free_sound], 100u);
+  EXPECT_EQ(tally.broken[Claim::all_pairs], tally.broken[Claim::free_sound]);
+  for (const auto claim : {Claim::not_late, Claim::first_time, Claim::no_spurious,
+                           Claim::deterministic, Claim::total}) {
+    EXPECT_EQ(tally.broken[claim], 0u) << name_of(claim);
+  }
+}
+
+TEST(Plugins, AlwaysCollisionIsSpuriousAndWrongInTime) {
+  auto tally = run_all("always_collision");
+  ASSERT_GT(steps_with(Answer::free), 100u);
+  EXPECT_GT(tally.broken[Claim::no_spurious], 100u);
+  EXPECT_GT(tally.broken[Claim::first_time], 100u);
+  for (const auto claim :
+       {Claim::free_sound, Claim::not_late, Claim::deterministic, Claim::total}) {
+    EXPECT_EQ(tally.broken[claim], 0u) << name_of(claim);
+  }
+}
+
+TEST(Plugins, ACrashBreaksTotalAndTheRunGoesOn) {
+  auto tally = run_all("crash");
+  // Two runs of every case in one worker; it dies on its 1000th step, again and again.
+  ASSERT_GT(cases().size(), 1100u);
+  EXPECT_GE(tally.crashes, 2u);
+  EXPECT_EQ(tally.starts, tally.crashes + 1);
+  EXPECT_EQ(tally.broken[Claim::total], tally.crashes);
+  for (const auto claim : {Claim::free_sound, Claim::not_late, Claim::first_time,
+                           Claim::first_pairs, Claim::all_pairs, Claim::no_spurious}) {
+    EXPECT_EQ(tally.broken[claim], 0u) << name_of(claim);
+  }
+  EXPECT_EQ(tally.outcomes[Outcome::holds] + tally.outcomes[Outcome::defect], cases().size());
+}
+
+TEST(Plugins, ACrashIsNamed) {
+  WorkerProcess worker(ASSAY_WORKER, plugin("crash"));
+  const auto c = small_case(41, 0);
+  CaseRun crash;
+  int runs = 0;
+  for (; runs < 1100 && crash.end == RunEnd::completed; ++runs) {
+    crash = worker.run(c, {twice.data(), 1})[0];
+  }
+  EXPECT_EQ(runs, 1000);
+  EXPECT_EQ(crash.end, RunEnd::crashed);
+  EXPECT_EQ(crash.what, "killed by signal 6 (Aborted)");
+  const auto verdict = judge_run(c, crash, judge_case(c), {.total = true}, {});
+  EXPECT_EQ(verdict.broken, std::vector<Claim>{Claim::total});
+  EXPECT_EQ(verdict.what, crash.what);
+}
+
+// Vertex 3 crosses the triangle below it within the denormal numbers.
+corpus::Case denormal_case() {
+  constexpr double tiny = 64 * std::numeric_limits<double>::denorm_min();
+  corpus::Case c;
+  c.triangles.resize(2, 3);
+  c.triangles << 0, 1, 2, 3, 4, 5;
+  detector::Positions x(6, 3);
+  x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, tiny, 1, 2, 4, 2, 1, 4;
+  c.frames = {x, x};
+  c.frames[1](3, 2) = -tiny;
+  return c;
+}
+
+TEST(Plugins, FastMathIsFoundOutAndStaysInTheWorker) {
+  const auto mode = _mm_getcsr();
+  const auto before = judge_case(denormal_case())[0];
+  ASSERT_EQ(before.answer, Answer::collision);
+  ASSERT_EQ(before.first, (detector::TimeEnclosure{.5, .5}));
+
+  auto tally = run_all("fast_math");
+  EXPECT_GT(tally.outcomes[Outcome::defect], cases().size() / 20);
+  EXPECT_GT(tally.broken[Claim::free_sound], 0u);
+
+  WorkerProcess worker(ASSAY_WORKER, plugin("fast_math"));
+  const auto c = denormal_case();
+  const auto run = worker.run(c, {twice.data(), 1})[0];
+  EXPECT_EQ(judge_run(c, run, judge_case(c), tally.description.claims, {}).outcome,
+            Outcome::defect);
+  EXPECT_EQ(_mm_getcsr() & 0x8040u, mode & 0x8040u);  // flush to zero, denormals are zero
+  const auto after = judge_case(denormal_case())[0];
+  EXPECT_EQ(after.answer, Answer::collision);
+  EXPECT_EQ(after.first, before.first);
+}
+
+TEST(Plugins, WhatIsNoPlugInIsRefusedInOneLine) {
+  const std::map<std::string, std::string> refused = {
+      {plugin("nowhere"), "no such file"},
+      {std::string(ASSAY_SOURCE_DIR) + "/README.md", "not a detector plug-in"},
+      {plugin("without_entry"), "it exports no assay_detector()"},
+      {plugin("wrong_abi"), "built for ABI version 99, this program has 1"}};
+  for (const auto& [library, why] : refused) {
+    WorkerProcess worker(ASSAY_WORKER, library);
+    const auto description = worker.describe();
+    ASSERT_FALSE(description) << library;
+    const std::string& message = description.error().message;
+    EXPECT_EQ(message.find(library), 0u) << message;
+    EXPECT_NE(message.find(why), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST(Plugins, WhatBreaksTheRulesOfTheHeaderIsAnError) {
+  const std::map<std::string, std::string> wrong = {
+      {"no_such_triangle", "step 1: pair 0 names no two triangles"},
+      {"no_interval", "step 1: its first time is no interval in [0, 1]"},
+      {"fail", "step 1: evaluate returned 3"}};
+  const auto c = small_case(41, 0);
+  for (const auto& [name, why] : wrong) {
+    WorkerProcess worker(ASSAY_WORKER, plugin(name));
+    const auto run = worker.run(c, {twice.data(), 1})[0];
+    ASSERT_EQ(run.end, RunEnd::completed);
+    EXPECT_EQ(run.steps[0].answer, Answer::error);
+    EXPECT_EQ(run.what, why);
+    EXPECT_EQ(judge_run(c, run, judge_case(c), {.total = true}, {}).broken,
+              std::vector<Claim>{Claim::total});
+    EXPECT_EQ(judge_run(c, run, judge_case(c), {}, {}).outcome, Outcome::error);
+  }
+  const auto refusal = WorkerProcess(ASSAY_WORKER, plugin("refuse")).run(c, twice)[0];
+  EXPECT_EQ(refusal.end, RunEnd::refused);
+  EXPECT_EQ(refusal.what, "too many triangles");
+}
+
+std::string text_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(std::string(ASSAY_SOURCE_DIR) + path).rdbuf();
+  return text.str();
+}
+
+TEST(Plugins, ThePageShowsTheExampleThatIsTested) {
+  const std::string page = text_of("/detector/plugin/README.md");
+  const std::string example = text_of("/tests/plugins/example.c");
+  ASSERT_FALSE(example.empty());
+  EXPECT_LT(std::count(example.begin(), example.end(), '\n'), 80);
+  EXPECT_NE(page.find("```c\n" + example + "```\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace assay::properties

@@ -1,0 +1,133 @@
+// A response made explicit: what is committed is free, what collides is not, and the case replays
+// from its own frames.
+#include "properties/generators/response.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "oracle/step.h"
+#include "properties/case_check.h"
+#include "properties/generators/families.h"
+#include "properties/generators/tag_table.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Answer;
+
+// Vertex 3 of a tetrahedron goes down through the opposite face, which it reaches at t = 1/2.
+corpus::Case down_through_the_floor() {
+  corpus::Case c;
+  c.id = "down-through-the-floor";
+  c.triangles.resize(4, 3);
+  c.triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3;
+  detector::Positions x(4, 3);
+  x << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 2;
+  c.frames = {x, x, x};
+  c.frames[1](3, 2) = -2;
+  c.frames[2](3, 2) = 0;  // the second step goes up by 2
+  return c;
+}
+
+TEST(Response, ShortensBelowTheContactAndGoesOnFromThere) {
+  const auto made = with_response(down_through_the_floor());
+  // Half of the first time is 1/4: down to 1; then up to 3 as the second step is free.
+  const std::vector<corpus::CaseStep> wanted = {{0, 1, false}, {0, 2, true}, {2, 3, true}};
+  EXPECT_EQ(made.script, wanted);
+  ASSERT_EQ(made.frames.size(), 4u);
+  EXPECT_EQ(made.frames[1](3, 2), -2);
+  EXPECT_EQ(made.frames[2](3, 2), 1);
+  EXPECT_EQ(made.frames[3](3, 2), 3);
+}
+
+TEST(Response, RevertsWhereTheStartIsInContact) {
+  auto c = down_through_the_floor();
+  for (auto& x : c.frames) x(3, 2) -= 2;  // starts on the floor
+  const auto made = with_response(c);
+  const std::vector<corpus::CaseStep> wanted = {{0, 1, false}, {0, 2, false}};
+  EXPECT_EQ(made.script, wanted);
+}
+
+TEST(Response, MovesTheViewPrimitiveByTheSamePart) {
+  auto c = down_through_the_floor();
+  c.view = corpus::CaseView{{{0, 0, 0}, {4, 0, 0}, {8, 0, 0}}, {}};
+  const auto made = with_response(c);
+  const std::vector<detector::Point> wanted = {{0, 0, 0}, {4, 0, 0}, {1, 0, 0}, {8, 0, 0}};
+  EXPECT_EQ(made.view->q0, wanted);
+}
+
+TEST(Response, GeneratedOnesCommitWhatIsFreeAndTheDetectorAgrees) {
+  int responses = 0, evaluated = 0, shortened = 0;
+  for (const auto& family : families()) {
+    for (int i = 0; i < 150; ++i) {
+      const auto made =
+          make_case(family, "response:1:" + std::string(family.name) + ":" + std::to_string(i));
+      if (made.c.script.empty()) continue;
+      SCOPED_TRACE(made.c.id);
+      ++responses;
+      std::int32_t now = 0;
+      for (std::size_t s = 0; s < made.c.script.size(); ++s) {
+        const auto& step = made.c.script[s];
+        ASSERT_EQ(step.from, now);
+        const auto judgement = oracle::judge_step(
+            made.c.frames[static_cast<std::size_t>(step.from)],
+            made.c.frames[static_cast<std::size_t>(step.to)], made.c.triangles, {1, {}});
+        ASSERT_EQ(judgement.answer == Answer::free, step.commit);
+        if (step.commit) {
+          const bool after_attempt = s > 0 && !made.c.script[s - 1].commit;
+          shortened += after_attempt ? 1 : 0;
+          now = step.to;
+        } else {
+          ++evaluated;
+        }
+      }
+      // The answers of the detector, step by step, state carried as the script says.
+      for (const auto& report : check_case(made.c, detector::Culling::view_point).steps) {
+        ASSERT_EQ(report.diff.outcome, Outcome::holds);
+      }
+    }
+  }
+  std::printf("%d cases with a response, %d collisions not committed, %d shortened steps\n",
+              responses, evaluated, shortened);
+  EXPECT_GT(responses, 60);
+  EXPECT_GT(evaluated, 60);
+  EXPECT_GT(shortened, 20);
+}
+
+TEST(TagTable, CountsTagsBlocksAndFirstContacts) {
+  using detector::ViewSign;
+  detector::Triangles triangles(4, 3);
+  triangles << 0, 1, 2, 0, 1, 3, 0, 4, 5, 6, 7, 8;
+  oracle::StepJudgement judgement;
+  judgement.answer = Answer::collision;
+  judgement.first = {0.25, 0.25};
+  judgement.pairs = {{{0, 1}, {0.25, 0.25}, {}},
+                     {{0, 2}, {0.5, 0.5}, {}},
+                     {{0, 3}, {0.25, 0.25}, {}},
+                     {{2, 3}, {0.25, 0.25}, {}}};
+  const std::vector<ViewSign> signs = {ViewSign::positive, ViewSign::negative, ViewSign::zero,
+                                       ViewSign::positive};
+  TagTable table;
+  table.add({"closed", "menu:ulp"}, 2, 1);
+  table.add_contacts(triangles, judgement, signs, {});
+  TagTable sum;
+  sum.merge(table);
+  sum.merge(table);
+  const std::vector<std::uint8_t> violated = {0, 0, 1, 0};
+  sum.add_contacts(triangles, judgement, signs, violated);
+  EXPECT_EQ(sum.tags().at("menu:ulp").cases, 2u);
+  EXPECT_EQ(sum.tags().at("closed").collisions, 2u);
+  using Counts = std::array<std::uint64_t, 3>;
+  EXPECT_EQ(sum.block(PairBlock::positive_negative).first_contacts, (Counts{0, 0, 3}));
+  EXPECT_EQ(sum.block(PairBlock::positive_zero).contacts, (Counts{2, 2, 0}));
+  EXPECT_EQ(sum.block(PairBlock::positive_zero).first_contacts, (Counts{2, 0, 0}));
+  EXPECT_EQ(sum.block(PairBlock::positive_positive).contacts, (Counts{3, 0, 0}));
+  EXPECT_EQ(sum.block(PairBlock::violated).contacts, (Counts{1, 1, 0}));
+  EXPECT_EQ(sum.block(PairBlock::zero_zero).contacts, (Counts{0, 0, 0}));
+  EXPECT_NE(sum.text().find("V+ V-"), std::string::npos);
+  EXPECT_LT(sum.text().find("closed"), sum.text().find("menu:ulp"));
+}
+
+}  // namespace
+}  // namespace assay::properties

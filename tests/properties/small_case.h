@@ -1,0 +1,24 @@
+// A random small step as a case, and the plug-ins of the tests.
+#pragma once
+
+#include <string>
+
+#include "corpus/case_file.h"
+#include "properties/small_steps.h"
+
+namespace assay::properties::test {
+
+inline corpus::Case small_case(std::uint64_t seed, std::uint64_t index) {
+  const SmallStep step = make_small_step(seed, index);
+  corpus::Case c;
+  c.id = "small-step:" + std::to_string(seed) + ":" + std::to_string(index);
+  c.triangles = step.triangles;
+  c.frames = {step.x_t0, step.x_t1};
+  return c;
+}
+
+inline std::string plugin(const std::string& name) {
+  return std::string(ASSAY_PLUGIN_DIR) + "/plugin_" + name + ".so";
+}
+
+}  // namespace assay::properties::test
