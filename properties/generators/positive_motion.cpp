@@ -1,5 +1,6 @@
 #include "properties/generators/positive_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "properties/generators/motions.h"
@@ -8,12 +9,21 @@
 namespace assay::properties {
 namespace {
 
-// A vertex near the middle by a factor of 2^-8 to 2^-12, its path a part of a ray. Where the mean
-// of all vertices is the middle, the vertex pulls the mean along.
-void dent(const Draft& draft, std::int32_t vertex, double share, Points& x, const Point& middle) {
+// The point of frame f's view primitive that is nearest to c.
+Point nearest_of_view(const Draft& draft, std::size_t f, const Point& c) {
+  if (draft.q1.empty()) return draft.q0[f];
+  const Point along = draft.q1[f] - draft.q0[f];
+  const double s = dot(c - draft.q0[f], along) / dot(along, along);
+  return between(draft.q0[f], draft.q1[f], std::clamp(s, 0.0, 1.0));
+}
+
+// A vertex near the view primitive by a factor of 2^-8 to 2^-12, its path a part of a ray. Where
+// the mean of all vertices is the primitive, the vertex pulls the mean along.
+void dent(Draft& draft, std::int32_t vertex, double share, std::size_t f) {
+  Points& x = draft.frames[f];
   Point& c = at(x, vertex);
   if (!draft.q0.empty()) {
-    c = between(middle, c, share);
+    c = between(nearest_of_view(draft, f, c), c, share);
   } else {
     const double part = (1 - share) / static_cast<double>(x.size());
     const Point others = static_cast<double>(x.size()) * mean(x) - c;
@@ -65,7 +75,7 @@ void move_positively(Random& random, Draft& draft, int steps) {
   const double share = std::ldexp(1, -random.between(8, 12));
   for (auto f = static_cast<std::size_t>(random.below(2)); f < draft.frames.size(); f += 2) {
     if (kind < 6) {
-      dent(draft, face[2], share, draft.frames[f], drift[f]);
+      dent(draft, face[2], share, f);
     } else {
       turn_edge_on(face, share, draft.frames[f]);
     }
