@@ -58,6 +58,18 @@ std::optional<std::uint64_t> parse_size(const std::string& word) {
   return std::nullopt;
 }
 
+// CLI11 reads "-1" as the largest unsigned number.
+CLI::Validator whole_number() {
+  return CLI::Validator(
+      [](const std::string& word) {
+        std::uint64_t value = 0;
+        const bool is_number = word.find_first_not_of("0123456789") == std::string::npos &&
+                               CLI::detail::lexical_cast(word, value);
+        return is_number ? std::string() : fmt::format("'{}' is not a whole number", word);
+      },
+      "NUMBER >= 0");
+}
+
 CLI::Validator share() {
   return CLI::Validator(
       [](const std::string& word) {
@@ -150,7 +162,9 @@ void add_scene(CLI::App& app, reports::SceneRequest& request) {
 void add_self_test(CLI::App& app, reports::SelfTestRequest& request) {
   auto* verb = app.add_subcommand("self-test",
                                   "The oracle against every other method on elementary queries");
-  verb->add_option("--seed", request.seed, "Of all random queries")->capture_default_str();
+  verb->add_option("--seed", request.seed, "Of all random queries")
+      ->check(whole_number())
+      ->capture_default_str();
   verb->add_option("--queries", request.queries,
                    "Random small-integer queries; the other families follow this number")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
@@ -179,7 +193,9 @@ void add_run(CLI::App& app, reports::RunCommandRequest& request) {
   verb->add_option("--campaign", request.campaign,
                    "smoke, quick, nightly, release, faults, or a campaign file (.json)")
       ->capture_default_str();
-  verb->add_option("--seed", request.seed, "Of all random cases")->capture_default_str();
+  verb->add_option("--seed", request.seed, "Of all random cases")
+      ->check(whole_number())
+      ->capture_default_str();
   verb->add_option("--time", request.time_limit,
                    "Seconds for all of it, in place of the campaign's own")
       ->check(positive());
