@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <exception>
 #include <iostream>
@@ -58,14 +59,15 @@ std::optional<std::uint64_t> parse_size(const std::string& word) {
   return std::nullopt;
 }
 
-// CLI11 reads "-1" as the largest unsigned number.
+// CLI11 reads "-1", and numbers beyond 64 bits, as the largest unsigned number.
 CLI::Validator whole_number() {
   return CLI::Validator(
       [](const std::string& word) {
         std::uint64_t value = 0;
-        const bool is_number = word.find_first_not_of("0123456789") == std::string::npos &&
-                               CLI::detail::lexical_cast(word, value);
-        return is_number ? std::string() : fmt::format("'{}' is not a whole number", word);
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const bool is_number = error == std::errc() && end == word.data() + word.size();
+        return is_number ? std::string()
+                         : fmt::format("'{}' is not a whole number of 64 bits", word);
       },
       "NUMBER >= 0");
 }

@@ -82,7 +82,8 @@ struct Store::Parts {
   Parts(const std::filesystem::path& file, int flags) {
     if (flags & SQLITE_OPEN_CREATE) take_lock(file);
     if (sqlite3_open_v2(file.c_str(), &db, flags, nullptr) != SQLITE_OK) {
-      const std::string reason = db ? problem_of(db) : "no memory";
+      const std::string reason =
+          fmt::format("{}: {}", file.string(), db ? sqlite3_errmsg(db) : "no memory");
       close_all();
       throw StoreProblem(reason);
     }
@@ -132,8 +133,9 @@ std::optional<Store> Store::read(const std::filesystem::path& file, std::string&
   }
   try {
     auto parts = std::make_unique<Parts>(file, SQLITE_OPEN_READONLY);
+    const bool is_store = Query(parts->db, "SELECT 1 FROM sqlite_master WHERE name='note'").next();
     Store store(std::move(parts));
-    if (store.note("binding")) return store;
+    if (is_store && store.note("binding")) return store;
     problem = fmt::format("{}: not the store of a run", file.string());
   } catch (const StoreProblem& failure) {
     problem = failure.what();
