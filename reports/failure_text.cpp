@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <set>
 
 #include "corpus/atomic_file.h"
 #include "properties/reducer/mesh_size.h"
+#include "reports/shell_word.h"
 
 namespace assay::reports {
 
@@ -14,6 +17,17 @@ std::filesystem::path store_file(const std::filesystem::path& out, const propert
 }
 
 namespace {
+
+// The same in every run that finds it: "tiny-1-broken-3-view-point-first".
+std::string file_stem(const properties::StoredFailure& failure) {
+  std::string stem = fmt::format("{}-{}", failure.id, failure.configuration);
+  std::erase(stem, ',');
+  for (char& c : stem) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
+    if (!is_plain) c = '-';
+  }
+  return stem;
+}
 
 std::string size_of_mesh(const std::string& text) {
   const auto c = corpus::parse_case(text, "stored failure");
@@ -25,8 +39,10 @@ std::string size_of_mesh(const std::string& text) {
 FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
                              const properties::CampaignRequest& request) {
   FailureReport report;
-  const auto failures = store.failures();
+  auto failures = store.failures();
   if (failures.empty()) return report;
+  std::stable_partition(failures.begin(), failures.end(),
+                        [](const auto& failure) { return !failure.smallest.empty(); });
   const auto folder = out / "failures";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -36,11 +52,9 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
   }
   const auto met = store.signatures();
   std::set<std::string> told;
-  int number = 0;
   for (const auto& failure : failures) {
-    ++number;
-    const auto original = folder / fmt::format("{}-original.json", number);
-    const auto smallest = folder / fmt::format("{}-smallest.json", number);
+    const auto original = folder / (file_stem(failure) + "-original.json");
+    const auto smallest = folder / (file_stem(failure) + "-smallest.json");
     for (const auto& [path, text] :
          {std::pair(original, failure.mesh), std::pair(smallest, failure.smallest)}) {
       if (text.empty()) continue;
@@ -50,16 +64,16 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
       }
     }
     const bool is_shrunk = !failure.smallest.empty();
-    if (!is_shrunk && !told.insert(failure.signature).second) continue;
-    told.insert(failure.signature);
+    if (!told.insert(failure.signature).second) continue;
     const auto count = met.find(failure.signature);
     report.text += fmt::format(
-        "\nDEFECT {} ({}), met {} times\n  {}\n  case {}: {}{}\n  replay: assay replay {}{}\n",
+        "\nDEFECT {} ({}), met {} times\n  {}\n  case {}: {}{}\n{}  replay: assay replay {}{}\n",
         failure.signature, failure.configuration, count == met.end() ? 1 : count->second,
         failure.what, failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
-        (is_shrunk ? smallest : original).string(),
-        request.plugin ? " --detector " + request.plugin->string() : "");
+        failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
+        shell_word((is_shrunk ? smallest : original).string()),
+        detector_words(request.plugin ? request.plugin->string() : ""));
   }
   return report;
 }

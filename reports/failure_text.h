@@ -17,9 +17,9 @@ struct FailureReport {
   std::optional<std::string> problem;  // what could not be written
 };
 
-// Writes OUT/failures/N-original.json and N-smallest.json for each stored failure. A failure is
-// told once for each signature: claim, how often it was met, both sizes, triangles, feature, the
-// line that replays it.
+// Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
+// under the same names in every run and shard. A failure is told once for each signature: claim,
+// how often it was met, both sizes, triangles, feature, the line that replays it.
 FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
                              const properties::CampaignRequest& request);
 

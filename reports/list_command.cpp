@@ -1,6 +1,7 @@
 // `assay list`: laws, planted faults, campaigns, and the failures of a run.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "properties/campaign/plan.h"
@@ -43,24 +44,34 @@ int list_campaigns() {
 
 int list_failures(const std::string& folder) {
   std::error_code error;
-  std::size_t stores = 0, failures = 0;
+  std::vector<std::filesystem::path> stores;
   for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
-    if (file.path().extension() != ".sqlite") continue;
-    ++stores;
-    std::string problem;
-    const auto store = properties::Store::read(file.path(), problem);
-    if (!store) return refuse(problem);
-    for (const auto& [signature, met] : store->signatures()) {
-      fmt::print("{:>8} times  {}\n", met, signature);
-      ++failures;
+    if (file.path().extension() == ".sqlite") stores.push_back(file.path());
+  }
+  if (error) return refuse(fmt::format("{}: {}", folder, error.message()));
+  if (stores.empty()) return refuse(fmt::format("{}: no run is stored here", folder));
+  std::sort(stores.begin(), stores.end());
+  properties::Counts met;
+  std::vector<properties::StoredFailure> failures;
+  try {
+    for (const auto& file : stores) {
+      std::string problem;
+      const auto store = properties::Store::read(file, problem);
+      if (!store) return refuse(problem);
+      properties::add(met, store->signatures());
+      for (auto& failure : store->failures()) failures.push_back(std::move(failure));
     }
-    for (const auto& failure : store->failures()) {
+  } catch (const properties::StoreProblem& damaged) {
+    return refuse(damaged.what());
+  }
+  for (const auto& [signature, count] : met) {
+    fmt::print("{:>8} times  {}\n", count, signature);
+    for (const auto& failure : failures) {
+      if (failure.signature != signature) continue;
       fmt::print("    {} ({}): {}\n", failure.id, failure.configuration, failure.what);
     }
   }
-  if (error) return refuse(fmt::format("{}: {}", folder, error.message()));
-  if (stores == 0) return refuse(fmt::format("{}: no run is stored here", folder));
-  if (failures == 0) fmt::print("no failures\n");
+  if (met.empty()) fmt::print("no failures\n");
   return exit_holds;
 }
 

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <exception>
 #include <iostream>
@@ -56,6 +57,19 @@ std::optional<std::uint64_t> parse_size(const std::string& word) {
     return bytes > 0 ? std::optional(bytes) : std::nullopt;
   }
   return std::nullopt;
+}
+
+// CLI11 reads "-1", and numbers beyond 64 bits, as the largest unsigned number.
+CLI::Validator whole_number() {
+  return CLI::Validator(
+      [](const std::string& word) {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const bool is_number = error == std::errc() && end == word.data() + word.size();
+        return is_number ? std::string()
+                         : fmt::format("'{}' is not a whole number of 64 bits", word);
+      },
+      "NUMBER >= 0");
 }
 
 CLI::Validator share() {
@@ -150,7 +164,9 @@ void add_scene(CLI::App& app, reports::SceneRequest& request) {
 void add_self_test(CLI::App& app, reports::SelfTestRequest& request) {
   auto* verb = app.add_subcommand("self-test",
                                   "The oracle against every other method on elementary queries");
-  verb->add_option("--seed", request.seed, "Of all random queries")->capture_default_str();
+  verb->add_option("--seed", request.seed, "Of all random queries")
+      ->check(whole_number())
+      ->capture_default_str();
   verb->add_option("--queries", request.queries,
                    "Random small-integer queries; the other families follow this number")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
@@ -179,7 +195,9 @@ void add_run(CLI::App& app, reports::RunCommandRequest& request) {
   verb->add_option("--campaign", request.campaign,
                    "smoke, quick, nightly, release, faults, or a campaign file (.json)")
       ->capture_default_str();
-  verb->add_option("--seed", request.seed, "Of all random cases")->capture_default_str();
+  verb->add_option("--seed", request.seed, "Of all random cases")
+      ->check(whole_number())
+      ->capture_default_str();
   verb->add_option("--time", request.time_limit,
                    "Seconds for all of it, in place of the campaign's own")
       ->check(positive());

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/worker/worker_process.h"
+#include "reports/plugin_text.h"
 #include "reports/subject.h"
 
 namespace assay::reports {
@@ -25,15 +26,8 @@ class Plugin : public Subject {
         case_(c) {}
 
   std::string title() const override {
-    std::string claims;
-    for (const auto claim : properties::list_of(description_.claims)) {
-      claims += fmt::format("{}{}", claims.empty() ? "" : ", ", name_of(claim));
-    }
-    const auto& contract = description_.contract;
-    return fmt::format("plug-in {} {}\nclaims: {}\ncontract: adjacency {}, {}{}", description_.name,
-                       description_.version, claims.empty() ? "nothing" : claims,
-                       name_of(contract.adjacency), name_of(contract.coordinates),
-                       contract.margin > 0 ? fmt::format(", margin {}", contract.margin) : "");
+    return plugin_text(description_.name + " " + description_.version, description_.claims,
+                       description_.contract);
   }
 
   nlohmann::ordered_json to_json() const override {

@@ -1,9 +1,11 @@
 // `assay replay`: one case again, by its id or from its file, and what is known of a pair in it.
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
 #include <filesystem>
+#include <string_view>
 
+#include "properties/campaign/case_tally.h"
 #include "properties/campaign/runner.h"
 #include "properties/case_check.h"
 #include "properties/generators/families.h"
@@ -21,14 +23,35 @@ namespace {
 
 using properties::Outcome;
 
-// "campaign:seed:family:index" makes the case again; anything else is a file.
+bool is_number(std::string_view word) {
+  return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+// Of an id "campaign:seed:family:index"; null for what is none. Behind the seed's number a round
+// may stand, as in "quick:1.canary:broken:7".
+const properties::Family* family_of(std::string_view id) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= id.size();) {
+    const auto end = std::min(id.find(':', begin), id.size());
+    parts.push_back(id.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  if (parts.size() != 4 || parts[0].empty() || !is_number(parts[3]) ||
+      !is_number(parts[1].substr(0, parts[1].find('.')))) {
+    return nullptr;
+  }
+  const auto known = properties::families();
+  const auto found = std::find_if(known.begin(), known.end(),
+                                  [&](const auto& family) { return family.name == parts[2]; });
+  return found == known.end() ? nullptr : &*found;
+}
+
+// An id makes the case again; anything else is a file.
 corpus::Expected<corpus::Case> case_of(const std::string& id_or_file) {
   std::error_code ignored;
   if (!std::filesystem::exists(id_or_file, ignored)) {
-    for (const auto& family : properties::families()) {
-      if (id_or_file.find(fmt::format(":{}:", family.name)) != std::string::npos) {
-        return properties::make_case(family, id_or_file).c;
-      }
+    if (const auto* family = family_of(id_or_file)) {
+      return properties::make_case(*family, id_or_file).c;
     }
   }
   return corpus::read_case(id_or_file);
@@ -85,11 +108,27 @@ void print_run(const properties::Configuration& configuration, const properties:
   }
 }
 
+// True when there are any.
+bool print_broken_laws(const corpus::Case& c, const properties::DetectorUnderTest& detector,
+                       const std::vector<properties::CaseRun>& runs,
+                       const std::vector<oracle::StepJudgement>& truth) {
+  const auto tally = properties::tally_case({c, {}}, detector.configurations, runs, truth, true);
+  for (const auto& broken : tally.broken) {
+    fmt::print("BROKEN LAW {} ({}): {}\n", broken.law, broken.configuration, broken.what);
+  }
+  return !tally.broken.empty();
+}
+
 }  // namespace
 
 int run_replay(const ReplayRequest& request) {
   auto made = case_of(request.id_or_file);
-  if (!made) return refuse(made.error().message);
+  if (!made) {
+    return refuse(made.error().message +
+                  (request.id_or_file.find(':') == std::string::npos
+                       ? ""
+                       : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)"));
+  }
   const corpus::Case& c = made.value();
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
@@ -97,18 +136,29 @@ int run_replay(const ReplayRequest& request) {
   if (auto problem = choose_configurations(c, subject.detector)) {
     return refuse(fmt::format("{}: {}", request.id_or_file, *problem));
   }
+  if (request.why && !subject.detector.built_in) {
+    return refuse("--why is of the built-in detector: a plug-in does not show its stages");
+  }
   if (request.why && (request.why->a < 0 || request.why->b >= c.triangles.rows())) {
     return refuse(fmt::format("--why {},{}: the mesh has {} triangles", request.why->a,
                               request.why->b, c.triangles.rows()));
   }
-  fmt::print("{}: {}{}\n", c.id, properties::size_text(properties::size_of(c)),
-             c.about.empty() ? "" : "; " + c.about);
   const auto seen = properties::contracted(c, subject.detector.contract);
   if (!seen) return refuse("a coordinate of the case is beyond the detector's contract");
   const auto truth = properties::judge_case(*seen);
-  print_steps(c, truth);
   properties::WorkerProcess worker(subject.worker, subject.plugin);
   const auto runs = worker.run(c, subject.detector.configurations);
+  for (const auto& run : runs) {
+    if (run.end == properties::RunEnd::not_run) return refuse(run.what);
+  }
+  if (!request.export_folder.empty()) {
+    if (auto problem = export_case(request.export_folder, *seen, subject.detector, truth)) {
+      return refuse(*problem);
+    }
+  }
+  fmt::print("{}: {}{}\n", c.id, properties::size_text(properties::size_of(c)),
+             c.about.empty() ? "" : "; " + c.about);
+  print_steps(c, truth);
   int code = exit_holds;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];
@@ -120,16 +170,14 @@ int run_replay(const ReplayRequest& request) {
         code == exit_holds) {
       code = exit_undecided;
     }
-    if (request.why && subject.detector.built_in) {
+    if (request.why) {
       fmt::print("{}", pair_story(c, configuration.options, *request.why, truth));
     }
   }
-  if (!request.export_folder.empty()) {
-    if (auto problem = export_case(request.export_folder, c, subject.detector, truth)) {
-      return refuse(*problem);
-    }
-    fmt::print("exported to {}\n", request.export_folder);
+  if (subject.detector.built_in && print_broken_laws(c, subject.detector, runs, truth)) {
+    code = exit_defect;
   }
+  if (!request.export_folder.empty()) fmt::print("exported to {}\n", request.export_folder);
   return code;
 }
 

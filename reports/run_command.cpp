@@ -14,13 +14,18 @@
 #include "reports/complaint.h"
 #include "reports/detector_choice.h"
 #include "reports/failure_text.h"
+#include "reports/interruption.h"
 #include "reports/plain_progress.h"
+#include "reports/plugin_text.h"
+#include "reports/shell_word.h"
 
 namespace assay::reports {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using properties::FaultStatus;
+
+constexpr const char* go_on = "; what is stored stays: run the same again to go on";
 
 class CampaignRun {
  public:
@@ -35,6 +40,7 @@ class CampaignRun {
     announce();
     meet_canary();
     run_trials();
+    if (!trials_.store_problem.empty()) return refuse(trials_.store_problem + go_on);
     shrink();
     hunt_faults();
     explore_world();
@@ -54,16 +60,24 @@ class CampaignRun {
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
   void announce() const {
-    std::uint64_t cases = 0;
-    for (const auto& s : request_.plan.strata) cases += s.cases;
-    const auto end = std::time(nullptr) + static_cast<std::time_t>(request_.plan.seconds);
-    fmt::print(
-        "campaign {}, seed {}, shard {}/{}: {} cases of {} families, {} configurations of {}; {} "
-        "planted faults; {} jobs; until {:%H:%M:%S} at the latest\nwrites {}\n",
-        request_.plan.name, request_.seed, request_.shard.index, request_.shard.count, cases,
-        request_.plan.strata.size(), request_.detector.configurations.size(),
-        request_.detector.name, properties::planted_count(), request_.jobs, *std::localtime(&end),
-        command_.out);
+    const auto& plan = request_.plan;
+    const auto end = std::time(nullptr) + static_cast<std::time_t>(plan.seconds);
+    const auto planned = properties::planned_trial_count(plan, request_.shard);
+    const auto stored = store_.trial_count();
+    fmt::print("campaign {}, seed {}, shard {}/{}: {} trials of {} families{}, {} configurations",
+               plan.name, request_.seed, request_.shard.index, request_.shard.count, planned,
+               plan.strata.size(),
+               stored ? fmt::format(" ({} are stored, {} to do)", stored, planned - stored) : "",
+               request_.detector.configurations.size());
+    if (plan.fault_cases > 0) fmt::print("; {} planted faults", properties::planted_count());
+    fmt::print("; {} jobs; until {:%H:%M:%S} at the latest\n", request_.jobs,
+               *std::localtime(&end));
+    fmt::print("{}\nwrites {}\n",
+               request_.detector.built_in
+                   ? "detector built-in"
+                   : plugin_text(request_.detector.name, request_.detector.claims,
+                                 request_.detector.contract),
+               command_.out);
     std::fflush(stdout);
   }
 
@@ -100,6 +114,7 @@ class CampaignRun {
         request_.plan.name,        request_.seed, request_.plan.fault_seeds,
         request_.plan.fault_cases, request_.jobs, ASSAY_CORPUS_DIR};
     faults_ = properties::hunt_faults(hunt, properties::faults(), after(faults_share), show);
+    time_for_faults_ = Clock::now() < after(faults_share);
     if (request_.plan.shrink_faults) {
       constexpr double seconds_each = 60;
       properties::shrink_faults(faults_, {seconds_each, 1'000'000}, request_.jobs, after(1), show);
@@ -141,6 +156,11 @@ class CampaignRun {
     if (!request_.plan.strata.empty()) {
       fmt::print("\n{}\n{}\n{}", strata_text(tally, request_), distribution_text(tally),
                  tags_text(tally.counts));
+      if (!request_.detector.built_in) {
+        const auto left_out = tally.counts.find(properties::left_out_misses_name);
+        fmt::print("the contract leaves out what would have been a miss in {} steps\n",
+                   left_out == tally.counts.end() ? 0 : left_out->second);
+      }
       if (request_.detector.built_in && request_.plan.laws_every > 0) {
         fmt::print("\n{}", laws_text(tally.counts, request_.plan.law_premises));
       }
@@ -158,12 +178,18 @@ class CampaignRun {
     bool bounds_met = true;
     for (const auto& stratum : request_.plan.strata) {
       const auto found = tally.strata.find(stratum.family);
-      if (found == tally.strata.end()) continue;
+      if (found == tally.strata.end()) {
+        bounds_met &= stratum.wanted_bound == 0;
+        continue;
+      }
       for (const auto& outcomes : found->second.by_configuration) {
+        const auto open = outcomes.undecided + outcomes.errors;
         defects += outcomes.defects;
-        unsettled += outcomes.undecided + outcomes.errors;
-        bounds_met &=
-            stratum.wanted_bound == 0 || bound_of(outcomes, request_) <= stratum.wanted_bound;
+        unsettled += open;
+        // Where no bound is wanted, none may be left open.
+        bounds_met &= stratum.wanted_bound == 0
+                          ? open == 0
+                          : bound_of(outcomes, request_) <= stratum.wanted_bound;
       }
     }
     const bool world_holds = std::none_of(worlds_.begin(), worlds_.end(), [](const auto& world) {
@@ -171,6 +197,7 @@ class CampaignRun {
     });
     const std::uint64_t broken_laws = properties::broken_laws(tally.counts);
     const char* outcome = "holds";
+    std::string next = fmt::format("assay list failures {}", shell_word(command_.out));
     int code = exit_holds;
     if (!harness.empty()) {
       outcome = "UNSOUND HARNESS";
@@ -178,18 +205,27 @@ class CampaignRun {
     } else if (defects > 0 || broken_laws > 0 || !world_holds) {
       outcome = "DEFECT";
       code = exit_defect;
-    } else if (!trials_.complete) {
-      outcome =
-          "incomplete: the time ended before all trials were judged; run the same again to go "
-          "on";
+    } else if (!trials_.complete || lacks_faults()) {
+      outcome = "incomplete: the time ended before all was done";
+      next = "run the same again to go on, with --time for another limit";
       code = exit_undecided;
     } else if (!bounds_met) {
-      outcome = "undecided: a bound is above what is wanted";
+      outcome = unsettled > 0 ? "undecided: too many trials have no verdict"
+                              : "undecided: a bound is above what is wanted";
       code = exit_undecided;
     }
     fmt::print("\n{}: {} trials with a defect, {} undecided, {} laws broken, in {:.0f} s\n",
                outcome, defects, unsettled, broken_laws, seconds());
+    if (code != exit_holds) fmt::print("next: {}\n", next);
     return code;
+  }
+
+  // Whether the time was over before every planted fault was found: no proof against the harness.
+  bool lacks_faults() const {
+    return !time_for_faults_ &&
+           std::any_of(faults_.begin(), faults_.end(), [](const properties::FaultResult& result) {
+             return result.fault->status == FaultStatus::planted && !result.found();
+           });
   }
 
   // What the harness owes of itself, and does not deliver.
@@ -199,7 +235,7 @@ class CampaignRun {
     if (!trials_.harness_problem.empty()) list.push_back(trials_.harness_problem);
     for (const auto& result : faults_) {
       const auto& fault = *result.fault;
-      if (fault.status == FaultStatus::planted && !result.found())
+      if (fault.status == FaultStatus::planted && !result.found() && time_for_faults_)
         list.push_back(fmt::format("planted fault {} was not found", fault.name));
       if (fault.status == FaultStatus::equivalent && result.found())
         list.push_back(fmt::format("{}, registered as equivalent, was found", fault.name));
@@ -225,12 +261,17 @@ class CampaignRun {
   properties::CanaryResult canary_;
   properties::TrialsEnd trials_;
   std::vector<properties::FaultResult> faults_;
+  bool time_for_faults_ = true;
   WorldResults worlds_;
 };
 
 }  // namespace
 
 int run_campaign(const RunCommandRequest& command) {
+  end_when_interrupted(fmt::format("interrupted: what was judged is stored in {}; run the same "
+                                   "again to go on",
+                                   command.out),
+                       exit_undecided);
   auto plan = properties::find_plan(command.campaign);
   if (!plan) return refuse(plan.error().message);
   properties::CampaignRequest request;
@@ -248,7 +289,11 @@ int run_campaign(const RunCommandRequest& command) {
   auto store = properties::Store::open(store_file(command.out, request.shard),
                                        properties::binding_of(request), problem);
   if (!store) return refuse(problem);
-  return CampaignRun(command, std::move(request), std::move(*store)).run();
+  try {
+    return CampaignRun(command, std::move(request), std::move(*store)).run();
+  } catch (const properties::StoreProblem& broken) {
+    return refuse(std::string(broken.what()) + go_on);
+  }
 }
 
 }  // namespace assay::reports

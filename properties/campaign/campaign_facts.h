@@ -5,7 +5,8 @@
 
 namespace assay::properties {
 
-// The text that binds a store to a run: plan, seed, shard, detector, configurations.
+// The text that binds a store to a run: plan without its times, seed, shard, detector,
+// configurations, and the bytes of the programs and the plug-in.
 std::string binding_of(const CampaignRequest& request);
 
 std::size_t planted_count();
@@ -18,7 +19,7 @@ struct CanaryResult {
 CanaryResult meet_canary(const CampaignRequest& request);
 
 // Laws whose premise held less often than wanted, or was close in less than a quarter of the cases:
-// one line each.
+// one line each. None when 0 are wanted.
 std::vector<std::string> starved_laws(const Counts& counts, std::uint64_t wanted_premises);
 
 // How many laws were broken.

@@ -84,11 +84,17 @@ class PlanReader {
       return schema_field.problem(std::string(schema) + " expected",
                                   corpus::FileProblem::wrong_schema);
     }
+    for (const auto& [key, value] : top_.json().items()) {
+      // A misspelt limit must not pass for one that was not stated.
+      if (std::find(std::begin(keys), std::end(keys), key) == std::end(keys))
+        return top_.problem("no field '" + key + "' is known");
+    }
     BOOST_OUTCOME_TRY(name_field, top_.at("name"));
     BOOST_OUTCOME_TRY(name, name_field.text());
     plan_.name = name;
-    if (name.empty() || name.find(':') != std::string::npos) {
-      return name_field.problem("a name without ':' expected");
+    // It becomes part of ids and of file names.
+    if (name.empty() || name.find_first_not_of(name_letters) != std::string::npos) {
+      return name_field.problem("a name of letters, digits, '-', '_' and '.' expected");
     }
     BOOST_OUTCOME_TRY(read_strata());
     BOOST_OUTCOME_TRY(read_number("seconds", plan_.seconds));
@@ -101,16 +107,38 @@ class PlanReader {
     auto seeds = static_cast<std::uint64_t>(plan_.fault_seeds);
     BOOST_OUTCOME_TRY(read_count("fault_seeds", seeds));
     plan_.fault_seeds = static_cast<int>(seeds);
-    if (plan_.seconds <= 0) return top_.problem("seconds above 0 expected");
+    if (top_.has("shrink_faults")) {
+      BOOST_OUTCOME_TRY(field, top_.at("shrink_faults"));
+      if (!field.json().is_boolean()) return field.problem("true or false expected");
+      plan_.shrink_faults = field.json().get<bool>();
+    }
+    BOOST_OUTCOME_TRY(check_whole());
     return plan_;
   }
 
  private:
+  corpus::Expected<void> check_whole() const {
+    if (plan_.seconds <= 0) return top_.problem("seconds above 0 expected");
+    if (plan_.case_seconds <= 0) return top_.problem("case_seconds above 0 expected");
+    if (plan_.shrink_share > 1) return top_.problem("shrink_share of at most 1 expected");
+    if ((plan_.fault_cases > 0) != (plan_.fault_seeds > 0))
+      return top_.problem("fault_cases and fault_seeds belong together");
+    const bool has_cases = std::any_of(plan_.strata.begin(), plan_.strata.end(),
+                                       [](const StratumPlan& s) { return s.cases > 0; });
+    if (!has_cases && plan_.fault_cases == 0 && plan_.tetrahedron_seconds == 0)
+      return top_.problem("there is nothing to do");
+    return boost::outcome_v2::success();
+  }
+
   corpus::Expected<void> read_strata() {
     BOOST_OUTCOME_TRY(field, top_.at("strata"));
     BOOST_OUTCOME_TRY(size, field.size());
     for (std::size_t i = 0; i < size; ++i) {
       const auto item = field.item(i);
+      for (const auto& [key, value] : item.json().items()) {
+        if (key != "family" && key != "cases" && key != "bound")
+          return item.problem("no field '" + key + "' is known");
+      }
       StratumPlan stratum;
       BOOST_OUTCOME_TRY(family_field, item.at("family"));
       BOOST_OUTCOME_TRY(family, family_field.text());
@@ -118,6 +146,10 @@ class PlanReader {
       if (std::none_of(known.begin(), known.end(),
                        [&](const Family& f) { return f.name == family; })) {
         return family_field.problem("no family of this name");
+      }
+      if (std::any_of(plan_.strata.begin(), plan_.strata.end(),
+                      [&](const StratumPlan& other) { return other.family == family; })) {
+        return family_field.problem("this family is there already");
       }
       stratum.family = family;
       BOOST_OUTCOME_TRY(cases_field, item.at("cases"));
@@ -152,6 +184,13 @@ class PlanReader {
   }
 
   static constexpr std::int64_t most_cases = 1'000'000'000;
+  static constexpr const char* name_letters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+  static constexpr const char* keys[] = {"schema",      "name",          "about",
+                                         "strata",      "seconds",       "case_seconds",
+                                         "laws_every",  "law_premises",  "fault_cases",
+                                         "fault_seeds", "shrink_faults", "tetrahedron_seconds",
+                                         "shrink_share"};
   corpus::JsonField top_;
   CampaignPlan plan_;
 };
@@ -187,6 +226,7 @@ std::string plan_text(const CampaignPlan& plan) {
                                 {"law_premises", plan.law_premises},
                                 {"fault_cases", plan.fault_cases},
                                 {"fault_seeds", plan.fault_seeds},
+                                {"shrink_faults", plan.shrink_faults},
                                 {"tetrahedron_seconds", plan.tetrahedron_seconds},
                                 {"shrink_share", plan.shrink_share}}
       .dump();

@@ -26,8 +26,11 @@ struct TrialRecord {
   std::string outcomes;  // one letter a configuration: H(olds) D(efect) U(ndecided) E(rror)
   std::uint64_t triangles = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
-  Counts counts;  // "law:..", "tag:..", "block:.."
+  Counts counts;  // "law:..", "tag:..", "block:..", left_out_misses_name
 };
+
+// Counts steps that only a plug-in's contract saves from being a miss.
+inline constexpr const char* left_out_misses_name = "contract:left-out-misses";
 
 char letter_of(Outcome outcome);
 

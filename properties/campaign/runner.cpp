@@ -91,6 +91,9 @@ class Trials {
     while (const PlannedTrial* trial = next_trial()) {
       try {
         judge(*trial, worker);
+      } catch (const StoreProblem& problem) {
+        const std::lock_guard lock(mutex_);
+        end_.store_problem = problem.what();
       } catch (const std::exception& failure) {
         const std::lock_guard lock(mutex_);
         end_.harness_problem = failure.what();
@@ -100,7 +103,8 @@ class Trials {
 
   const PlannedTrial* next_trial() {
     const std::lock_guard lock(mutex_);
-    while (next_ < planned_.size() && end_.harness_problem.empty() && Clock::now() < deadline_) {
+    while (next_ < planned_.size() && end_.harness_problem.empty() && end_.store_problem.empty() &&
+           Clock::now() < deadline_) {
       const PlannedTrial& trial = planned_[next_++];
       if (!store_.has_trial(id_of(trial))) return &trial;
       ++state_.done;
@@ -147,6 +151,8 @@ class Trials {
         flaky = !same_answers(runs[i], repeated[0]);
       }
       record.outcomes += letter_of(verdict.outcome);
+      if (verdict.left_out_misses > 0)
+        record.counts[left_out_misses_name] += verdict.left_out_misses;
       if (!verdict.failure) continue;
       const auto failing =
           failing_case(made.c, configurations[i], request_.detector, *verdict.failure);
@@ -158,7 +164,7 @@ class Trials {
       const bool with_laws =
           request_.plan.laws_every > 0 && planned.index % request_.plan.laws_every == 0;
       CaseTally tally = tally_case(made, configurations, runs, truth, with_laws);
-      record.counts = std::move(tally.counts);
+      add(record.counts, tally.counts);
       for (const auto& broken : tally.broken) failures.push_back(broken_law(made.c, broken));
     }
     keep(record, failures);
@@ -175,7 +181,7 @@ class Trials {
     std::replace(failing.id.begin(), failing.id.end(), ':', '-');
     // The store's key is case and configuration: a case may break a law and a claim.
     return {c.id,
-            fmt::format("{}, law {}", broken.configuration, broken.law),
+            fmt::format("{}{}{}", broken.configuration, law_in_configuration, broken.law),
             fmt::format("law {}", broken.law),
             broken.what,
             corpus::case_text(failing),
@@ -185,12 +191,14 @@ class Trials {
 
   void keep(const TrialRecord& record, const std::vector<StoredFailure>& failures) {
     const std::lock_guard lock(mutex_);
+    std::vector<StoredFailure> kept;
+    std::vector<std::string> met;
     for (const auto& failure : failures) {
-      if (met_[failure.signature]++ < meshes_kept) store_.add(failure);
-      store_.count_signature(failure.signature);
+      met.push_back(failure.signature);
+      if (met_[failure.signature]++ < meshes_kept) kept.push_back(failure);
     }
-    // Last: a trial that is stored has its failures stored.
-    store_.add(record);
+    // At once: a run that is killed counts nothing twice when it goes on.
+    store_.add(record, kept, met);
     ++end_.trials;
     ++state_.done;
     state_.planned = planned_.size();
@@ -211,6 +219,14 @@ class Trials {
 };
 
 }  // namespace
+
+std::uint64_t planned_trial_count(const CampaignPlan& plan, const Shard& shard) {
+  std::uint64_t count = 0;
+  for (const auto& stratum : plan.strata) {
+    count += (stratum.cases + shard.count - shard.index) / shard.count;
+  }
+  return count;
+}
 
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
                      const std::function<void(const TrialProgress&)>& progress) {

@@ -40,6 +40,7 @@ struct TrialsEnd {
   double seconds = 0;           // of this call
   std::uint64_t trials = 0;     // judged in this call
   std::string harness_problem;  // what kept the harness itself from going on; empty: nothing
+  std::string store_problem;    // why the store could not be written; empty: it could
 };
 
 // Makes and judges what is not in the store yet, families in turn, until all is done or the
@@ -48,6 +49,9 @@ struct TrialsEnd {
 // thread at a time.
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
                      const std::function<void(const TrialProgress&)>& progress);
+
+// How many trials the shard holds.
+std::uint64_t planned_trial_count(const CampaignPlan& plan, const Shard& shard);
 
 // "quick:1:closed-generic:12".
 std::string trial_id(const CampaignPlan& plan, std::uint64_t seed, const std::string& family,

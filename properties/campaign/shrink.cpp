@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 
 #include "properties/campaign/case_tally.h"
 
@@ -15,6 +16,7 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
     const auto seen = contracted(c, detector.contract);
     if (!seen) return std::nullopt;
     const auto run = worker.run(c, {&configuration, 1});
+    if (run[0].end == RunEnd::not_run) throw std::runtime_error(run[0].what);
     const auto verdict = judge_trial(*seen, judge_case(*seen), run[0], configuration, detector);
     if (!verdict.failure) return std::nullopt;
     return finding_of(*verdict.failure);
@@ -34,23 +36,43 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
                 make_explicit);
 }
 
+namespace {
+
+// Of a failure whose shrinking had all the time that it may have.
+std::string done_note(const StoredFailure& failure) {
+  return fmt::format("shrunk {} {}", failure.id, failure.configuration);
+}
+
+// Without the law that broke in it.
+std::string configuration_name(const StoredFailure& failure) {
+  return failure.configuration.substr(0, failure.configuration.find(law_in_configuration));
+}
+
+// A failure that was shrunk in part goes before the others of its signature.
+void order_for_shrinking(std::vector<StoredFailure>& failures) {
+  std::stable_partition(failures.begin(), failures.end(),
+                        [](const StoredFailure& f) { return !f.smallest.empty(); });
+}
+
+}  // namespace
+
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline,
                      const std::function<void(const std::string&)>& progress) {
-  const auto failures = store.failures();
-  std::set<std::string> done;
-  for (const auto& failure : failures) {
-    if (!failure.smallest.empty()) done.insert(failure.signature);
-  }
+  auto failures = store.failures();
+  order_for_shrinking(failures);
+  std::set<std::string> met;
   WorkerProcess worker(request.worker, request.plugin, {request.plan.case_seconds, 0});
-  for (auto failure : failures) {
+  for (auto& failure : failures) {
     const std::chrono::duration<double> left = deadline - std::chrono::steady_clock::now();
     if (left.count() <= 0) return;
-    if (failure.flaky || !done.insert(failure.signature).second) continue;
+    if (failure.flaky || !met.insert(failure.signature).second || store.note(done_note(failure)))
+      continue;
     const auto configuration =
         std::find_if(request.detector.configurations.begin(), request.detector.configurations.end(),
-                     [&](const Configuration& c) { return c.name == failure.configuration; });
-    const auto failing = corpus::parse_case(failure.mesh, failure.id);
+                     [&](const Configuration& c) { return c.name == configuration_name(failure); });
+    const auto& begin = failure.smallest.empty() ? failure.mesh : failure.smallest;
+    const auto failing = corpus::parse_case(begin, failure.id);
     if (configuration == request.detector.configurations.end() || !failing) continue;
     if (progress) progress(failure.signature);
     const ReduceLimits bounded{std::min(limits.seconds, left.count()), limits.calls};
@@ -62,16 +84,18 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     const Law* law = failure.signature.starts_with(prefix)
                          ? law_named(failure.signature.substr(prefix.size()))
                          : nullptr;
-    if (law) {
-      reduce(failing.value(), judge_of_law(*law, *configuration), bounded, keep);
-    } else {
-      shrink_case(failing.value(), request.detector, *configuration, worker, bounded, keep);
-    }
+    const Reduction reduction =
+        law ? reduce(failing.value(), judge_of_law(*law, *configuration), bounded, keep)
+            : shrink_case(failing.value(), request.detector, *configuration, worker, bounded, keep);
     if (failure.smallest.empty()) {
       // Nothing smaller was found: the mesh itself.
       failure.smallest = failure.mesh;
       store.set_smallest(failure);
     }
+    const bool had_its_time = bounded.seconds >= limits.seconds;
+    const bool shows_no_more = reduction.finding.signature.empty();
+    if (reduction.fixed_point || had_its_time || shows_no_more)
+      store.set_note(done_note(failure), "done");
   }
 }
 

@@ -1,13 +1,22 @@
 #include "properties/campaign/store.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/file.h>
+#include <unistd.h>
 
-#include <stdexcept>
+#include <cerrno>
+#include <cstring>
 #include <system_error>
 
 namespace assay::properties {
 namespace {
+
+std::string problem_of(sqlite3* db) {
+  const char* file = sqlite3_db_filename(db, "main");
+  return fmt::format("{}: {}", file ? file : "store", sqlite3_errmsg(db));
+}
 
 constexpr const char* tables =
     "CREATE TABLE IF NOT EXISTS note(key TEXT PRIMARY KEY, value TEXT NOT NULL);"
@@ -57,7 +66,7 @@ class Query {
 
  private:
   void check(int code) const {
-    if (code != SQLITE_OK) throw std::runtime_error(sqlite3_errmsg(db_));
+    if (code != SQLITE_OK) throw StoreProblem(problem_of(db_));
   }
   sqlite3* db_;
   sqlite3_stmt* statement_ = nullptr;
@@ -68,13 +77,46 @@ class Query {
 
 struct Store::Parts {
   sqlite3* db = nullptr;
-  ~Parts() { sqlite3_close(db); }
+  int lock = -1;
+
+  Parts(const std::filesystem::path& file, int flags) {
+    if (flags & SQLITE_OPEN_CREATE) take_lock(file);
+    if (sqlite3_open_v2(file.c_str(), &db, flags, nullptr) != SQLITE_OK) {
+      const std::string reason =
+          fmt::format("{}: {}", file.string(), db ? sqlite3_errmsg(db) : "no memory");
+      close_all();
+      throw StoreProblem(reason);
+    }
+    constexpr int patience_ms = 5000;
+    sqlite3_busy_timeout(db, patience_ms);
+  }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+  ~Parts() { close_all(); }
+
   void run(const char* sql) const {
-    char* message = nullptr;
-    if (sqlite3_exec(db, sql, nullptr, nullptr, &message) == SQLITE_OK) return;
-    const std::string text = message ? message : "unknown";
-    sqlite3_free(message);
-    throw std::runtime_error(text);
+    if (sqlite3_exec(db, sql, nullptr, nullptr, nullptr) != SQLITE_OK)
+      throw StoreProblem(problem_of(db));
+  }
+  void check_whole() const {
+    Query query(db, "PRAGMA quick_check(1)");
+    if (!query.next() || query.text(0) != "ok")
+      throw StoreProblem(fmt::format("{}: the file is damaged", sqlite3_db_filename(db, "main")));
+  }
+
+ private:
+  // Held until this process ends, however it ends.
+  void take_lock(const std::filesystem::path& file) {
+    const std::string name = file.string() + ".lock";
+    lock = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock < 0) throw StoreProblem(fmt::format("{}: {}", name, std::strerror(errno)));
+    if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return;
+    close_all();
+    throw StoreProblem(fmt::format("{}: another run is writing it", file.string()));
+  }
+  void close_all() {
+    sqlite3_close(db);
+    if (lock >= 0) ::close(lock);
   }
 };
 
@@ -89,34 +131,38 @@ std::optional<Store> Store::read(const std::filesystem::path& file, std::string&
     problem = fmt::format("{}: no such file", file.string());
     return std::nullopt;
   }
-  std::string none;
-  return open(file, none, problem);
+  try {
+    auto parts = std::make_unique<Parts>(file, SQLITE_OPEN_READONLY);
+    const bool is_store = Query(parts->db, "SELECT 1 FROM sqlite_master WHERE name='note'").next();
+    Store store(std::move(parts));
+    if (is_store && store.note("binding")) return store;
+    problem = fmt::format("{}: not the store of a run", file.string());
+  } catch (const StoreProblem& failure) {
+    problem = failure.what();
+  }
+  return std::nullopt;
 }
 
 std::optional<Store> Store::open(const std::filesystem::path& file, const std::string& binding,
                                  std::string& problem) {
-  auto parts = std::make_unique<Parts>();
   try {
-    if (sqlite3_open(file.c_str(), &parts->db) != SQLITE_OK) {
-      throw std::runtime_error(parts->db ? sqlite3_errmsg(parts->db) : "no memory");
-    }
-    constexpr int patience_ms = 5000;
-    sqlite3_busy_timeout(parts->db, patience_ms);
+    auto parts = std::make_unique<Parts>(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
     // A killed process loses nothing that add() returned from; only a power cut may lose the end.
     parts->run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
+    parts->check_whole();
     parts->run(tables);
     Store store(std::move(parts));
     const auto bound = store.note("binding");
     if (!bound) {
       store.set_note("binding", binding);
-    } else if (!binding.empty() && *bound != binding) {
-      problem = fmt::format("{}: holds another run (of another plan, seed, shard or detector)",
-                            file.string());
+    } else if (*bound != binding) {
+      problem = fmt::format(
+          "{}: holds another run (of another plan, seed, shard, detector or build)", file.string());
       return std::nullopt;
     }
     return store;
-  } catch (const std::runtime_error& failure) {
-    problem = fmt::format("{}: {}", file.string(), failure.what());
+  } catch (const StoreProblem& failure) {
+    problem = failure.what();
     return std::nullopt;
   }
 }
@@ -137,6 +183,20 @@ void Store::add(const TrialRecord& r) {
       .bind(r.detector_us)
       .bind(counts_text(r.counts))
       .next();
+}
+
+void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
+                const std::vector<std::string>& met) {
+  parts_->run("BEGIN IMMEDIATE");
+  try {
+    for (const auto& failure : kept) add(failure);
+    for (const auto& signature : met) count_signature(signature);
+    add(record);
+    parts_->run("COMMIT");
+  } catch (const StoreProblem&) {
+    sqlite3_exec(parts_->db, "ROLLBACK", nullptr, nullptr, nullptr);
+    throw;
+  }
 }
 
 void Store::add(const StoredFailure& f) {
@@ -165,6 +225,11 @@ void Store::set_note(const std::string& key, const std::string& value) {
 
 bool Store::has_trial(const std::string& id) const {
   return Query(parts_->db, "SELECT 1 FROM trial WHERE id=?").bind(id).next();
+}
+
+std::uint64_t Store::trial_count() const {
+  Query query(parts_->db, "SELECT count(*) FROM trial");
+  return query.next() ? query.number(0) : 0;
 }
 
 std::optional<std::string> Store::note(const std::string& key) const {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,23 @@ struct StoredFailure {
   bool flaky = false;    // two runs of it differ: a failure of its own
 };
 
+// Of a broken law `configuration` is "view-point, law L3_...": a case may break a law and a claim.
+inline constexpr const char* law_in_configuration = ", law ";
+
+// The disk is full, or the file cannot be read or written any more: no fault of the harness.
+class StoreProblem : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;  // one line, names the file
+};
+
 class Store {
  public:
   // Opens or makes the file. `binding` says what the trials are of (plan, seed, shard, detector):
-  // a file that was made for another one is refused. Nothing, and `problem` set, on failure.
+  // a file that was made for another one is refused, and so is a damaged one, and one that another
+  // process has open in this way. Nothing, and `problem` set, on failure.
   static std::optional<Store> open(const std::filesystem::path& file, const std::string& binding,
                                    std::string& problem);
-  // An existing file, whatever it was made for.
+  // An existing file, whatever it was made for; it is not written to.
   static std::optional<Store> read(const std::filesystem::path& file, std::string& problem);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
@@ -35,14 +46,17 @@ class Store {
 
   std::string binding() const;
 
-  // Each is whole on disk when it returns. Throws std::runtime_error when the disk is full or the
-  // file cannot be written any more. Not for several threads at once.
+  // Each is whole on disk when it returns, or throws StoreProblem. Not for several threads at once.
   void add(const TrialRecord& record);
+  // A trial with what it showed, all of it or nothing: the failures kept, the signatures met.
+  void add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
+           const std::vector<std::string>& met);
   void add(const StoredFailure& failure);
   void set_smallest(const StoredFailure& failure);  // by id and configuration
   void set_note(const std::string& key, const std::string& value);
 
   bool has_trial(const std::string& id) const;
+  std::uint64_t trial_count() const;
   std::optional<std::string> note(const std::string& key) const;
   void for_each_trial(const std::function<void(const TrialRecord&)>& visit) const;
   std::vector<StoredFailure> failures() const;  // by signature, then id

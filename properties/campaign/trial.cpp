@@ -90,7 +90,7 @@ Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement
       whole.steps.push_back(compare(run.steps[s], truth[s], configuration.options.pairs));
     }
   }
-  Verdict verdict{whole.outcome, {}};
+  Verdict verdict{whole.outcome, {}, whole.left_out_misses};
   const auto steps = corpus::steps_of(c);
   for (std::size_t s = 0; s < whole.steps.size() && !verdict.failure; ++s) {
     const StepDiff& diff = whole.steps[s];

@@ -42,7 +42,8 @@ struct Failure {
 
 struct Verdict {
   Outcome outcome = Outcome::holds;
-  std::optional<Failure> failure;  // of a defect: the first step that shows one
+  std::optional<Failure> failure;   // of a defect: the first step that shows one
+  std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
 };
 
 // truth: of the same case, contracted (run_verdict.h). again: a second run, if there was one. The

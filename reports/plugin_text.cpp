@@ -1,0 +1,19 @@
+#include "reports/plugin_text.h"
+
+#include <fmt/format.h>
+
+namespace assay::reports {
+
+std::string plugin_text(const std::string& name_and_version, const properties::Claims& claims,
+                        const properties::Contract& contract) {
+  std::string words;
+  for (const auto claim : properties::list_of(claims)) {
+    words += fmt::format("{}{}", words.empty() ? "" : ", ", name_of(claim));
+  }
+  return fmt::format("plug-in {}\nclaims: {}\ncontract: adjacency {}, {}{}", name_and_version,
+                     words.empty() ? "nothing" : words, name_of(contract.adjacency),
+                     name_of(contract.coordinates),
+                     contract.margin > 0 ? fmt::format(", margin {}", contract.margin) : "");
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,14 @@
+// What a plug-in says of itself, for people.
+#pragma once
+
+#include <string>
+
+#include "properties/claims.h"
+
+namespace assay::reports {
+
+// "plug-in NAME VERSION", its claims, its contract: a line each, no newline at the end.
+std::string plugin_text(const std::string& name_and_version, const properties::Claims& claims,
+                        const properties::Contract& contract);
+
+}  // namespace assay::reports

@@ -1,0 +1,14 @@
+// Words of a command that can be pasted into a shell.
+#pragma once
+
+#include <string>
+
+namespace assay::reports {
+
+// The word itself, or in quotes where a shell would read it as something else.
+std::string shell_word(const std::string& word);
+
+// " --detector LIB.so"; empty for the built-in detector.
+std::string detector_words(const std::string& library);
+
+}  // namespace assay::reports

@@ -1,0 +1,60 @@
+// What `assay replay --export` writes compiles against the detector alone, and passes.
+#include <gtest/gtest.h>
+
+#include "tests/reports/program.h"
+
+namespace assay::tests {
+namespace {
+
+int status_of(const std::string& command) {
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+class ExportedCase : public testing::Test {
+ protected:
+  // Exports the case, compiles its test and runs it: what it prints, or nothing.
+  void expect_passes(const std::string& id_or_file) const {
+    SCOPED_TRACE(id_or_file);
+    const auto exported = run_assay("replay " + id_or_file + " --export " + (scratch / "case"));
+    ASSERT_EQ(exported.exit_code, 0) << exported.out << exported.err;
+    ASSERT_EQ(compile(), 0) << read_text(scratch / "compiler");
+    EXPECT_EQ(status_of((scratch / "test >") + (scratch / "printed")), 0)
+        << read_text(scratch / "printed");
+    EXPECT_NE(read_text(scratch / "printed").find("1 test from"), std::string::npos);
+  }
+  int compile() const {
+    return status_of(std::string(ASSAY_COMPILER) +
+                     " -std=c++20 -Wall -Werror -I " ASSAY_SOURCE_DIR " -isystem " ASSAY_EIGEN " " +
+                     (scratch / "case/case_test.cpp") +
+                     " " ASSAY_DETECTOR
+                     " -lgtest_main -lgtest "
+                     "-pthread -o " +
+                     (scratch / "test") + " >" + (scratch / "compiler") + " 2>&1");
+  }
+  const Scratch scratch;
+};
+
+TEST_F(ExportedCase, CompilesAndPasses) {
+  expect_passes("tiny:1:unclosed-generic:3");
+  // With a line as its view, given, and several steps.
+  expect_passes(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/B1_one_vertex_own_nearest.json");
+}
+
+TEST_F(ExportedCase, FailsWhereTheDetectorDiffers) {
+  const std::string file = std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/A4_endpoints_only.json";
+  expect_passes(file);
+  // The same test asked of another answer.
+  std::string text = read_text(scratch / "case/case_test.cpp");
+  const std::string free = "Answer::free", collision = "Answer::collision";
+  const bool is_free = text.find(free) != std::string::npos;
+  const std::string& stated = is_free ? free : collision;
+  ASSERT_NE(text.find(stated), std::string::npos);
+  text.replace(text.find(stated), stated.size(), is_free ? collision : free);
+  scratch.write("case/case_test.cpp", text);
+  ASSERT_EQ(compile(), 0) << read_text(scratch / "compiler");
+  EXPECT_EQ(status_of(scratch / "test >/dev/null"), 1);
+}
+
+}  // namespace
+}  // namespace assay::tests

@@ -1,0 +1,167 @@
+// `assay replay`: by id, by file, with --why and --export.
+#include <gtest/gtest.h>
+
+#include "corpus/case_file.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+std::string curated(const std::string& name) {
+  return std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/" + name + ".json";
+}
+
+const char* const some_id = "tiny:1:closed-generic:5";
+
+TEST(Replay, ByIdGoesThroughEveryConfiguration) {
+  const auto outcome = run_assay(std::string("replay ") + some_id);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.out.find(some_id), 0u);
+  for (const std::string name :
+       {"view-point", "view-line", "bvh", "none", "view-point/first", "view-line/first"}) {
+    EXPECT_TRUE(contains(outcome.out, "\n" + name + ": holds\n")) << name << outcome.out;
+  }
+  EXPECT_TRUE(contains(outcome.out, "step 1 (frame 0 to 1, committed): oracle ")) << outcome.out;
+  EXPECT_EQ(run_assay(std::string("replay ") + some_id).out, outcome.out);
+  // Of other rounds of a campaign.
+  EXPECT_EQ(run_assay("replay quick:7.canary:broken:12").exit_code, 0);
+}
+
+TEST(Replay, ByFileTakesTheFilesOptions) {
+  const auto outcome = run_assay("replay " + curated("A4_endpoints_only"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "view-point: holds")) << outcome.out;
+  EXPECT_FALSE(contains(outcome.out, "bvh: ")) << outcome.out;
+}
+
+TEST(Replay, OfAPlugInShowsItsDefect) {
+  const auto outcome =
+      run_assay("replay " + curated("A4_endpoints_only") + " --detector " + plugin("always_free"));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "DEFECT free-sound: missing")) << outcome.out;
+  const auto hang = run_assay("replay tiny:1:broken:1 --detector " + plugin("exit"));
+  EXPECT_EQ(hang.exit_code, 1) << hang.out << hang.err;
+  EXPECT_TRUE(contains(hang.out, "exited with code 0")) << hang.out;
+}
+
+TEST(Replay, WhatIsNeitherIdNorFileIsRefused) {
+  for (const std::string id :
+       {"nowhere.json", "tiny:1:closed:5", "tiny:1:closed-generic:", "tiny:1:closed-generic:x",
+        "tiny::closed-generic:5", "tiny:x:closed-generic:5", "tiny:1:closed-generic",
+        "tiny:1:closed-generic:5:6", ":1:closed-generic:5", "tiny:1:closed-generic:-5"}) {
+    SCOPED_TRACE(id);
+    expect_refused(run_assay("replay " + id), id);
+  }
+  expect_refused(run_assay("replay tiny:1:closed:5"), "CAMPAIGN:SEED:FAMILY:INDEX");
+  expect_refused(run_assay("replay"), "case");
+  expect_refused(run_assay("replay /tmp"), "directory");
+  expect_refused(run_assay("replay " + curated("A4_endpoints_only") + " --detector /nowhere.so"),
+                 "no such file");
+  const Scratch scratch;
+  std::string text = read_text(curated("A4_endpoints_only"));
+  const std::string known = "\"culling\": \"view-point\"";
+  text.replace(text.find(known), known.size(), "\"culling\": \"fast\"");
+  expect_refused(run_assay("replay " + scratch.write("option.json", text)), "fast");
+  expect_refused(run_assay("replay " + scratch.write("bad.json", "{")), "bad.json");
+}
+
+TEST(Replay, WhyTellsOfAPair) {
+  const auto file = curated("A4_endpoints_only");
+  const auto outcome = run_assay("replay " + file + " --why 0,1");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "why 0, 1:")) << outcome.out;
+  for (const std::string word : {"triangle 0: component 0", "triangle 1: component ",
+                                 "swept boxes ", "oracle: ", "detector: "}) {
+    EXPECT_TRUE(contains(outcome.out, word)) << word << outcome.out;
+  }
+  EXPECT_EQ(run_assay("replay " + file + " --why 1,0").out, outcome.out);
+  // What it says of being reported is what the step says.
+  const bool reported = contains(outcome.out, "detector: reported");
+  const bool in_contact = contains(outcome.out, "oracle: in contact at t = ");
+  EXPECT_EQ(reported, in_contact) << outcome.out;
+  for (const std::string pair : {"0,99", "-1,2", "1,1", "1", "a,b", "1,2,3", "'1;2'", "''"}) {
+    SCOPED_TRACE(pair);
+    expect_refused(run_assay("replay " + file + " --why=" + pair), "--why");
+  }
+  expect_refused(run_assay("replay " + file + " --why 0,1 --detector " + plugin("always_free")),
+                 "--why");
+}
+
+TEST(Replay, EveryPairOfACaseHasAStoryThatAgreesWithTheOracle) {
+  // All pairs of a small mesh in contact: those that the oracle has are reported, the others not.
+  const auto file = curated("A4_endpoints_only");
+  const auto c = corpus::read_case(file);
+  ASSERT_TRUE(c);
+  int met = 0, apart = 0;
+  for (int a = 0; a < c.value().triangles.rows(); ++a) {
+    for (int b = a + 1; b < c.value().triangles.rows(); ++b) {
+      const auto out =
+          run_assay("replay " + file + " --why " + std::to_string(a) + "," + std::to_string(b)).out;
+      const bool contact = contains(out, "oracle: in contact at t = ");
+      EXPECT_EQ(contains(out, "detector: reported"), contact) << out;
+      EXPECT_EQ(contains(out, "detector: not reported"), !contact) << out;
+      (contact ? met : apart) += 1;
+    }
+  }
+  EXPECT_GT(met + apart, 1);
+}
+
+TEST(Replay, ExportedFramesAreTheCaseBitByBit) {
+  const Scratch scratch;
+  int collisions = 0;
+  for (const std::string id : {"tiny:1:closed-generic:5", "tiny:1:closed-generic:7",
+                               "tiny:1:broken:1", "tiny:1:closed-far-large-step:2"}) {
+    SCOPED_TRACE(id);
+    const std::string folder = scratch / id;
+    const auto outcome = run_assay("replay " + id + " --export " + folder);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    EXPECT_TRUE(contains(outcome.out, "exported to " + folder)) << outcome.out;
+    const auto c = corpus::read_case(folder + "/case.json");
+    ASSERT_TRUE(c) << c.error().message;
+    for (std::size_t f = 0; f < c.value().frames.size(); ++f) {
+      std::ostringstream name;
+      name << folder << "/frame_000" << f << ".obj";
+      std::ifstream in(name.str());
+      std::vector<double> numbers;
+      std::vector<int> corners;
+      for (std::string word; in >> word;) {
+        for (int i = 0; i < 3; ++i) {
+          std::string number;
+          in >> number;
+          if (word == "v") numbers.push_back(std::strtod(number.c_str(), nullptr));
+          if (word == "f") corners.push_back(std::stoi(number) - 1);
+        }
+      }
+      const auto& x = c.value().frames[f];
+      const auto& triangles = c.value().triangles;
+      EXPECT_EQ(numbers, std::vector<double>(x.data(), x.data() + x.size()));
+      EXPECT_EQ(corners, std::vector<int>(triangles.data(), triangles.data() + triangles.size()));
+    }
+    // check reads them and comes to the oracle's answer of the first step.
+    const auto checked = run_assay("check " + folder + "/frame_0000.obj " + folder +
+                                   "/frame_0001.obj --fail-on-collision");
+    const bool collides =
+        contains(outcome.out, "step 1 (frame 0 to 1, committed): oracle collision");
+    EXPECT_EQ(checked.exit_code, collides ? 5 : 0) << checked.out << checked.err;
+    collisions += collides;
+    const auto at = outcome.out.find("oracle collision at t = ");
+    if (collides && at != std::string::npos) {
+      const auto begin = at + std::string("oracle collision at t = ").size();
+      const auto time = outcome.out.substr(begin, outcome.out.find(", ", begin) - begin);
+      EXPECT_TRUE(contains(checked.out, "collision at t = " + time)) << checked.out << time;
+    }
+  }
+  EXPECT_GT(collisions, 0);
+}
+
+TEST(Replay, ExportThatCannotBeWritten) {
+  const Scratch scratch;
+  const auto file = scratch.write("file", "");
+  expect_refused(run_assay(std::string("replay ") + some_id + " --export " + file),
+                 "cannot be made");
+  expect_refused(run_assay(std::string("replay ") + some_id + " --export /proc/nowhere"),
+                 "cannot be made");
+}
+
+}  // namespace
+}  // namespace assay::tests

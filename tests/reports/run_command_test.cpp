@@ -1,0 +1,283 @@
+// `assay run` through the program, as its user runs it.
+#include <gtest/gtest.h>
+
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+class Run : public testing::Test {
+ protected:
+  const Scratch scratch;
+  std::string plan = scratch.write("plan.json", plan_text(16));
+  std::string out = scratch / "out";
+  Outcome run(const std::string& more = "", const std::string& prefix = "") const {
+    return run_assay("run --campaign " + plan + " --out " + out + " " + more, prefix);
+  }
+};
+
+TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
+  const auto first = run("--seed 5 --jobs 2");
+  EXPECT_EQ(first.exit_code, 0) << first.out << first.err;
+  EXPECT_EQ(first.err, "");
+  for (const std::string word :
+       {"campaign tiny, seed 5, shard 1/1: 32 trials of 3 families, 6 configurations; 2 jobs; "
+        "until",
+        "writes ", "canary pair/zero-zero-dropped: found after", "32 trials in", "stratum",
+        "closed-generic           each of 6               16      16       0         0",
+        "triangles", "sets of a pair", "cases by tag", "L3_FirstContactIsACandidate",
+        "\nholds: 0 trials with a defect, 0 undecided, 0 laws broken"}) {
+    EXPECT_TRUE(contains(first.out, word)) << word << "\n" << first.out;
+  }
+  EXPECT_TRUE(contains(first.out, "writes " + out + "\n"));
+  EXPECT_FALSE(contains(first.out, "planted faults"));
+  EXPECT_FALSE(contains(first.out, "next:"));
+
+  // The same again has nothing to do and comes to the same.
+  const auto trials = trials_of(out);
+  const auto again = run("--seed 5 --jobs 1 --time 30");
+  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
+  EXPECT_TRUE(contains(again.out, "(32 are stored, 0 to do)")) << again.out;
+  EXPECT_FALSE(contains(again.out, "trials in ")) << again.out;
+  EXPECT_TRUE(contains(again.out, "\nholds: 0 trials with a defect"));
+  EXPECT_EQ(trials_of(out), trials);
+
+  for (const auto& other :
+       {std::string("--seed 6"), "--seed 5 --detector " + plugin("always_free")}) {
+    expect_refused(run(other), "holds another run");
+  }
+  scratch.write("plan.json", plan_text(18));
+  expect_refused(run("--seed 5"), "holds another run");
+  EXPECT_EQ(trials_of(out), trials);
+}
+
+TEST_F(Run, JobsDoNotChangeTheTallies) {
+  EXPECT_EQ(run("--jobs 1").exit_code, 0);
+  const auto alone = trials_of(out);
+  EXPECT_EQ(alone.size(), 32u);
+  out = scratch / "together";
+  EXPECT_EQ(run("--jobs 3").exit_code, 0);
+  EXPECT_EQ(trials_of(out), alone);
+}
+
+TEST_F(Run, ShardsShareAFolder) {
+  std::size_t trials = 0;
+  for (const std::string shard : {"1/3", "2/3", "3/3"}) {
+    const auto part = run("--shard " + shard + " --detector " + plugin("always_free"));
+    EXPECT_EQ(part.exit_code, 1) << part.out << part.err;
+    EXPECT_TRUE(contains(part.out, "shard " + shard)) << part.out;
+    // Lines of earlier shards go on to name their own failures.
+    for (const auto& line : replay_lines(part.out)) {
+      EXPECT_EQ(run_assay(line).exit_code, 1) << line;
+    }
+    std::string problem;
+    const auto store =
+        properties::Store::read(out + "/shard-" + shard.substr(0, 1) + "-of-3.sqlite", problem);
+    ASSERT_TRUE(store) << problem;
+    trials += store->trial_count();
+  }
+  EXPECT_EQ(trials, 32u);
+}
+
+TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
+  // A space in a name must not break the line.
+  out = "'" + scratch / "with space" + "'";
+  const auto outcome = run("--detector " + plugin("always_free"));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "plug-in constant answer 1\nclaims: free-sound, "))
+      << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "contract: adjacency all, float64")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "would have been a miss in 0 steps")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "DEFECT free-sound: missing, ")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "\nDEFECT: ")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "triangles ")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, " -> ")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "next: assay list failures '")) << outcome.out;
+  const auto lines = replay_lines(outcome.out);
+  ASSERT_FALSE(lines.empty());
+  for (const auto& line : lines) {
+    EXPECT_TRUE(contains(line, "/failures/tiny-1-")) << line;
+    EXPECT_TRUE(contains(line, "-smallest.json")) << line;
+    const auto replayed = run_assay(line);
+    EXPECT_EQ(replayed.exit_code, 1) << line << replayed.out << replayed.err;
+    EXPECT_TRUE(contains(replayed.out, "DEFECT free-sound: missing")) << replayed.out;
+  }
+  std::size_t originals = 0, smallest = 0;
+  for (const auto& file : std::filesystem::directory_iterator(scratch / "with space/failures")) {
+    originals += contains(file.path().string(), "-original.json");
+    smallest += contains(file.path().string(), "-smallest.json");
+  }
+  EXPECT_EQ(smallest, lines.size());
+  EXPECT_GE(originals, smallest);
+  const auto listed = run_assay("list failures " + out);
+  EXPECT_EQ(listed.exit_code, 0);
+  EXPECT_TRUE(contains(listed.out, " times  free-sound: missing, ")) << listed.out;
+  EXPECT_TRUE(contains(listed.out, "tiny:1:")) << listed.out;
+}
+
+TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
+  plan = scratch.write("plan.json", plan_text(24, R"(, "case_seconds": 1, "shrink_share": 0.02)"));
+  const auto verdict = [&](const std::string& name) {
+    out = scratch / name;
+    return run("--detector " + plugin(name));
+  };
+  const auto held = verdict("wrapped_builtin");
+  EXPECT_EQ(held.exit_code, 0) << held.out << held.err;
+  EXPECT_TRUE(contains(held.out, "\nholds: 0 trials with a defect, 0 undecided"));
+
+  const auto example = verdict("example");
+  EXPECT_EQ(example.exit_code, 0) << example.out << example.err;
+  EXPECT_TRUE(contains(example.out, "adjacency no-shared-vertex")) << example.out;
+  EXPECT_TRUE(contains(example.out, "would have been a miss in ")) << example.out;
+  EXPECT_FALSE(contains(example.out, "would have been a miss in 0 steps")) << example.out;
+
+  const auto alarm = verdict("always_collision");
+  EXPECT_EQ(alarm.exit_code, 1) << alarm.out << alarm.err;
+  EXPECT_TRUE(contains(alarm.out, "DEFECT no-spurious: ")) << alarm.out;
+
+  const auto fast = verdict("fast_math");
+  EXPECT_EQ(fast.exit_code, 1) << fast.out << fast.err;
+
+  const auto refusal = verdict("refuse");
+  EXPECT_EQ(refusal.exit_code, 1) << refusal.out << refusal.err;
+  EXPECT_TRUE(contains(refusal.out, "DEFECT total: refused")) << refusal.out;
+
+  const auto exit = verdict("exit");
+  EXPECT_EQ(exit.exit_code, 1) << exit.out << exit.err;
+  EXPECT_TRUE(contains(exit.out, "DEFECT total: crashed")) << exit.out;
+  EXPECT_TRUE(contains(exit.out, "exited with code 0")) << exit.out;
+}
+
+TEST_F(Run, ACrashIsADefectAndTheRunGoesOn) {
+  // On its 1000th step, so not in a second run of the same case.
+  plan = scratch.write("plan.json", R"({"schema": "assay-campaign/1", "name": "long", "seconds": 60,
+      "strata": [{"family": "closed-generic", "cases": 640}]})");
+  const auto crash = run("--jobs 1 --detector " + plugin("crash"));
+  EXPECT_EQ(crash.exit_code, 1) << crash.out << crash.err;
+  EXPECT_TRUE(contains(crash.out, "DEFECT total: crashed (flaky)")) << crash.out;
+  EXPECT_TRUE(contains(crash.out, "killed by signal 6 (Aborted)")) << crash.out;
+  EXPECT_TRUE(contains(crash.out, "two runs of it differ: a replay may hold")) << crash.out;
+  EXPECT_EQ(trials_of(out).size(), 640u);
+  for (const auto& line : replay_lines(crash.out)) {
+    EXPECT_TRUE(contains(line, "-original.json")) << line;
+    EXPECT_EQ(run_assay(line).exit_code, 0) << line;
+  }
+}
+
+TEST_F(Run, AHangIsUndecidedAndSoIsTheRun) {
+  plan = scratch.write("plan.json", R"({"schema": "assay-campaign/1", "name": "slow", "seconds": 20,
+                       "case_seconds": 0.1, "strata": [{"family": "broken", "cases": 3}]})");
+  const auto hang = run("--detector " + plugin("hang"));
+  EXPECT_EQ(hang.exit_code, 3) << hang.out << hang.err;
+  EXPECT_TRUE(contains(hang.out,
+                       "undecided: too many trials have no verdict: 0 trials with a "
+                       "defect, 3 undecided"))
+      << hang.out;
+}
+
+TEST_F(Run, ABoundThatIsOutOfReachIsUndecided) {
+  plan = scratch.write("plan.json",
+                       R"({"schema": "assay-campaign/1", "name": "small", "seconds": 20,
+          "strata": [{"family": "closed-generic", "cases": 8, "bound": 0.01}]})");
+  const auto outcome = run();
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "undecided: a bound is above what is wanted")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "next: ")) << outcome.out;
+}
+
+TEST_F(Run, TimeThatEndsEarlyIsIncompleteAndGoesOn) {
+  plan =
+      scratch.write("plan.json", plan_text(3000, R"(, "fault_cases": 200000, "fault_seeds": 1)"));
+  const auto begin = std::chrono::steady_clock::now();
+  const auto outcome = run("--time 1");
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(took.count(), 20);  // a loaded machine
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "incomplete: the time ended")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "planted faults")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "next: run the same again")) << outcome.out;
+  const auto before = trials_of(out).size();
+  EXPECT_LT(before, 6000u);
+  const auto again = run("--time 1.5");
+  EXPECT_EQ(again.exit_code, 3) << again.out << again.err;
+  EXPECT_GT(trials_of(out).size(), before);
+}
+
+TEST_F(Run, WithoutItsWorkerItIsUnsound) {
+  // The program beside which no worker stands.
+  const std::string moved = scratch / "assay";
+  std::filesystem::copy_file(ASSAY_PROGRAM, moved);
+  const int status = std::system(
+      (moved + " run --campaign " + plan + " --out " + out + " >" + (scratch / "text") + " 2>&1")
+          .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+  EXPECT_TRUE(contains(read_text(scratch / "text"), "UNSOUND HARNESS"))
+      << read_text(scratch / "text");
+}
+
+TEST_F(Run, BadInputIsOneLine) {
+  expect_refused(run_assay("run --campaign " + plan), "--out");
+  expect_refused(run_assay("run --campaign nowhere --out " + out), "nowhere");
+  expect_refused(run_assay("run --campaign " + scratch.write("bad.json", "{}") + " --out " + out),
+                 "schema is missing");
+  for (const std::string shard : {"0/3", "4/3", "1/0", "a/b", "1", "1/2/3", "-1/3", "''"}) {
+    expect_refused(run("--shard=" + shard), "--shard");
+  }
+  for (const std::string seed : {"-1", "x", "1.5", "99999999999999999999"}) {
+    expect_refused(run("--seed=" + seed), "--seed");
+  }
+  expect_refused(run("--jobs 0"), "--jobs");
+  expect_refused(run("--time 0"), "--time");
+  expect_refused(run("--frobnicate"), "frobnicate");
+  expect_refused(run("--detector " + plan), "not a detector plug-in");
+  expect_refused(run("--detector " + scratch / "none.so"), "no such file");
+  expect_refused(run("--detector " + plugin("wrong_abi")), "ABI version 99");
+  EXPECT_FALSE(std::filesystem::exists(out));
+  out = plan;
+  expect_refused(run(), "plan.json: cannot be made");
+  out = plan + "/below";
+  expect_refused(run(), "plan.json");
+}
+
+TEST_F(Run, AFolderWithoutPermission) {
+  std::filesystem::create_directory(out);
+  const auto all = std::filesystem::perms::all;
+  for (const auto& open : {scratch / "", plan}) std::filesystem::permissions(open, all);
+  // Root may write everything: then the program runs as somebody else.
+  const bool is_root = geteuid() == 0;
+  std::filesystem::permissions(
+      out, std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec |
+               std::filesystem::perms::others_read | std::filesystem::perms::others_exec);
+  expect_refused(run("", is_root ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : ""),
+                 "ermission denied");
+}
+
+TEST_F(Run, ADamagedStore) {
+  ASSERT_EQ(run().exit_code, 0);
+  const std::string file = out + "/shard-1-of-1.sqlite";
+  const std::string whole = read_text(file);
+  std::ofstream(file, std::ios::binary) << whole.substr(0, whole.size() / 2);
+  expect_refused(run(), "shard-1-of-1.sqlite: ");
+  std::ofstream(file, std::ios::binary) << "this is no database, and long enough to tell";
+  expect_refused(run(), "not a database");
+  expect_refused(run_assay("list failures " + out), "not a database");
+}
+
+TEST_F(Run, AFullDiskKeepsWhatIsStored) {
+  plan = scratch.write("plan.json", plan_text(100));
+  // No file may grow beyond 100 KiB.
+  const auto full = run("--jobs 1", "trap '' XFSZ; ulimit -f 200; ");
+  EXPECT_EQ(full.exit_code, 2) << full.out << full.err;
+  EXPECT_EQ(std::count(full.err.begin(), full.err.end(), '\n'), 1) << full.err;
+  EXPECT_TRUE(contains(full.err, "shard-1-of-1.sqlite: ")) << full.err;
+  EXPECT_TRUE(contains(full.err, "run the same again to go on")) << full.err;
+  const auto stored = trials_of(out);
+  EXPECT_GT(stored.size(), 0u);
+  EXPECT_LT(stored.size(), 200u);
+  const auto whole = run();
+  EXPECT_EQ(whole.exit_code, 0) << whole.out << whole.err;
+  EXPECT_EQ(trials_of(out).size(), 200u);
+}
+
+}  // namespace
+}  // namespace assay::tests

@@ -1,0 +1,163 @@
+// `assay run` that is killed, interrupted, or started twice: what is stored stays, and the same
+// again goes on.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/reports/tiny_campaign.h"
+
+extern char** environ;
+
+namespace assay::tests {
+namespace {
+
+// The program in the background, in a process group of its own, as a shell starts it.
+class Started {
+ public:
+  Started(std::vector<std::string> words, const std::string& output) {
+    words.insert(words.begin(), ASSAY_PROGRAM);
+    std::vector<char*> argv;
+    for (auto& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 1, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                     0600);
+    posix_spawn_file_actions_adddup2(&actions, 1, 2);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    EXPECT_EQ(posix_spawn(&id_, ASSAY_PROGRAM, &actions, &attributes, argv.data(), environ), 0);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+  }
+  Started(const Started&) = delete;
+  Started& operator=(const Started&) = delete;
+  ~Started() {
+    if (id_ > 0) send(SIGKILL), end();
+  }
+  // To all of its processes, as a terminal does.
+  void send(int signal) const { kill(-id_, signal); }
+  int end() {
+    int status = 0;
+    waitpid(id_, &status, 0);
+    id_ = -1;
+    return status;
+  }
+
+ private:
+  pid_t id_ = -1;
+};
+
+class Interrupted : public testing::Test {
+ protected:
+  const Scratch scratch;
+  std::vector<std::string> words(const std::string& out_folder) const {
+    std::vector<std::string> list = {"run", "--campaign", plan, "--out", out_folder};
+    if (!library.empty()) list.insert(list.end(), {"--detector", library});
+    return list;
+  }
+  Outcome run(const std::string& out_folder) const {
+    std::string line;
+    for (const auto& word : words(out_folder)) line += word + " ";
+    return run_assay(line);
+  }
+  // Waits until the run has stored something, or fails.
+  void wait_for_trials(const std::string& out_folder, std::size_t least) const {
+    for (int i = 0; i < 3000; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      std::string problem;
+      const auto store = properties::Store::read(out_folder + "/shard-1-of-1.sqlite", problem);
+      if (store && store->trial_count() >= least) return;
+    }
+    FAIL() << "nothing was stored";
+  }
+  std::string plan = scratch.write("plan.json", plan_text(400, R"(, "shrink_share": 0.03)"));
+  std::string out = scratch / "out", undisturbed = scratch / "undisturbed", library;
+  std::string text = scratch / "text";
+};
+
+TEST_F(Interrupted, KilledAtAnyMomentItComesToTheSame) {
+  library = plugin("always_free");
+  const auto reference = run(undisturbed);
+  ASSERT_EQ(reference.exit_code, 1) << reference.out << reference.err;
+  int killed = 0;
+  for (const int milliseconds : {5, 40, 90, 150, 230, 60, 310, 20}) {
+    Started started(words(out), text);
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    started.send(SIGKILL);
+    killed += WIFSIGNALED(started.end());
+  }
+  EXPECT_GE(killed, 4);
+  const auto last = run(out);
+  EXPECT_EQ(last.exit_code, 1) << last.out << last.err;
+  EXPECT_EQ(trials_of(out), trials_of(undisturbed));
+  EXPECT_EQ(signatures_of(out), signatures_of(undisturbed));
+}
+
+TEST_F(Interrupted, CtrlCEndsItWithALineAndIsNoCrash) {
+  plan = scratch.write("plan.json", plan_text(4000));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Started started(words(out), text);
+    wait_for_trials(out, 20);
+    started.send(signal);
+    const int status = started.end();
+    ASSERT_TRUE(WIFEXITED(status)) << read_text(text);
+    EXPECT_EQ(WEXITSTATUS(status), 3) << read_text(text);
+    EXPECT_TRUE(contains(read_text(text), "interrupted: what was judged is stored in " + out +
+                                              "; run the same again to go on\n"))
+        << read_text(text);
+  }
+  const auto trials = trials_of(out);
+  EXPECT_GE(trials.size(), 20u);
+  EXPECT_LT(trials.size(), 8000u);
+  for (const auto& line : trials) EXPECT_TRUE(contains(line, " HHHHHH ")) << line;
+  EXPECT_TRUE(signatures_of(out).empty());
+}
+
+TEST_F(Interrupted, ASecondRunInTheSameFolderIsRefused) {
+  plan = scratch.write("plan.json", plan_text(4000));
+  Started started(words(out), text);
+  wait_for_trials(out, 1);
+  expect_refused(run(out), "another run is writing it");
+  EXPECT_EQ(run_assay("list failures " + out).out, "no failures\n");
+  started.send(SIGKILL);
+  started.end();
+  // The dead one does not lock.
+  const auto next = run_assay("run --campaign " + plan + " --time 0.5 --out " + out);
+  EXPECT_EQ(next.exit_code, 3) << next.out << next.err;
+}
+
+TEST_F(Interrupted, ShrinkingLeavesTheBestSoFar) {
+  library = plugin("always_free");
+  plan = scratch.write("plan.json", plan_text(24, R"(, "shrink_share": 0)"));
+  const auto whole = run(out);
+  ASSERT_EQ(whole.exit_code, 1) << whole.out << whole.err;
+  const auto lines = replay_lines(whole.out);
+  ASSERT_FALSE(lines.empty());
+  const std::string file = lines[0].substr(7, lines[0].find(' ', 7) - 7);
+  ASSERT_TRUE(contains(file, "-original.json")) << lines[0];
+  const std::string small = scratch / "small.json";
+  for (const int signal : {SIGINT, SIGKILL}) {
+    std::filesystem::remove(small);
+    Started started({"shrink", file, "--out", small, "--detector", library}, text);
+    for (int i = 0; i < 3000 && !std::filesystem::exists(small); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    started.send(signal);
+    const int status = started.end();
+    EXPECT_EQ(run_assay("replay " + small + " --detector " + library).exit_code, 1);
+    // It may have been done already.
+    if (signal == SIGINT && WIFEXITED(status) && WEXITSTATUS(status) == 3) {
+      EXPECT_TRUE(contains(read_text(text), "interrupted: the smallest so far is in " + small))
+          << read_text(text);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace assay::tests

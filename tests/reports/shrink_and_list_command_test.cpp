@@ -1,0 +1,122 @@
+// `assay shrink` and `assay list`.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "corpus/case_file.h"
+#include "properties/faults/fault.h"
+#include "properties/laws/law.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+std::string curated(const std::string& name) {
+  return std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/" + name + ".json";
+}
+
+class Shrink : public testing::Test {
+ protected:
+  // A case of more than 12 triangles that collides.
+  std::string large_case() const {
+    for (int i = 0; i < 100; ++i) {
+      const std::string id = "tiny:1:closed-generic:" + std::to_string(i);
+      const std::string folder = scratch / "exported";
+      const auto outcome = run_assay("replay " + id + " --export " + folder);
+      const auto c = corpus::read_case(folder + "/case.json");
+      if (contains(outcome.out, "oracle collision") && c.value().triangles.rows() > 12)
+        return folder + "/case.json";
+    }
+    ADD_FAILURE() << "no such case";
+    return "";
+  }
+  const Scratch scratch;
+};
+
+TEST_F(Shrink, AFailingCaseBecomesSmall) {
+  const std::string file = large_case(), small = scratch / "small.json";
+  const auto outcome = run_assay("shrink " + file + " --out " + small + " --time 5 --detector " +
+                                 plugin("always_free"));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "free-sound: missing")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "writes " + small)) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, " -> ")) << outcome.out;
+  const auto before = corpus::read_case(file), after = corpus::read_case(small);
+  ASSERT_TRUE(after) << after.error().message;
+  EXPECT_LT(after.value().triangles.rows(), before.value().triangles.rows());
+  const auto lines = replay_lines(outcome.out);
+  ASSERT_EQ(lines.size(), 1u);
+  const auto replayed = run_assay(lines[0]);
+  EXPECT_EQ(replayed.exit_code, 1) << replayed.out << replayed.err;
+  EXPECT_TRUE(contains(replayed.out, "DEFECT free-sound: missing")) << replayed.out;
+}
+
+TEST_F(Shrink, WithNextToNoTimeTheCaseItselfIsTheBest) {
+  const std::string file = large_case(), small = scratch / "small.json";
+  const auto outcome = run_assay("shrink " + file + " --out " + small +
+                                 " --time 0.000001 --detector " + plugin("always_free"));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "the time was over")) << outcome.out;
+  EXPECT_EQ(run_assay("replay " + small + " --detector " + plugin("always_free")).exit_code, 1);
+}
+
+TEST_F(Shrink, ACaseThatHoldsSaysSo) {
+  const std::string small = scratch / "small.json";
+  const auto outcome = run_assay("shrink " + curated("A4_endpoints_only") + " --out " + small);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "nothing to shrink")) << outcome.out;
+  EXPECT_FALSE(std::filesystem::exists(small));
+}
+
+TEST_F(Shrink, BadInputIsOneLine) {
+  const std::string file = curated("A4_endpoints_only"), small = scratch / "small.json";
+  expect_refused(run_assay("shrink " + file), "--out");
+  expect_refused(run_assay("shrink /nowhere.json --out " + small), "/nowhere.json");
+  expect_refused(run_assay("shrink " + scratch.write("bad.json", "[]") + " --out " + small),
+                 "bad.json");
+  expect_refused(run_assay("shrink " + file + " --out /nowhere/small.json"), "/nowhere");
+  expect_refused(run_assay("shrink " + file + " --out " + (scratch / "")), "directory");
+  expect_refused(run_assay("shrink " + file + " --out " + small + " --time 0"), "--time");
+  expect_refused(run_assay("shrink " + file + " --out " + small + " --detector " + file),
+                 "not a detector plug-in");
+  // A case is never overwritten by what became of it.
+  const auto copy = scratch.write("copy.json", read_text(file));
+  expect_refused(run_assay("shrink " + copy + " --out " + copy), "is an input too");
+  EXPECT_EQ(read_text(copy), read_text(file));
+}
+
+TEST(List, LawsFaultsAndCampaigns) {
+  const auto laws = run_assay("list laws");
+  EXPECT_EQ(laws.exit_code, 0);
+  for (const auto& law : properties::laws()) {
+    EXPECT_TRUE(contains(laws.out, std::string(law.name) + "\n")) << law.name;
+    EXPECT_TRUE(contains(laws.out, std::string(law.statement))) << law.name;
+  }
+  const auto faults = run_assay("list faults");
+  EXPECT_EQ(faults.exit_code, 0);
+  std::set<std::string> planted;
+  for (const auto& fault : properties::faults()) {
+    EXPECT_TRUE(contains(faults.out, std::string(fault.name) + " ")) << fault.name;
+    if (fault.status == properties::FaultStatus::planted) planted.insert(std::string(fault.name));
+  }
+  EXPECT_GE(planted.size(), 40u);
+  const auto campaigns = run_assay("list campaigns");
+  EXPECT_EQ(campaigns.exit_code, 0);
+  for (const std::string name : {"smoke", "quick", "nightly", "release", "faults"}) {
+    EXPECT_TRUE(contains(campaigns.out, name + " ")) << campaigns.out;
+  }
+}
+
+TEST(List, FailuresNeedARun) {
+  const Scratch scratch;
+  expect_refused(run_assay("list failures"), "folder of a run");
+  expect_refused(run_assay("list failures /nowhere"), "/nowhere");
+  expect_refused(run_assay("list failures " + (scratch / "")), "no run is stored here");
+  expect_refused(run_assay("list laws " + (scratch / "")), "takes no folder");
+  expect_refused(run_assay("list errors"), "errors");
+  scratch.write("shard-1-of-1.sqlite", "");
+  expect_refused(run_assay("list failures " + (scratch / "")), "not the store of a run");
+}
+
+}  // namespace
+}  // namespace assay::tests

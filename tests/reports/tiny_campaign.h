@@ -1,0 +1,74 @@
+// Small campaigns through the program, and what is left of them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "properties/campaign/store.h"
+#include "tests/reports/program.h"
+
+namespace assay::tests {
+
+inline std::string plugin(const std::string& name) {
+  return std::string(ASSAY_PLUGIN_DIR) + "/plugin_" + name + ".so";
+}
+
+// A few dozen cases, nothing planted. `more`: further fields, each behind a comma.
+inline std::string plan_text(int cases, const std::string& more = "") {
+  const std::string n = std::to_string(cases), half = std::to_string(cases / 2);
+  return R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": 60, "strata": [)"
+         R"({"family": "closed-generic", "cases": )" +
+         n + R"(}, {"family": "unclosed-generic", "cases": )" + half +
+         R"(}, {"family": "broken", "cases": )" + half + "}]" + more + "}";
+}
+
+inline bool contains(const std::string& text, const std::string& word) {
+  return text.find(word) != std::string::npos;
+}
+
+inline void expect_refused(const Outcome& outcome, const std::string& word) {
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, word)) << outcome.err;
+}
+
+// Each trial of the run in a line, without its times.
+inline std::vector<std::string> trials_of(const std::string& out) {
+  std::string problem;
+  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
+  EXPECT_TRUE(store) << problem;
+  std::vector<std::string> lines;
+  if (!store) return lines;
+  store->for_each_trial([&](const properties::TrialRecord& r) {
+    std::ostringstream line;
+    line << r.id << ' ' << r.outcomes << ' ' << r.triangles << ' ' << r.steps << ' ' << r.collisions
+         << ' ' << r.pairs << ' ' << properties::counts_text(r.counts);
+    lines.push_back(line.str());
+  });
+  return lines;
+}
+
+inline properties::Counts signatures_of(const std::string& out) {
+  std::string problem;
+  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
+  EXPECT_TRUE(store) << problem;
+  return store ? store->signatures() : properties::Counts{};
+}
+
+// What stands behind "replay: assay " in each such line.
+inline std::vector<std::string> replay_lines(const std::string& text) {
+  std::vector<std::string> found;
+  std::istringstream in(text);
+  const std::string mark = "replay: assay ";
+  for (std::string line; std::getline(in, line);) {
+    const auto at = line.find(mark);
+    if (at != std::string::npos) found.push_back(line.substr(at + mark.size()));
+  }
+  return found;
+}
+
+}  // namespace assay::tests
