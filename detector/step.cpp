@@ -93,8 +93,8 @@ class Step {
     Stopwatch watch(result_.times.view_test);
     work_.signs.assign(work_.surface.all().triangles.size(), ViewSign::zero);
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      context_.stages.classifier->classify(work_.surface.all(), work_.component(c).triangles,
-                                           work_.x_t0, work_.x_t1, work_.primitives[c], work_.signs,
+      context_.stages.classifier->classify(work_.surface.all(), work_.component(c), work_.x_t0,
+                                           work_.x_t1, work_.primitives[c], work_.signs,
                                            work_.counts.view);
       work_.free[c] = context_.stages.release->is_free(work_, c);
       work_.counts.free_components += work_.free[c];

@@ -8,14 +8,14 @@ namespace assay::detector {
 class ViewClassifier {
  public:
   virtual ~ViewClassifier() = default;
-  // Signs of `triangles` (indices into `surface`, ghosts too) over the step (L1, L2), written to
-  // signs[triangle]. A triangle may be called zero at the cost of time; never wrongly positive or
-  // negative.
-  virtual void classify(const Topology& surface, std::span<const std::int32_t> triangles,
+  // Signs of the triangles of a component of `surface`, ghosts too, over the step (L1, L2), written
+  // to signs[triangle]. A triangle may be called zero at the cost of time; never wrongly positive
+  // or negative.
+  virtual void classify(const Topology& surface, const Component& component,
                         const PositionsView& x_t0, const PositionsView& x_t1,
                         const ViewPrimitive& primitive, std::vector<ViewSign>& signs,
                         ViewCounts& counts) const {
-    detector::classify(surface, triangles, x_t0, x_t1, primitive, signs, counts);
+    detector::classify(surface, component, x_t0, x_t1, primitive, signs, counts);
   }
 };
 

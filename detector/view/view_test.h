@@ -6,21 +6,24 @@
 
 #include "detector/mesh/topology.h"
 #include "detector/view/view_filter.h"
+#include "detector/view/view_lanes.h"
 
 namespace assay::detector {
 
 struct ViewCounts {
-  std::uint64_t filter = 0, exact = 0;  // triangles settled by each
+  std::uint64_t lanes = 0, filter = 0, exact = 0;  // triangles settled by each rung
 };
 
 // Exact sign over the step: the filter, then integers for what it leaves open.
 ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive,
                    ViewCounts& counts);
 
-// Signs of `triangles` (indices into the mesh) written to signs[triangle].
-void classify(const Topology& mesh, std::span<const std::int32_t> triangles,
-              const PositionsView& x_t0, const PositionsView& x_t1, const ViewPrimitive& primitive,
-              std::vector<ViewSign>& signs, ViewCounts& counts);
+// Exact signs over the step of the component's triangles, written to signs[triangle]: lanes first,
+// then view_sign for what they leave open. Counts and signs do not depend on `set`.
+void classify(const Topology& mesh, const Component& component, const PositionsView& x_t0,
+              const PositionsView& x_t1, const ViewPrimitive& primitive,
+              std::vector<ViewSign>& signs, ViewCounts& counts,
+              InstructionSet set = best_instruction_set());
 
 // Whether all of `triangles` are positive at one instant. Stops at the first that is not.
 bool all_positive_at(const Topology& mesh, std::span<const std::int32_t> triangles,

@@ -139,11 +139,11 @@ ViewSign common_sign(std::initializer_list<ViewSign> signs) {
 }
 
 void TriangleSigns::classify(const detector::Topology& surface,
-                             std::span<const std::int32_t> triangles,
+                             const detector::Component& component,
                              const detector::PositionsView& x_t0,
                              const detector::PositionsView& x_t1, const ViewPrimitive& primitive,
                              std::vector<ViewSign>& signs, detector::ViewCounts& counts) const {
-  for (const auto t : triangles) {
+  for (const auto t : component.triangles) {
     const auto& v = surface.triangles[static_cast<std::size_t>(t)];
     const auto corner = [&](std::size_t i) { return detector::moving_point(x_t0, x_t1, v[i]); };
     signs[static_cast<std::size_t>(t)] = sign({corner(0), corner(1), corner(2)}, primitive);

@@ -55,7 +55,7 @@ detector::ViewSign common_sign(std::initializer_list<detector::ViewSign> signs);
 // A classifier that looks at one triangle after the other.
 class TriangleSigns : public detector::ViewClassifier {
  public:
-  void classify(const detector::Topology& surface, std::span<const std::int32_t> triangles,
+  void classify(const detector::Topology& surface, const detector::Component& component,
                 const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
                 const detector::ViewPrimitive& primitive, std::vector<detector::ViewSign>& signs,
                 detector::ViewCounts& counts) const override;

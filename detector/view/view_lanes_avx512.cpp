@@ -1,0 +1,18 @@
+// Compiled with the flags of this instruction set alone (detector/CMakeLists.txt).
+#include "detector/view/view_lanes.h"
+
+#ifdef __AVX512F__
+#define ASSAY_LANES 8
+#include "detector/view/view_lanes_kernel.h"
+#endif
+
+namespace assay::detector {
+
+extern const LaneKernels* const avx512_lane_kernels;
+#ifdef __AVX512F__
+const LaneKernels* const avx512_lane_kernels = &kernels_of_this_file;
+#else
+const LaneKernels* const avx512_lane_kernels = nullptr;
+#endif
+
+}  // namespace assay::detector
