@@ -73,7 +73,7 @@ class Check {
                mesh_.components.size() == 1 ? "" : "s");
     if (unclosed) {
       fmt::print(" ({} unclosed{})", unclosed,
-                 request_.plugin_library.empty() ? ": all dirty, answered without culling" : "");
+                 request_.plugin_library.empty() ? ": closed with ghosts" : "");
     }
     fmt::print("; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s",
                subject_.title(), request_.use_oracle ? "" : "; no oracle: not judged",

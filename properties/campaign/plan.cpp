@@ -44,7 +44,7 @@ std::vector<CampaignPlan> make_named_plans() {
   quick.strata = strata(4000, 1500, 5e-3, 5e-2);
   quick.seconds = 10 * minute;
   quick.law_premises = 1000;
-  quick.fault_cases = 4000;
+  quick.fault_cases = 800;
   quick.fault_seeds = 3;
   quick.tetrahedron_seconds = 40;
 
@@ -54,7 +54,7 @@ std::vector<CampaignPlan> make_named_plans() {
   nightly.strata = strata(30'000, 20'000, 1e-3, 1e-3);
   nightly.seconds = 8 * hour;
   nightly.laws_every = 4;
-  nightly.fault_cases = 20'000;
+  nightly.fault_cases = 5000;
   nightly.fault_seeds = 5;
   nightly.tetrahedron_seconds = 5 * minute;
 
@@ -68,7 +68,7 @@ std::vector<CampaignPlan> make_named_plans() {
   faults.name = "faults";
   faults.about = "planted faults alone: how many cases each takes, and how small its mesh becomes";
   faults.seconds = hour;
-  faults.fault_cases = 20'000;
+  faults.fault_cases = 2000;
   faults.fault_seeds = 3;
   faults.shrink_faults = true;
   return {smoke, quick, nightly, release, faults};

@@ -1,6 +1,4 @@
 // Wrong elementary tests: contacts that are not seen, times that are not right.
-#include <cmath>
-
 #include "detector/contact/contact_exact.h"
 #include "properties/faults/planting.h"
 #include "properties/faults/view_polynomials.h"

@@ -26,7 +26,9 @@ std::vector<Fault> view_point_faults();
 std::vector<Fault> view_line_faults();
 std::vector<Fault> pair_faults();
 std::vector<Fault> elementary_faults();
+std::vector<Fault> start_faults();
 std::vector<Fault> state_faults();
 std::vector<Fault> boundary_faults();
+std::vector<Fault> ghost_faults();
 
 }  // namespace assay::properties

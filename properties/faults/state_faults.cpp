@@ -1,9 +1,6 @@
-// Wrong beliefs about what is clean: at the start (L5, L9), and from step to step (L8).
+// Wrong beliefs about what a step leaves clean (L8).
 #include <algorithm>
 
-#include "detector/search/feature_contacts.h"
-#include "detector/state/layers.h"
-#include "detector/state/winding.h"
 #include "properties/faults/planting.h"
 
 namespace assay::properties {
@@ -13,126 +10,10 @@ using detector::PairContact;
 using detector::ReleaseRule;
 using detector::Stages;
 using detector::StepWork;
-using detector::ViewSign;
 
 using Flags = std::vector<std::uint8_t>;
-using Components = std::vector<std::int32_t>;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-// Triangles that meet another one of their component at t=0.
-void add_own_contacts(const StepWork& work, std::size_t c, Flags& touched) {
-  detector::FeatureContacts contacts(work.surface.mesh, work.x_t0, work.x_t0, work.elementary,
-                                     detector::Want::yes_no);
-  const auto own = work.own_triangles(c);
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    for (std::size_t j = i + 1; j < own.size(); ++j) contacts.add_candidate(own[i], own[j], true);
-  }
-  contacts.run({});
-  for (const auto& contact : contacts.contacts()) {
-    for (const auto& pair : contact.pairs) touched[at(pair.a)] = touched[at(pair.b)] = 1;
-  }
-}
-
-enum class Layers { by_piece, of_component, not_looked_at };
-
-// The check of a new start, put together again with parts of it missing or changed.
-template <bool contacts, bool ghosts, Layers layers>
-struct StartHalfChecked : ReleaseRule {
-  bool verify_start(StepWork& work, const Components& components) const override {
-    Flags touched(work.surface.mesh.triangles.size(), 0);
-    work.tree.refit(work.surface.mesh, work.x_t0, work.x_t0);
-    const detector::GhostSweep still{work.surface, work.tree,       work.x_t0,
-                                     work.x_t0,    work.elementary, true};
-    Flags seen(work.surface.all().triangles.size(), 0);
-    for (const auto component : components) {
-      const std::size_t c = at(component);
-      if (contacts) add_own_contacts(work, c, touched);
-      if (ghosts) {
-        work.boundary.sweep(still, work.ghosts(c), work.stop, touched, work.counts.ghosts);
-      }
-      detector::mark_clean_by_layers(work.surface, c, work.x_t0, touched, seen, work.clean);
-      if (layers == Layers::by_piece) continue;
-      const auto own = work.own_triangles(c);
-      const bool some =
-          layers == Layers::not_looked_at ||
-          std::any_of(own.begin(), own.end(), [&](auto t) { return work.clean[at(t)] != 0; });
-      for (const auto t : own) work.clean[at(t)] = some && !touched[at(t)];
-    }
-    return true;
-  }
-};
-
-// Of all layers that of the lowest untouched triangle, however few have it.
-struct LowestLayerIsCommon : ReleaseRule {
-  bool verify_start(StepWork& work, const Components& components) const override {
-    if (!ReleaseRule::verify_start(work, components)) return false;
-    for (const auto component : components) {
-      const std::size_t c = at(component);
-      Flags touched(work.surface.mesh.triangles.size(), 0);
-      add_own_contacts(work, c, touched);
-      const detector::GhostSweep still{work.surface, work.tree,       work.x_t0,
-                                       work.x_t0,    work.elementary, true};
-      work.boundary.sweep(still, work.ghosts(c), work.stop, touched, work.counts.ghosts);
-      std::optional<int> common;
-      for (const auto t : work.own_triangles(c)) {
-        work.clean[at(t)] = 0;
-        if (touched[at(t)]) continue;
-        const auto outside = detector::winding_number_outside(
-            work.surface.all(), work.component(c).triangles, work.x_t0, t);
-        if (!common) common = outside;
-        work.clean[at(t)] = outside && outside == common;
-      }
-    }
-    return true;
-  }
-};
-
-struct StartNotChecked : ReleaseRule {
-  bool verify_start(StepWork& work, const Components& components) const override {
-    for (const auto c : components) {
-      for (const auto t : work.own_triangles(at(c))) work.clean[at(t)] = 1;
-    }
-    return true;
-  }
-};
-
-bool all_positive(const StepWork& work, std::span<const std::int32_t> triangles) {
-  return std::all_of(triangles.begin(), triangles.end(),
-                     [&](std::int32_t t) { return work.signs[at(t)] == ViewSign::positive; });
-}
-
-bool all_positive_at_start(const StepWork& work, std::size_t c,
-                           std::span<const std::int32_t> triangles) {
-  const auto& primitive = work.primitives[c];
-  return detector::all_positive_at(work.surface.all(), triangles, work.x_t0, primitive.q0.t0,
-                                   primitive.q1.t0);
-}
-
-struct WindingNotChecked : ReleaseRule {
-  bool is_free(StepWork& work, std::size_t c) const override {
-    return all_positive(work, work.component(c).triangles);
-  }
-  bool released_at_start(const StepWork& work, std::size_t c) const override {
-    return all_positive_at_start(work, c, work.component(c).triangles);
-  }
-};
-
-// Ghosts count for the winding number, but may be seen from behind.
-struct GhostSignsNotAsked : ReleaseRule {
-  bool is_free(StepWork& work, std::size_t c) const override {
-    return all_positive(work, work.own_triangles(c)) && is_inside(work, c);
-  }
-  bool released_at_start(const StepWork& work, std::size_t c) const override {
-    return all_positive_at_start(work, c, work.own_triangles(c)) && is_inside(work, c);
-  }
-
- private:
-  static bool is_inside(const StepWork& work, std::size_t c) {
-    return detector::winding_number(work.surface.all(), work.component(c).triangles, work.x_t0,
-                                    work.primitives[c].q0.t0) == 1;
-  }
-};
 
 // What the step leaves behind, from a start at which more is believed clean, or from a step that
 // has seen less.
@@ -203,29 +84,7 @@ Fault row(std::string_view name, std::string_view about, std::string_view law,
 }  // namespace
 
 std::vector<Fault> state_faults() {
-  using enum Layers;
   return {
-      row<StartNotChecked>("state/start-not-checked", "every start is taken for clean", "L9",
-                           "C5_start_intersecting", 6),
-      row<StartHalfChecked<false, true, by_piece>>("state/start-contacts-not-checked",
-                                                   "contacts at a new start are not looked for",
-                                                   "L9", "C5_start_intersecting", 6),
-      row<StartHalfChecked<true, false, by_piece>>("state/start-ghosts-not-checked",
-                                                   "released without the ghost test at a new start",
-                                                   "L9", "F_late_start", 22),
-      row<StartHalfChecked<true, true, not_looked_at>>(
-          "state/start-layers-not-checked", "whatever touches nothing at a new start is clean",
-          "L9", "L9_shared_edge_two_layers", 22),
-      row<StartHalfChecked<true, true, of_component>>(
-          "state/released-when-connected",
-          "the layer of one untouched triangle serves the whole component", "L9",
-          "L9_shared_edge_two_layers", 6),
-      row<WindingNotChecked>("state/winding-not-checked",
-                             "all positive is enough: the winding number is not asked for", "L5",
-                             "A1_winding2_allpositive", 8),
-      row<GhostSignsNotAsked>("state/ghost-signs-not-asked",
-                              "all positive without the ghosts is enough", "L5", "D1_open_allplus",
-                              12),
       row<DirtyNotCarried>("state/dirty-not-carried",
                            "doubt of a step's start does not outlive the step", "L8",
                            "F_doubt_carried", 6),
@@ -247,11 +106,6 @@ std::vector<Fault> state_faults() {
       row<KeptElsewhere>("state/kept-elsewhere",
                          "the state is kept although the step starts at other positions", "L8",
                          "F_start_elsewhere", 6),
-      {"state/lowest-layer-is-common",
-       "the common layer is that of the lowest untouched triangle, not that of most", "L9",
-       FaultStatus::equivalent,
-       "the proof of L3 needs one common layer and does not ask which: the choice costs pairs only",
-       with_points, "", 0, "release", with<&Stages::release, LowestLayerIsCommon>},
   };
 }
 

@@ -104,7 +104,7 @@ Draft sharing_an_edge(Random& random, int) {
 }  // namespace
 
 Draft closed_shape(Random& random, int size) {
-  const int kind = random.below(12);
+  const int kind = random.below(13);
   if (size < 8 || kind < 7) return simple_shape(random, size);
   switch (kind) {
     case 7:

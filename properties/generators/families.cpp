@@ -14,10 +14,10 @@ GeneratedCase make(Random& random, std::string id) {
 
 constexpr Recipe closed_generic = {.positive = 20, .aimed = 35};
 constexpr Recipe closed_near = {.near = true, .positive = 20, .aimed = 35};
-constexpr Recipe closed_exact = {.exact = true, .positive = 20, .aimed = 45};
+constexpr Recipe closed_exact = {.exact = true, .positive = 30, .aimed = 40};
 constexpr Recipe closed_far = {.far = true, .positive = 30, .aimed = 20};
 constexpr Recipe unclosed_generic = {.closed = false, .positive = 20, .aimed = 40};
-constexpr Recipe unclosed_exact = {.closed = false, .exact = true, .positive = 15, .aimed = 45};
+constexpr Recipe unclosed_exact = {.closed = false, .exact = true, .positive = 25, .aimed = 40};
 constexpr Recipe unclosed_near = {.closed = false, .near = true, .positive = 20, .aimed = 35};
 constexpr Recipe broken = {.closed = false, .broken = true, .aimed = 30};
 

@@ -96,11 +96,11 @@ void choose_view(Random& random, Draft& draft) {
 }
 
 void choose_inner_view(Random& random, Draft& draft, const Points& drift) {
-  const int kind = random.below(7);
-  if (kind < 2) return draft.tag("view:own");
+  const int kind = random.below(6);
+  if (kind < 1) return draft.tag("view:own");
   draft.tag("view:inside");
   draft.q0 = drift;
-  if (kind < 4) return draft.tag("view:point");
+  if (kind < 3) return draft.tag("view:point");
   draft.tag("view:line");
   const double length = random.between(1, 4) / 16.0;
   for (auto& q : draft.q0) {

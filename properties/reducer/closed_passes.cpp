@@ -26,6 +26,34 @@ bool offer_merge(ReductionSearch& search, const Targets& targets) {
   return search.offer(merge_vertices(search.best(), targets));
 }
 
+// The vertices outside the focus in groups of those within `radius` edges of a centre, which comes
+// first; each vertex in one group, groups of one left out.
+std::vector<std::vector<std::int32_t>> balls(const Rings& rings, int radius) {
+  std::vector<std::uint8_t> taken(rings.distance.size(), 0);
+  std::vector<std::vector<std::int32_t>> all;
+  for (const auto centre : rings.far_first) {
+    if (taken[static_cast<std::size_t>(centre)] != 0 ||
+        rings.distance[static_cast<std::size_t>(centre)] == 0) {
+      continue;
+    }
+    taken[static_cast<std::size_t>(centre)] = 1;
+    std::vector<std::int32_t> ball = {centre};
+    std::size_t begin = 0;
+    for (int r = 0; r < radius; ++r) {
+      for (const std::size_t end = ball.size(); begin < end; ++begin) {
+        for (const auto v : rings.neighbours[static_cast<std::size_t>(ball[begin])]) {
+          const auto at = static_cast<std::size_t>(v);
+          if (taken[at] != 0 || rings.distance[at] == 0) continue;
+          taken[at] = 1;
+          ball.push_back(v);
+        }
+      }
+    }
+    if (ball.size() > 1) all.push_back(std::move(ball));
+  }
+  return all;
+}
+
 // Largest loop of which every corner is tried as the place of the fan.
 constexpr std::size_t most_corners = 12;
 
@@ -68,24 +96,15 @@ void cut_and_close(ReductionSearch& search) {
 
 void merge_balls(ReductionSearch& search) {
   for (const int radius : {3, 2, 1}) {
-    for (std::size_t i = 0; i < vertex_count(search) && !search.ended();) {
-      const Rings rings = rings_of(search);
-      const auto centre = rings.far_first[i];
+    const auto size = [&] { return balls(rings_of(search), radius).size(); };
+    try_halves(search, size, [&](std::size_t begin, std::size_t end) {
+      const auto all = balls(rings_of(search), radius);
       Targets targets = stay(vertex_count(search));
-      std::vector<std::int32_t> ball = {centre};
-      for (std::size_t begin = 0, r = 0; r < static_cast<std::size_t>(radius); ++r) {
-        const std::size_t end = ball.size();
-        for (; begin < end; ++begin) {
-          for (const auto v : rings.neighbours[static_cast<std::size_t>(ball[begin])]) {
-            const auto at = static_cast<std::size_t>(v);
-            if (v == centre || targets[at] != v || rings.distance[at] == 0) continue;
-            targets[at] = centre;
-            ball.push_back(v);
-          }
-        }
+      for (std::size_t i = begin; i < end; ++i) {
+        for (const auto v : all[i]) targets[static_cast<std::size_t>(v)] = all[i].front();
       }
-      if (ball.size() < 3 || !offer_merge(search, targets)) ++i;
-    }
+      return offer_merge(search, targets);
+    });
   }
 }
 

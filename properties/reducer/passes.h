@@ -25,7 +25,7 @@ void drop_ghosts(ReductionSearch& search);  // those that the case states
 // closed_passes.cpp: a cycle stays a cycle.
 void cone_outside(ReductionSearch& search);   // all vertices outside a ring become one
 void cut_and_close(ReductionSearch& search);  // rings around the pair, their loops closed by fans
-void merge_balls(ReductionSearch& search);    // a vertex takes in all within 3, 2, 1 edges
+void merge_balls(ReductionSearch& search);    // groups of neighbours become one vertex each
 void collapse_to_parents(ReductionSearch& search);  // many edges at once, towards the pair
 void collapse_edges(ReductionSearch& search);       // one at a time, either way
 void merge_twice(ReductionSearch& search);          // two collapses at once, of small meshes

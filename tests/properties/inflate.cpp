@@ -34,7 +34,10 @@ class Inflation {
     while (static_cast<int>(c.frames.size()) <= steps && c.script.empty() && !c.ghosts) {
       Case longer = c;
       add_frame(longer, random_.below(3) > 0);
-      if (!keep_if_it_fails(c, longer)) add_still_frame(c);
+      if (keep_if_it_fails(c, longer)) continue;
+      Case still = c;
+      insert(still, c.frames.front(), true);
+      if (!keep_if_it_fails(c, still)) break;
     }
     return c;
   }
@@ -113,7 +116,6 @@ class Inflation {
     x.rowwise() += shift;
     insert(c, x, before);
   }
-  void add_still_frame(Case& c) { insert(c, c.frames.front(), true); }
 
   static void insert(Case& c, const detector::Positions& x, bool before) {
     c.frames.insert(before ? c.frames.begin() : c.frames.end(), x);

@@ -163,7 +163,7 @@ TEST_F(BadInput, Options) {
   expect_refused("scene bend", "--out");
   expect_refused("scene bend --frames 0 --out " + (scratch / "x"), "frames");
   expect_refused("scene open-tube --mesh " + good + " --out " + (scratch / "x"), "open-tube");
-  expect_refused("list errors", "errors");
+  expect_refused("list songs", "songs");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "tests/plugins/builtin.h"
+#include "detector/plugin/builtin.h"
 
 #include <new>
 #include <optional>
@@ -13,10 +13,8 @@ struct assay_handle {
   std::vector<double> times;
 };
 
-namespace assay::tests {
+namespace assay::detector {
 namespace {
-
-using detector::Answer;
 
 using PositionsMap = Eigen::Map<const detector::Positions>;
 
@@ -105,11 +103,11 @@ std::int32_t result(assay_handle* h, assay_result* out) {
 void destroy(assay_handle* h) { delete h; }
 
 }  // namespace
+}  // namespace assay::detector
 
-const assay_detector_api& builtin_api() {
+const assay_detector_api* assay_builtin_detector() {
+  using namespace assay::detector;
   static const assay_detector_api api = {
       ASSAY_DETECTOR_ABI_VERSION, describe, create, evaluate, commit, result, destroy};
-  return api;
+  return &api;
 }
-
-}  // namespace assay::tests
