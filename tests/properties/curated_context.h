@@ -113,7 +113,7 @@ class CuratedStep {
 
   detector::Triangles triangles, ghosts{0, 3};
   detector::Positions x_t0, x_t1, apexes_t0{0, 3}, apexes_t1{0, 3};
-  detector::ViewPrimitive primitive;
+  detector::ViewPrimitive primitive{};
   std::vector<detector::ViewSign> signs;
   oracle::StepJudgement judgement;
 };
