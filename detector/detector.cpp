@@ -5,6 +5,26 @@
 
 namespace assay::detector {
 
+namespace {
+
+// From where all of S at rest is seen best, ghosts included.
+void place_anchors(StepContext& context, const PositionsView& positions) {
+  const Surface& surface = context.surface;
+  std::vector<MovingPoint> apexes;
+  for (std::size_t l = 0; l < surface.loops.size(); ++l) {
+    const Point apex = place_apex(context.apex_rules[l], surface.loops[l], positions);
+    apexes.push_back({apex, apex});
+  }
+  const Positions x = with_apexes(positions, apexes, false);
+  const bool line = context.options.culling == Culling::view_line;
+  for (const auto& component : surface.all().components) {
+    context.anchors.push_back(make_view_anchor(line ? ViewKind::line : ViewKind::point,
+                                               surface.all(), component, surface.first_apex, x));
+  }
+}
+
+}  // namespace
+
 struct Detector::Parts {
   StepContext context;
   std::optional<StepState> committed, evaluated;
@@ -29,12 +49,9 @@ Expected<Detector> Detector::assemble(const TrianglesView& triangles,
   BoundingVolumeTree tree(surface.mesh, positions);
   StepContext context{options, std::move(stages), std::move(surface), std::move(tree), {}, {}};
   if (context.uses_views()) {
-    const ViewKind kind = options.culling == Culling::view_line ? ViewKind::line : ViewKind::point;
-    for (const auto& component : context.surface.mesh.components) {
-      context.anchors.push_back(make_view_anchor(kind, component, positions));
-    }
     context.apex_rules = context.stages.boundary->choose_apexes(
         context.surface, context.tree, positions, *context.stages.elementary);
+    place_anchors(context, positions);
   }
   return Detector(std::unique_ptr<Parts>(new Parts{std::move(context), {}, {}}));
 }

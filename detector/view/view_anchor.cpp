@@ -1,88 +1,98 @@
 #include "detector/view/view_anchor.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "detector/state/winding.h"
+#include "detector/view/view_search.h"
 
 namespace assay::detector {
 namespace {
 
-Point mean(const std::vector<std::int32_t>& vertices, const PositionsView& x) {
-  // Scaled before the sum and kept among the values, so that rounding cannot make it overflow.
-  const double weight = 1.0 / static_cast<double>(vertices.size());
-  Point sum = {0, 0, 0};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto axis = static_cast<Eigen::Index>(k);
-    double lo = x(vertices[0], axis), hi = lo;
-    for (const auto v : vertices) {
-      sum[k] += weight * x(v, axis);
-      lo = std::min(lo, x(v, axis));
-      hi = std::max(hi, x(v, axis));
-    }
-    sum[k] = std::clamp(sum[k], lo, hi);
+class AnchorChoice {
+ public:
+  AnchorChoice(const Topology& mesh, const Component& component, Eigen::Index vertex_count,
+               const PositionsView& x)
+      : mesh_(mesh), component_(component), x_(x), planes_(mesh, component, x) {
+    own_ = static_cast<std::size_t>(
+        std::lower_bound(component.vertices.begin(), component.vertices.end(), vertex_count) -
+        component.vertices.begin());
   }
-  return sum;
-}
 
-Eigen::Vector3d longest_axis(const std::vector<std::int32_t>& vertices, const PositionsView& x) {
-  const Point centre = mean(vertices, x);
-  // Divided by the extent, so that squares neither overflow nor vanish.
-  double extent = 0;
-  for (const auto v : vertices) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      extent = std::max(extent, std::abs(x(v, static_cast<Eigen::Index>(k)) - centre[k]));
+  ViewAnchor run(ViewKind kind) {
+    const auto points = search_points(planes_);
+    if (kind == ViewKind::point) {
+      return choose<ScoredPoint>(points, [&](const ScoredPoint& s) {
+        ViewAnchor anchor{ViewKind::point, {weights(s.q), {}}};
+        return std::pair(planes_.score(placed(anchor, 0)), std::move(anchor));
+      });
     }
+    const auto lines = search_lines(planes_, points);
+    return choose<ScoredLine>(lines, [&](const ScoredLine& s) {
+      ViewAnchor anchor{ViewKind::line, {weights(s.q0), weights(s.q1)}};
+      return std::pair(planes_.score(placed(anchor, 0), placed(anchor, 1)), std::move(anchor));
+    });
   }
-  if (!(extent > 0)) return Eigen::Vector3d::UnitX();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const auto v : vertices) {
-    const Eigen::Vector3d offset =
-        (x.row(v).transpose() - Eigen::Vector3d(centre[0], centre[1], centre[2])) / extent;
-    covariance += offset * offset.transpose();
+
+ private:
+  AffineWeights weights(const Point& q) const {
+    return affine_weights(std::span(component_.vertices).first(own_), planes_.points().first(own_),
+                          q);
   }
-  if (!covariance.allFinite()) return Eigen::Vector3d::UnitX();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(2);
-}
+
+  // Where the anchor really is: what its vertices do not span is lost.
+  Point placed(const ViewAnchor& anchor, int end) const {
+    return planes_.to_unit(combine(anchor.ends[end], x_));
+  }
+
+  bool is_inside(const ViewAnchor& anchor) const {
+    return winding_number(mesh_, component_.triangles, x_, combine(anchor.ends[0], x_)) == 1;
+  }
+
+  // The best of the first few as they are really placed; of those nearly as good, one inside.
+  template <class Scored, class Make>
+  ViewAnchor choose(const std::vector<Scored>& ranked, Make make) const {
+    constexpr std::size_t most_placed = 8;
+    std::vector<std::pair<std::int64_t, ViewAnchor>> placed;
+    for (std::size_t i = 0; i < ranked.size() && placed.size() < most_placed; ++i) {
+      placed.push_back(make(ranked[i]));
+      if (placed.back().first == ranked.front().score) break;
+    }
+    std::stable_sort(placed.begin(), placed.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    const std::int64_t least = placed[0].first - lost_for_inside();
+    if (is_inside(placed[0].second)) return placed[0].second;
+    constexpr std::size_t most_tested = 32;
+    for (std::size_t i = 0; i < std::min(ranked.size(), most_tested); ++i) {
+      if (ranked[i].score < least) break;
+      auto [score, anchor] = make(ranked[i]);
+      if (score >= least && is_inside(anchor)) return anchor;
+    }
+    return placed[0].second;
+  }
+
+  std::int64_t lost_for_inside() const {
+    return static_cast<std::int64_t>(planes_.size()) * ViewPlanes::for_positive / 20;
+  }
+
+  const Topology& mesh_;
+  const Component& component_;
+  const PositionsView& x_;
+  ViewPlanes planes_;
+  std::size_t own_ = 0;
+};
 
 }  // namespace
 
-ViewAnchor make_view_anchor(ViewKind kind, const Component& component, const PositionsView& x) {
-  ViewAnchor anchor{kind, component.vertices, {}};
-  if (kind == ViewKind::point) return anchor;
-  const Eigen::Vector3d axis = longest_axis(component.vertices, x);
-  std::vector<std::pair<double, std::int32_t>> along;
-  along.reserve(component.vertices.size());
-  // A quarter of each, so that the sum cannot overflow.
-  for (const auto v : component.vertices) along.emplace_back((0.25 * x.row(v)).dot(axis), v);
-  std::sort(along.begin(), along.end());
-  const std::size_t third = std::max<std::size_t>(1, along.size() / 3);
-  for (std::size_t i = 0; i < third; ++i) {
-    anchor.outer_vertices[0].push_back(along[i].second);
-    anchor.outer_vertices[1].push_back(along[along.size() - 1 - i].second);
-  }
-  for (auto& outer : anchor.outer_vertices) std::sort(outer.begin(), outer.end());
-  return anchor;
+ViewAnchor make_view_anchor(ViewKind kind, const Topology& mesh, const Component& component,
+                            Eigen::Index vertex_count, const PositionsView& x) {
+  return AnchorChoice(mesh, component, vertex_count, x).run(kind);
 }
-
-namespace {
-
-Point end_of_line(const ViewAnchor& anchor, int end, const PositionsView& x) {
-  constexpr double outer_weight = 0.75;
-  const Point outer = mean(anchor.outer_vertices[end], x), all = mean(anchor.vertices, x);
-  Point q;
-  for (std::size_t k = 0; k < 3; ++k) q[k] = outer_weight * outer[k] + (1 - outer_weight) * all[k];
-  return q;
-}
-
-}  // namespace
 
 ViewPrimitive place_view(const ViewAnchor& anchor, const PositionsView& x_t0,
                          const PositionsView& x_t1) {
-  if (anchor.kind == ViewKind::point) {
-    const MovingPoint q = {mean(anchor.vertices, x_t0), mean(anchor.vertices, x_t1)};
-    return {q, q};
-  }
-  return {{end_of_line(anchor, 0, x_t0), end_of_line(anchor, 0, x_t1)},
-          {end_of_line(anchor, 1, x_t0), end_of_line(anchor, 1, x_t1)}};
+  const MovingPoint q0 = {combine(anchor.ends[0], x_t0), combine(anchor.ends[0], x_t1)};
+  if (anchor.kind == ViewKind::point) return {q0, q0};
+  return {q0, {combine(anchor.ends[1], x_t0), combine(anchor.ends[1], x_t1)}};
 }
 
 }  // namespace assay::detector

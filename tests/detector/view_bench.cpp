@@ -1,6 +1,7 @@
-// The view test beside the writing of swept boxes from the same arrays, in one run, interleaved:
-//   build/release/view_bench [triangles]
-// Medians of processor time, in ns a triangle.
+// The view test beside the writing of swept boxes from the same arrays, in one run, interleaved,
+// and free steps of a whole detector:
+//   build/release/view_bench [triangles [steps]]      (steps: the free steps alone, many rounds)
+// Medians of processor time, in ns a triangle or in ms.
 #include <time.h>
 
 #include <algorithm>
@@ -10,8 +11,8 @@
 #include <numeric>
 #include <random>
 
+#include "corpus/scenes.h"
 #include "detector/detector.h"
-#include "detector/view/view_anchor.h"
 
 namespace assay::detector {
 namespace {
@@ -138,6 +139,32 @@ void run(const char* name, const Shape& shape, const ViewPrimitive& primitive, d
   }
 }
 
+// Steps of the breathing sphere, after the first. What is not view test: checks of the input,
+// comparison and copy of positions, counting of sets.
+void run_free_steps(int triangles, Culling culling, int rounds) {
+  auto scene = corpus::make_scene("breathing-sphere", {triangles, 11, {}});
+  const auto& [mesh, frames] = scene.value();
+  auto detector = Detector::create(mesh, frames[0], {culling, Start::verified, Pairs::all});
+  std::vector<double> times, view_times, wall_times;
+  std::size_t free = 0, steps = 0;
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t f = 0; f + 1 < frames.size(); ++f, ++steps) {
+      const double begin = processor_ns();
+      const StepResult result = detector.value().step(frames[f], frames[f + 1]);
+      if (steps > 0) times.push_back(1e-6 * (processor_ns() - begin));
+      if (steps > 0) view_times.push_back(result.times.view_test);
+      if (steps > 0) wall_times.push_back(result.times.total);
+      free += result.answer == Answer::free && result.counts.free_components == 1;
+    }
+    detector.value().reset();
+  }
+  std::printf(
+      "free steps, %s, %d triangles: %zu of %zu free; %.2f ms a step (wall clock %.2f, of it "
+      "view test %.2f), wanted <= 10\n",
+      culling == Culling::view_point ? "point" : "line", static_cast<int>(mesh.rows()), free, steps,
+      median(times), median(wall_times), median(view_times));
+}
+
 void run_all(int triangles) {
   const int around = std::max(3, static_cast<int>(std::sqrt(triangles / 2.0)));
   Shape sphere = lathe(around, around, -1, 1, [](double z) { return std::sqrt(1 - z * z); });
@@ -161,5 +188,11 @@ void run_all(int triangles) {
 }  // namespace assay::detector
 
 int main(int argc, char** argv) {
-  assay::detector::run_all(argc > 1 ? std::atoi(argv[1]) : 327'680);
+  using namespace assay::detector;
+  const int triangles = argc > 1 ? std::atoi(argv[1]) : 327'680;
+  const bool steps_alone = argc > 2;
+  if (!steps_alone) run_all(triangles);
+  for (const auto culling : {Culling::view_point, Culling::view_line}) {
+    run_free_steps(triangles, culling, steps_alone ? 40 : 5);
+  }
 }

@@ -1,0 +1,103 @@
+#include "detector/view/view_planes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace assay::detector {
+namespace {
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+}  // namespace
+
+ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const PositionsView& x) {
+  Point lo = point_of(x, component.vertices[0]), hi = lo;
+  for (const auto v : component.vertices) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], x(v, static_cast<Eigen::Index>(k)));
+      hi[k] = std::max(hi[k], x(v, static_cast<Eigen::Index>(k)));
+    }
+  }
+  // Halves, so that nothing overflows.
+  for (std::size_t k = 0; k < 3; ++k) {
+    centre_[k] = 0.5 * lo[k] + 0.5 * hi[k];
+    scale_ = std::max(scale_, 0.5 * hi[k] - 0.5 * lo[k]);
+  }
+  points_.reserve(component.vertices.size());
+  for (const auto v : component.vertices) points_.push_back(to_unit(point_of(x, v)));
+  const std::size_t count = std::min(component.triangles.size(), most_planes);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto t = component.triangles[i * component.triangles.size() / count];
+    std::array<Point, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = to_unit(point_of(x, mesh.triangles[static_cast<std::size_t>(t)][k]));
+    }
+    const Point n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+    const double length = std::sqrt(dot(n, n));
+    if (!(length > 0)) continue;  // no place sees it positive
+    nx_.push_back(n[0] / length);
+    ny_.push_back(n[1] / length);
+    nz_.push_back(n[2] / length);
+    offset_.push_back(dot(normal(nx_.size() - 1), p[0]));
+    corners_.push_back(p);
+  }
+}
+
+Point ViewPlanes::to_unit(const Point& x) const {
+  if (!(scale_ > 0)) return {0, 0, 0};
+  Point y;
+  for (std::size_t k = 0; k < 3; ++k) y[k] = (0.5 * x[k] - 0.5 * centre_[k]) / (0.5 * scale_);
+  return y;
+}
+
+Point ViewPlanes::middle(std::size_t plane) const {
+  const auto& [a, b, c] = corners_[plane];
+  return {(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3};
+}
+
+std::int64_t ViewPlanes::score(const Point& q) const {
+  std::int64_t positive = 0, clear = 0, negative = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double height = offset_[i] - (nx_[i] * q[0] + ny_[i] * q[1] + nz_[i] * q[2]);
+    positive += height > 0 ? 1 : 0;
+    clear += height > margin ? 1 : 0;
+    negative += height < 0 ? 1 : 0;
+  }
+  return std::max(for_positive * positive + for_margin * clear, for_negative * negative);
+}
+
+std::int64_t ViewPlanes::score(const Point& q0, const Point& q1) const {
+  const Point d = minus(q1, q0);
+  const double length2 = dot(d, d), base = dot(q0, d);
+  std::int64_t positive = 0, clear = 0, negative = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double h0 = offset_[i] - (nx_[i] * q0[0] + ny_[i] * q0[1] + nz_[i] * q0[2]);
+    const double h1 = offset_[i] - (nx_[i] * q1[0] + ny_[i] * q1[1] + nz_[i] * q1[2]);
+    double least = std::min(h0, h1), greatest = std::max(h0, h1);
+    if (least <= 0 && greatest >= 0 && length2 > 0) {
+      double s_least = 1, s_greatest = 0;
+      for (const auto& p : corners_[i]) {
+        const double s = std::clamp((dot(p, d) - base) / length2, 0.0, 1.0);
+        s_least = std::min(s_least, s);
+        s_greatest = std::max(s_greatest, s);
+      }
+      const double a = h0 + s_least * (h1 - h0), b = h0 + s_greatest * (h1 - h0);
+      least = std::min(a, b);
+      greatest = std::max(a, b);
+    }
+    positive += least > 0 ? 1 : 0;
+    clear += least > margin ? 1 : 0;
+    negative += greatest < 0 ? 1 : 0;
+  }
+  const std::int64_t zero = static_cast<std::int64_t>(size()) - positive - negative;
+  return std::max(for_positive * positive + for_margin * clear, for_negative * negative) +
+         for_zero * zero;
+}
+
+}  // namespace assay::detector
