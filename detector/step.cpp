@@ -80,8 +80,7 @@ class Step {
     if (context_.uses_views()) {
       classify_components();
       if (!find_start()) return false;
-      const bool all_free = std::all_of(work_.free.begin(), work_.free.end(),
-                                        [](std::uint8_t is_free) { return is_free != 0; });
+      const bool all_free = work_.all_free();
       if (!all_free && !sweep_ghosts()) return false;
       count_sets();
       if (all_free && mesh_.components.size() == 1) return true;
@@ -104,6 +103,10 @@ class Step {
   // work_.clean at t=0 for all triangles.
   bool find_start() {
     Stopwatch watch(result_.times.start);
+    if (work_.all_free()) {
+      std::fill(work_.clean.begin(), work_.clean.end(), 1);
+      return true;
+    }
     const ReleaseRule& release = *context_.stages.release;
     std::vector<std::int32_t> to_verify;
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
@@ -145,8 +148,13 @@ class Step {
   }
 
   void count_sets() {
-    result_.doubts.resize(mesh_.triangles.size());
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const std::size_t count = mesh_.triangles.size();
+    result_.doubts.assign(count, 0);
+    if (work_.all_free()) {  // and so clean, and touched by no ghost
+      result_.view_positive = count;
+      return;
+    }
+    for (std::size_t t = 0; t < count; ++t) {
       const bool dirty = !work_.clean[t], violated = work_.touched[t] != 0;
       result_.doubts[t] =
           static_cast<std::uint8_t>((violated ? doubt::violated : 0) | (dirty ? doubt::dirty : 0));
@@ -202,7 +210,7 @@ class Step {
 
   StepState state_at_end(const PositionsView& mesh_x_t1) const {
     StepState state;
-    state.positions = mesh_x_t1;
+    state.keep(mesh_x_t1);
     state.clean.resize(mesh_.triangles.size());
     state.inside.resize(mesh_.components.size());
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {

@@ -1,6 +1,8 @@
 // What the stages of one step read and write.
 #pragma once
 
+#include <algorithm>
+
 #include "detector/boundary/boundary_handler.h"
 #include "detector/options.h"
 #include "detector/state/step_state.h"
@@ -23,6 +25,9 @@ struct StepWork {
   std::vector<std::uint8_t> touched;      // by triangle of the mesh: by a ghost, in the step
   StepCounts counts;
 
+  bool all_free() const {
+    return std::all_of(free.begin(), free.end(), [](std::uint8_t is_free) { return is_free != 0; });
+  }
   // The component with its ghosts: a cycle.
   const Component& component(std::size_t c) const { return surface.all().components[c]; }
   // Its own triangles, without its ghosts.

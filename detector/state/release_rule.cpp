@@ -83,7 +83,10 @@ bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& 
 void ReleaseRule::settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
                          std::vector<std::uint8_t>& clean) const {
   const Topology& mesh = work.surface.mesh;
-  for (std::size_t t = 0; t < clean.size(); ++t) clean[t] = work.clean[t] && !work.touched[t];
+  std::transform(work.clean.begin(), work.clean.end(), work.touched.begin(), clean.begin(),
+                 [](std::uint8_t was_clean, std::uint8_t touched) -> std::uint8_t {
+                   return was_clean != 0 && touched == 0;
+                 });
   if (!complete && !pairs.empty()) std::fill(clean.begin(), clean.end(), 0);
   for (const auto& [pair, time, feature] : pairs) {
     const bool own =

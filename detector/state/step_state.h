@@ -16,9 +16,8 @@ struct StepState {
   // 1 there. It keeps it while all triangles stay positive, so L5 need not count again.
   std::vector<std::optional<std::array<Point, 2>>> inside;
 
-  bool holds_at(const PositionsView& x) const {
-    return positions.rows() == x.rows() && positions == x;
-  }
+  void keep(const PositionsView& x);
+  bool holds_at(const PositionsView& x) const;
 };
 
 }  // namespace assay::detector

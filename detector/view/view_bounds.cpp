@@ -35,20 +35,31 @@ struct Box {
   Point lo, hi;
 };
 
+// Several boxes in turn: one alone would wait for each comparison before the next.
 Box box_around(std::span<const std::int32_t> vertices, const PositionsView& x) {
-  const double* const data = x.data();
-  const std::ptrdiff_t stride = x.outerStride();
-  const auto row = [&](std::size_t i) { return data + stride * vertices[i]; };
-  const double* first = row(0);
-  Box box = {{first[0], first[1], first[2]}, {first[0], first[1], first[2]}};
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const double* const p = row(i);
+  constexpr std::size_t chains = 4;
+  const auto row = [&, data = x.data(), stride = x.outerStride()](std::size_t i) {
+    return data + stride * vertices[i];
+  };
+  const double* const first = row(0);
+  std::array<Box, chains> boxes;
+  boxes.fill({{first[0], first[1], first[2]}, {first[0], first[1], first[2]}});
+  const auto include = [](Box& box, const double* p) {
     for (std::size_t k = 0; k < 3; ++k) {
       box.lo[k] = p[k] < box.lo[k] ? p[k] : box.lo[k];
       box.hi[k] = p[k] > box.hi[k] ? p[k] : box.hi[k];
     }
+  };
+  std::size_t i = 0;
+  for (; i + chains <= vertices.size(); i += chains) {
+    for (std::size_t c = 0; c < chains; ++c) include(boxes[c], row(i + c));
   }
-  return box;
+  for (; i < vertices.size(); ++i) include(boxes[0], row(i));
+  for (std::size_t c = 1; c < chains; ++c) {
+    include(boxes[0], boxes[c].lo.data());
+    include(boxes[0], boxes[c].hi.data());
+  }
+  return boxes[0];
 }
 
 // The sizes of edges and of p - q over one end of the step.
