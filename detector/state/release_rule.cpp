@@ -56,11 +56,11 @@ bool ReleaseRule::is_free(StepWork& work, std::size_t c) const {
 }
 
 bool ReleaseRule::released_at_start(const StepWork& work, std::size_t c) const {
-  const auto& triangles = work.component(c).triangles;
+  const Component& component = work.component(c);
   const ViewPrimitive& primitive = work.primitives[c];
-  return all_positive_at(work.surface.all(), triangles, work.x_t0, primitive.q0.t0,
+  return all_positive_at(work.surface.all(), component, work.x_t0, primitive.q0.t0,
                          primitive.q1.t0) &&
-         winding_number(work.surface.all(), triangles, work.x_t0, primitive.q0.t0) == 1;
+         winding_number(work.surface.all(), component.triangles, work.x_t0, primitive.q0.t0) == 1;
 }
 
 bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& components) const {

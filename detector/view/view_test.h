@@ -12,6 +12,13 @@ namespace assay::detector {
 
 struct ViewCounts {
   std::uint64_t lanes = 0, filter = 0, exact = 0;  // triangles settled by each rung
+
+  ViewCounts& operator+=(const ViewCounts& other) {
+    lanes += other.lanes;
+    filter += other.filter;
+    exact += other.exact;
+    return *this;
+  }
 };
 
 // Exact sign over the step: the filter, then integers for what it leaves open.
@@ -25,8 +32,9 @@ void classify(const Topology& mesh, const Component& component, const PositionsV
               std::vector<ViewSign>& signs, ViewCounts& counts,
               InstructionSet set = best_instruction_set());
 
-// Whether all of `triangles` are positive at one instant. Stops at the first that is not.
-bool all_positive_at(const Topology& mesh, std::span<const std::int32_t> triangles,
-                     const PositionsView& x, const Point& q0, const Point& q1);
+// Whether all triangles of the component are positive at one instant. Stops soon after the first
+// that is not.
+bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,
+                     const Point& q0, const Point& q1);
 
 }  // namespace assay::detector

@@ -101,10 +101,10 @@ bool all_positive(const StepWork& work, std::span<const std::int32_t> triangles)
                      [&](std::int32_t t) { return work.signs[at(t)] == ViewSign::positive; });
 }
 
-bool all_positive_at_start(const StepWork& work, std::size_t c,
-                           std::span<const std::int32_t> triangles) {
+// `surface`: that of the step, or its mesh without ghosts.
+bool all_positive_at_start(const StepWork& work, std::size_t c, const detector::Topology& surface) {
   const auto& primitive = work.primitives[c];
-  return detector::all_positive_at(work.surface.all(), triangles, work.x_t0, primitive.q0.t0,
+  return detector::all_positive_at(surface, surface.components[c], work.x_t0, primitive.q0.t0,
                                    primitive.q1.t0);
 }
 
@@ -113,7 +113,7 @@ struct WindingNotChecked : ReleaseRule {
     return all_positive(work, work.component(c).triangles);
   }
   bool released_at_start(const StepWork& work, std::size_t c) const override {
-    return all_positive_at_start(work, c, work.component(c).triangles);
+    return all_positive_at_start(work, c, work.surface.all());
   }
 };
 
@@ -123,7 +123,7 @@ struct GhostSignsNotAsked : ReleaseRule {
     return all_positive(work, work.own_triangles(c)) && is_inside(work, c);
   }
   bool released_at_start(const StepWork& work, std::size_t c) const override {
-    return all_positive_at_start(work, c, work.own_triangles(c)) && is_inside(work, c);
+    return all_positive_at_start(work, c, work.surface.mesh) && is_inside(work, c);
   }
 
  private:

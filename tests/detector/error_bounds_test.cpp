@@ -2,105 +2,16 @@
 // exact integers. Prints the largest error beside what is allowed.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
-#include <random>
 
 #include "detector/contact/contact_filter.h"
-#include "detector/exact/integer.h"
 #include "detector/view/view_filter.h"
+#include "tests/detector/exact_numbers.h"
 
 namespace assay::detector {
 namespace {
 
-// Exact binary fraction: value = number * 2^exponent.
-using Wide = boost::multiprecision::cpp_int;
-struct Exact {
-  Wide number = 0;
-  int exponent = 0;
-  Exact() = default;
-  Exact(double x) {  // NOLINT(google-explicit-constructor): the test computes with it
-    const Binary b = binary_of(x);
-    number = b.mantissa;
-    exponent = b.exponent;
-  }
-};
-
-Exact aligned_sum(const Exact& a, const Exact& b, int sign) {
-  Exact out;
-  out.exponent = std::min(a.exponent, b.exponent);
-  out.number =
-      (a.number << (a.exponent - out.exponent)) + sign * (b.number << (b.exponent - out.exponent));
-  return out;
-}
-Exact operator+(const Exact& a, const Exact& b) { return aligned_sum(a, b, 1); }
-Exact operator-(const Exact& a, const Exact& b) { return aligned_sum(a, b, -1); }
-Exact operator*(const Exact& a, const Exact& b) {
-  Exact out;
-  out.number = a.number * b.number;
-  out.exponent = a.exponent + b.exponent;
-  return out;
-}
-double magnitude(const Exact& a) {
-  return std::abs(std::ldexp(boost::multiprecision::cpp_rational(a.number, 1).convert_to<double>(),
-                             a.exponent));
-}
-
-using ExactVector = std::array<Exact, 3>;
-struct MovingExact {
-  ExactVector t0, t1;
-};
-
-MovingExact exact_difference(const MovingPoint& p, const MovingPoint& q) {
-  MovingExact out;
-  for (std::size_t k = 0; k < 3; ++k) {
-    out.t0[k] = Exact(p.t0[k]) - Exact(q.t0[k]);
-    out.t1[k] = Exact(p.t1[k]) - Exact(q.t1[k]);
-  }
-  return out;
-}
-Exact dot(const ExactVector& x, const ExactVector& y) {
-  return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
-ExactVector cross(const ExactVector& x, const ExactVector& y) {
-  return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-}
-ExactVector operator+(const ExactVector& x, const ExactVector& y) {
-  return {x[0] + y[0], x[1] + y[1], x[2] + y[2]};
-}
-
-class Numbers {
- public:
-  double next() {
-    switch (family_) {
-      case 0:
-        return std::uniform_real_distribution<double>(-1, 1)(engine_);
-      case 1:  // far from the origin: the differences are rounded
-        return 1e6 + std::uniform_real_distribution<double>(-1, 1)(engine_);
-      case 2:  // mixed scales
-        return std::ldexp(std::uniform_real_distribution<double>(-1, 1)(engine_),
-                          static_cast<int>(engine_() % 80) - 40);
-      default:  // near the ends of the range
-        return std::ldexp(std::uniform_real_distribution<double>(-1, 1)(engine_),
-                          engine_() % 2 ? 290 : 280);
-    }
-  }
-  MovingPoint point() { return {{next(), next(), next()}, {next(), next(), next()}}; }
-  void family(int n) { family_ = n; }
-
- private:
-  std::mt19937_64 engine_{20111};
-  int family_ = 0;
-};
-
 constexpr int cases = 20000;
-
-// Errors in units of 2^-53 times the scale.
-double error_units(double computed, const Exact& exact, double divisor, double scale) {
-  // computed - exact / divisor, times divisor: all exact.
-  const Exact off = Exact(computed) * Exact(divisor) - exact;
-  return scale > 0 ? magnitude(off) / divisor / scale / unit_roundoff : magnitude(off);
-}
 
 TEST(ErrorBounds, CoplanarityCubicAndDependencies) {
   Numbers numbers;
