@@ -47,7 +47,9 @@ Expected<Detector> Detector::assemble(const TrianglesView& triangles,
   if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
   Surface surface = stages.boundary->close_up(triangles, positions.rows());
   BoundingVolumeTree tree(surface.mesh, positions);
-  StepContext context{options, std::move(stages), std::move(surface), std::move(tree), {}, {}};
+  SearchMemory search(surface.mesh, tree);
+  StepContext context{
+      options, std::move(stages), std::move(surface), std::move(tree), std::move(search), {}, {}};
   if (context.uses_views()) {
     context.apex_rules = context.stages.boundary->choose_apexes(
         context.surface, context.tree, positions, *context.stages.elementary);

@@ -51,6 +51,7 @@ struct StepTimes {
 
 struct StepCounts {
   SearchCounts search;
+  MarkingCounts marking;  // these rest on the steps before, see search/marking.h
   NarrowCounts narrow;
   ViewCounts view;
   GhostCounts ghosts;

@@ -8,6 +8,7 @@ Stages standard_stages(Culling culling) {
   stages.classifier = std::make_shared<ViewClassifier>();
   stages.boundary = std::make_shared<BoundaryHandler>();
   stages.pair_rule = uses_views ? std::make_shared<PairRule>() : std::make_shared<EveryPair>();
+  stages.marking = std::make_shared<Marking>();
   if (culling == Culling::none) {
     stages.pair_search = std::make_shared<ExhaustiveSearch>();
   } else {

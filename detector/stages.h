@@ -17,6 +17,7 @@ struct Stages {
   std::shared_ptr<const ViewClassifier> classifier;
   std::shared_ptr<const BoundaryHandler> boundary;
   std::shared_ptr<const PairRule> pair_rule;
+  std::shared_ptr<const Marking> marking;
   std::shared_ptr<const PairSearch> pair_search;
   std::shared_ptr<const ElementaryTest> elementary;
   std::shared_ptr<const ReleaseRule> release;

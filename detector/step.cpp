@@ -7,8 +7,8 @@
 //   all components free and only one of them: done, no tree is touched
 //   state at the start: last commit, or static contacts and layers ReleaseRule (L8, L9)
 //   ghosts against the mesh, hole by hole: violated                BoundaryHandler (L11)
-//   mark, and traverse (V+,V-), (U,V0), (U,Vv) and pairs of two components
-//                                                                  PairRule, PairSearch (L3, L10)
+//   mark the triangles that changed                                Marking
+//   traverse (V+,V-), (U,V0), (U,Vv) and pairs of two components   PairRule, PairSearch (L3, L10)
 //   elementary tests, each feature pair once                       ElementaryTest
 //   closure: (U,H) until H is stable                               PairRule (L7)
 //   what is clean at the end                                       ReleaseRule (L8)
@@ -172,40 +172,46 @@ class Step {
     }
   }
 
-  std::uint8_t flags_of(std::size_t t) const {
-    if (!work_.clean[t] || work_.touched[t]) return flag::violated;
-    return work_.signs[t] == ViewSign::positive   ? flag::positive
-           : work_.signs[t] == ViewSign::negative ? flag::negative
-                                                  : flag::zero;
+  TriangleType type_of(std::size_t t) const {
+    if (!work_.clean[t]) return TriangleType::dirty;
+    if (work_.touched[t]) return TriangleType::violated;
+    return work_.signs[t] == ViewSign::positive   ? TriangleType::positive
+           : work_.signs[t] == ViewSign::negative ? TriangleType::negative
+                                                  : TriangleType::zero;
   }
 
   bool search() {
-    std::vector<std::uint8_t> flags(mesh_.triangles.size());
-    for (std::size_t t = 0; t < flags.size(); ++t) flags[t] = flags_of(t);
+    std::vector<TriangleType> types(mesh_.triangles.size());
+    for (std::size_t t = 0; t < types.size(); ++t) types[t] = type_of(t);
     StepTimes& times = result_.times;
     const Stages& stages = context_.stages;
+    const SearchStages search_stages{*stages.pair_rule, *stages.marking, *stages.pair_search,
+                                     *stages.elementary};
     {
       Stopwatch watch(times.broad_phase);
       stages.pair_search->fit(work_.tree, mesh_, work_.x_t0, work_.x_t1);
     }
-    CandidateSearch candidates({*stages.pair_rule, *stages.pair_search, *stages.elementary}, mesh_,
-                               work_.tree, work_.x_t0, work_.x_t1, work_.clean, std::move(flags),
-                               work_.stop);
-    const bool closes = context_.uses_views() && context_.options.pairs == Pairs::all;
-    const bool completed = timed(times.broad_phase, [&] { return candidates.collect(); }) &&
-                           timed(times.narrow_phase, [&] { return candidates.test(); }) &&
-                           (!closes || timed(times.closure, [&] { return candidates.close(); }));
-    result_.pairs = candidates.pair_contacts();
+    CandidateSearch candidates(search_stages, mesh_, work_.tree, context_.search, work_.x_t0,
+                               work_.x_t1, work_.stop);
+    bool completed = true;
+    {
+      Stopwatch watch(times.broad_phase);
+      candidates.mark(types);
+      completed = candidates.collect();
+    }
+    // The tests are made as candidates come up.
+    times.narrow_phase = candidates.contacts().test_time();
+    times.broad_phase -= times.narrow_phase;
+    if (completed && context_.uses_views() && context_.options.pairs == Pairs::all) {
+      Stopwatch watch(times.closure);
+      completed = candidates.close();
+    }
+    result_.pairs = candidates.contacts().pair_contacts();
     work_.counts.search = candidates.search_counts();
-    work_.counts.narrow = candidates.narrow_counts();
+    work_.counts.marking = candidates.marking_counts();
+    work_.counts.narrow = candidates.contacts().counts();
     work_.counts.closure_rounds = candidates.closure_rounds();
     return completed;
-  }
-
-  template <class Work>
-  static bool timed(double& milliseconds, Work work) {
-    Stopwatch watch(milliseconds);
-    return work();
   }
 
   StepState state_at_end(const PositionsView& mesh_x_t1) const {

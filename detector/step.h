@@ -12,6 +12,7 @@ struct StepContext {
   Stages stages;
   Surface surface;
   BoundingVolumeTree tree;           // of the mesh
+  SearchMemory search;               // the marks of that tree
   std::vector<ViewAnchor> anchors;   // one for each component
   std::vector<ApexRule> apex_rules;  // one for each loop
 

@@ -41,12 +41,12 @@ class PairStory {
     std::string out;
     const auto layers = layers_at_start(result, x_t0);
     for (const auto t : {pair_.a, pair_.b}) out += triangle_text(t, result, layers);
-    const auto box = [&](std::int32_t t) {
-      return detector::swept_box(detector_.topology().triangles[at(t)], x_t0, x_t1);
-    };
-    const bool boxes_meet = box(pair_.a).meets(box(pair_.b));
-    out += fmt::format("    {}; swept boxes {}\n", rule_text(result),
-                       boxes_meet ? "meet" : "do not meet: never tested");
+    const detector::RoundedPositions points(x_t0, x_t1);
+    const auto& triangles = detector_.topology().triangles;
+    const bool boxes_apart =
+        apart(points.box(triangles[at(pair_.a)]), points.box(triangles[at(pair_.b)]));
+    out += fmt::format("    {}; moving boxes {}\n", rule_text(result),
+                       boxes_apart ? "are apart: never tested" : "meet");
     const auto found = std::find_if(truth.pairs.begin(), truth.pairs.end(),
                                     [&](const auto& contact) { return contact.pair == pair_; });
     out += found == truth.pairs.end()

@@ -11,7 +11,7 @@
 namespace assay::reports {
 
 // For each step of the case: both signs, doubts, components, layers at the start by the oracle,
-// whether the pair is in K, whether the swept boxes meet, what the oracle says of it. Runs the
+// whether the pair is in K, whether their moving boxes meet, what the oracle says of it. Runs the
 // built-in detector in this process.
 std::string pair_story(const corpus::Case& c, const detector::Options& options,
                        const detector::TrianglePair& pair,

@@ -68,7 +68,8 @@ void sweep_ghost(const GhostSweep& sweep, std::int32_t ghost, std::vector<std::u
   const Corners& corners = all.triangles[at(ghost)];
   const PairTest pair(sweep, counts);
   SearchCounts descent;
-  search_box(sweep.tree, swept_box(corners, sweep.x_t0, sweep.x_t1), descent, [&](std::int32_t t) {
+  const MovingBox box = sweep.tree.box_of_triangle(corners, sweep.x_t0, sweep.x_t1);
+  search_box(sweep.tree, box, descent, [&](std::int32_t t) {
     if (all.component_of_triangle[at(t)] != all.component_of_triangle[at(ghost)]) return true;
     ++counts.pairs;
     if (!touched[at(t)] && pair.meet(corners, all.triangles[at(t)])) touched[at(t)] = 1;

@@ -8,7 +8,7 @@
 namespace assay::detector {
 
 struct GhostCounts {
-  std::uint64_t pairs = 0;             // ghost and triangle whose swept boxes meet
+  std::uint64_t pairs = 0;             // ghost and triangle whose moving boxes are not apart
   std::uint64_t elementary_tests = 0;  // feature pairs of these tested beyond axis order
 };
 

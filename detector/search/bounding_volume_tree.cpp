@@ -2,98 +2,129 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 namespace assay::detector {
-namespace {
 
-Box join(const Box& a, const Box& b) {
-  Box joined;
-  for (int k = 0; k < 3; ++k) {
-    joined.lo[k] = std::min(a.lo[k], b.lo[k]);
-    joined.hi[k] = std::max(a.hi[k], b.hi[k]);
-  }
-  return joined;
-}
+// Splits a range of items at the median centre and numbers the nodes.
+struct BoundingVolumeTree::Builder {
+  using Items = std::span<std::int32_t>;
 
-}  // namespace
+  BoundingVolumeTree& tree;
+  const Topology& mesh;
+  std::vector<Point> triangle_centres, component_centres;
+  std::vector<std::int32_t> order;  // of the triangles of one component
 
-Box swept_box(const std::array<std::int32_t, 3>& vertices, const PositionsView& x_t0,
-              const PositionsView& x_t1) {
-  Box box;
-  for (int k = 0; k < 3; ++k) {
-    double lo = x_t0(vertices[0], k), hi = lo;
-    for (const auto v : vertices) {
-      for (const double value : {x_t0(v, k), x_t1(v, k)}) {
-        lo = std::min(lo, value);
-        hi = std::max(hi, value);
-      }
+  Builder(BoundingVolumeTree& grown, const Topology& of, const PositionsView& x)
+      : tree(grown), mesh(of) {
+    triangle_centres.reserve(mesh.triangles.size());
+    for (const auto& triangle : mesh.triangles) triangle_centres.push_back(centre(triangle, x));
+    for (const auto& component : mesh.components) {
+      // Of the box: any place that tells components apart will do.
+      Point lo = triangle_centres[at(component.triangles.front())], hi = lo;
+      for (const auto t : component.triangles) widen(lo, hi, triangle_centres[at(t)]);
+      component_centres.push_back(
+          {.5 * lo[0] + .5 * hi[0], .5 * lo[1] + .5 * hi[1], .5 * lo[2] + .5 * hi[2]});
     }
-    box.lo[k] = lo;
-    box.hi[k] = hi;
   }
-  return box;
-}
 
-BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView& x) {
-  const std::size_t count = mesh.triangles.size();
-  std::vector<Point> centres(count);
-  for (std::size_t t = 0; t < count; ++t) {
+  static Point centre(const std::array<std::int32_t, 3>& triangle, const PositionsView& x) {
+    Point sum = {0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
       // A quarter of each corner: only the order matters, and the sum cannot overflow.
-      double sum = 0;
-      for (const auto v : mesh.triangles[t]) sum += 0.25 * x(v, static_cast<Eigen::Index>(k));
-      centres[t][k] = sum;
+      for (const auto v : triangle) sum[k] += 0.25 * x(v, static_cast<Eigen::Index>(k));
+    }
+    return sum;
+  }
+
+  static void widen(Point& lo, Point& hi, const Point& p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], p[k]);
+      hi[k] = std::max(hi[k], p[k]);
     }
   }
-  std::vector<std::int32_t> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  triangle_.reserve(2 * count - 1);
-  right_.reserve(2 * count - 1);
-  build(order, centres, 0, count);
-  boxes_.resize(triangle_.size());
+
+  static std::size_t split(Items items, const std::vector<Point>& centres) {
+    Point lo = centres[at(items[0])], hi = lo;
+    for (const auto i : items) widen(lo, hi, centres[at(i)]);
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      // Halves: a side may be longer than the largest double.
+      if (.5 * hi[k] - .5 * lo[k] > .5 * hi[axis] - .5 * lo[axis]) axis = k;
+    }
+    const std::size_t middle = items.size() / 2;
+    std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle),
+                     items.end(), [&](std::int32_t a, std::int32_t b) {
+                       const double p = centres[at(a)][axis], q = centres[at(b)][axis];
+                       return p != q ? p < q : a < b;
+                     });
+    return middle;
+  }
+
+  std::int32_t add_children(std::int32_t node) {
+    const auto first = static_cast<std::int32_t>(tree.child_.size());
+    tree.child_[at(node)] = first;
+    tree.child_.resize(tree.child_.size() + 2);
+    tree.component_.resize(tree.component_.size() + 2);
+    tree.parent_.push_back(node);
+    return first;
+  }
+
+  void grow_over_components(std::int32_t node, Items components) {
+    if (components.size() == 1) {
+      order = mesh.components[at(components[0])].triangles;
+      grow_over_triangles(node, order, components[0]);
+      return;
+    }
+    tree.component_[at(node)] = mixed_components;
+    const std::size_t middle = split(components, component_centres);
+    const auto first = add_children(node);
+    grow_over_components(first, components.first(middle));
+    grow_over_components(first + 1, components.subspan(middle));
+  }
+
+  void grow_over_triangles(std::int32_t node, Items triangles, std::int32_t component) {
+    tree.component_[at(node)] = component;
+    if (triangles.size() == 1) {
+      tree.child_[at(node)] = ~triangles[0];
+      tree.leaf_[at(triangles[0])] = node;
+      return;
+    }
+    const std::size_t middle = split(triangles, triangle_centres);
+    const auto first = add_children(node);
+    grow_over_triangles(first, triangles.first(middle), component);
+    grow_over_triangles(first + 1, triangles.subspan(middle), component);
+  }
+};
+
+BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView& x) {
+  const std::size_t nodes = 2 * mesh.triangles.size() - 1;
+  child_.reserve(nodes);
+  component_.reserve(nodes);
+  parent_.reserve(mesh.triangles.size());
+  child_.resize(1);
+  component_.resize(1);
+  leaf_.resize(mesh.triangles.size());
+  boxes_.resize(nodes);
+  std::vector<std::int32_t> components(mesh.components.size());
+  std::iota(components.begin(), components.end(), 0);
+  Builder(*this, mesh, x).grow_over_components(root, components);
 }
 
-std::int32_t BoundingVolumeTree::build(std::vector<std::int32_t>& order,
-                                       const std::vector<Point>& centres, std::size_t begin,
-                                       std::size_t end) {
-  const auto node = static_cast<std::int32_t>(triangle_.size());
-  triangle_.push_back(end - begin == 1 ? order[begin] : -1);
-  right_.push_back(-1);
-  if (end - begin == 1) return node;
-  const auto centre = [&](std::size_t i) -> const Point& {
-    return centres[static_cast<std::size_t>(order[i])];
-  };
-  Point lo = centre(begin), hi = lo;
-  for (std::size_t i = begin; i < end; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      lo[k] = std::min(lo[k], centre(i)[k]);
-      hi[k] = std::max(hi[k], centre(i)[k]);
-    }
-  }
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 3; ++k) {
-    if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
-  }
-  const std::size_t middle = begin + (end - begin) / 2;
-  const auto first = order.begin();
-  std::nth_element(first + static_cast<std::ptrdiff_t>(begin),
-                   first + static_cast<std::ptrdiff_t>(middle),
-                   first + static_cast<std::ptrdiff_t>(end), [&](std::int32_t a, std::int32_t b) {
-                     const double x = centres[static_cast<std::size_t>(a)][axis];
-                     const double y = centres[static_cast<std::size_t>(b)][axis];
-                     return x != y ? x < y : a < b;
-                   });
-  build(order, centres, begin, middle);
-  right_[static_cast<std::size_t>(node)] = build(order, centres, middle, end);
-  return node;
+MovingBox BoundingVolumeTree::box_of_triangle(const std::array<std::int32_t, 3>& corners,
+                                              const PositionsView& x_t0,
+                                              const PositionsView& x_t1) const {
+  const Rounding& f = points_.rounding();
+  return box_of(f(x_t0, x_t1, corners[0]), f(x_t0, x_t1, corners[1]), f(x_t0, x_t1, corners[2]));
 }
 
 void BoundingVolumeTree::refit(const Topology& mesh, const PositionsView& x_t0,
                                const PositionsView& x_t1) {
-  for (std::size_t n = triangle_.size(); n-- > 0;) {
-    boxes_[n] = triangle_[n] >= 0
-                    ? swept_box(mesh.triangles[static_cast<std::size_t>(triangle_[n])], x_t0, x_t1)
-                    : join(boxes_[n + 1], boxes_[static_cast<std::size_t>(right_[n])]);
+  points_.assign(x_t0, x_t1);
+  for (std::size_t n = child_.size(); n-- > 0;) {
+    const std::int32_t child = child_[n];
+    boxes_[n] = child < 0 ? points_.box(mesh.triangles[at(~child)])
+                          : join(boxes_[at(child)], boxes_[at(child) + 1]);
   }
 }
 

@@ -1,51 +1,57 @@
-// The one BVH over triangles: built once for a topology, refitted to every step.
+// The one BVH over triangles: built once for a topology, refitted to every step that searches.
+//
+// Nodes are numbered so that the two children of a node follow each other (2k+1, 2k+2) and come
+// after it: a search reads both from neighbouring cache lines, and a refit is one backward pass.
+// Components are split first: below the first few nodes a node holds one component only.
+// Memory: 158 bytes a triangle, 128 of them boxes.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "detector/mesh/topology.h"
+#include "detector/search/moving_box.h"
 
 namespace assay::detector {
 
-struct Box {
-  double lo[3], hi[3];
-  bool meets(const Box& other) const {
-    return lo[0] <= other.hi[0] && other.lo[0] <= hi[0] && lo[1] <= other.hi[1] &&
-           other.lo[1] <= hi[1] && lo[2] <= other.hi[2] && other.lo[2] <= hi[2];
-  }
-};
+inline constexpr std::int32_t mixed_components = -1;
 
-// Of the swept triangle: exact, as it only compares inputs.
-Box swept_box(const std::array<std::int32_t, 3>& vertices, const PositionsView& x_t0,
-              const PositionsView& x_t1);
-
-// Nodes in depth-first order: an inner node's left child follows it. A leaf holds one triangle.
 class BoundingVolumeTree {
  public:
-  // Splits the triangles at the median of their centres along the longest side of those. O(M log
-  // M).
+  // Splits components, then triangles, at the median of their centres along the longest side of
+  // those. A leaf holds one triangle. O(M log M).
   BoundingVolumeTree(const Topology& mesh, const PositionsView& x);
 
-  std::size_t node_count() const { return triangle_.size(); }
-  bool is_leaf(std::int32_t node) const { return triangle_[static_cast<std::size_t>(node)] >= 0; }
-  std::int32_t triangle(std::int32_t leaf) const {
-    return triangle_[static_cast<std::size_t>(leaf)];
-  }
-  std::int32_t left(std::int32_t node) const { return node + 1; }
-  std::int32_t right(std::int32_t node) const { return right_[static_cast<std::size_t>(node)]; }
-  const Box& box(std::int32_t node) const { return boxes_[static_cast<std::size_t>(node)]; }
+  static constexpr std::int32_t root = 0;
+  std::size_t node_count() const { return child_.size(); }
+  bool is_leaf(std::int32_t node) const { return child_[at(node)] < 0; }
+  std::int32_t triangle(std::int32_t leaf) const { return ~child_[at(leaf)]; }
+  std::int32_t leaf_of(std::int32_t triangle) const { return leaf_[at(triangle)]; }
+  // The first child; the second is the next node.
+  std::int32_t child(std::int32_t node) const { return child_[at(node)]; }
+  std::int32_t parent(std::int32_t node) const { return parent_[at((node - 1) / 2)]; }
+  // The component of all triangles below, or mixed_components.
+  std::int32_t component(std::int32_t node) const { return component_[at(node)]; }
 
-  // Boxes of the swept triangles. O(M).
+  // Of the step of the last refit.
+  const MovingBox& box(std::int32_t node) const { return boxes_[at(node)]; }
+  // A box to compare with these; corners are rows of the two views.
+  MovingBox box_of_triangle(const std::array<std::int32_t, 3>& corners, const PositionsView& x_t0,
+                            const PositionsView& x_t1) const;
+
+  // Boxes of the triangles as they move. O(M): a pass over the nodes from the last to the first.
   void refit(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1);
 
  private:
-  std::int32_t build(std::vector<std::int32_t>& order, const std::vector<Point>& centres,
-                     std::size_t begin, std::size_t end);
+  struct Builder;
+  static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-  std::vector<std::int32_t> triangle_;  // -1 for an inner node
-  std::vector<std::int32_t> right_;
-  std::vector<Box> boxes_;
+  std::vector<std::int32_t> child_;   // of a leaf: ~triangle
+  std::vector<std::int32_t> parent_;  // by pair of siblings
+  std::vector<std::int32_t> leaf_;    // by triangle
+  std::vector<std::int32_t> component_;
+  std::vector<MovingBox> boxes_;
+  RoundedPositions points_;
 };
 
 }  // namespace assay::detector

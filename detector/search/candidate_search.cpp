@@ -8,56 +8,80 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,
-                                 const BoundingVolumeTree& tree, const PositionsView& x_t0,
-                                 const PositionsView& x_t1, const std::vector<std::uint8_t>& clean,
-                                 std::vector<std::uint8_t> triangle_flags, const StopFunction& stop)
+                                 const BoundingVolumeTree& tree, SearchMemory& memory,
+                                 const PositionsView& x_t0, const PositionsView& x_t1,
+                                 const StopFunction& stop)
     : stages_(stages),
       mesh_(mesh),
       tree_(tree),
-      clean_(clean),
+      memory_(memory),
       stop_(stop),
-      contacts_(mesh, x_t0, x_t1, stages.elementary, Want::first_time) {
-  marks_.triangle_flags = std::move(triangle_flags);
+      contacts_(mesh, x_t0, x_t1, stages.elementary, Want::first_time, memory.representatives,
+                memory.marks.types) {}
+
+void CandidateSearch::mark(std::span<const TriangleType> types) {
+  stages_.marking.bring_to(types, tree_, memory_.marks, marking_counts_);
+  memory_.representatives.update(mesh_, memory_.marks.types, memory_.marks.changed);
+}
+
+void CandidateSearch::change_types(std::span<const Marking::Change> changes) {
+  stages_.marking.change(changes, tree_, memory_.marks, marking_counts_);
+  memory_.representatives.update(mesh_, memory_.marks.types, memory_.marks.changed);
 }
 
 bool CandidateSearch::same_component(std::int32_t a, std::int32_t b) const {
   return mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
 }
 
-bool CandidateSearch::collect(const PairTables& tables) {
+bool CandidateSearch::search(const PairTables& tables) {
+  const auto& types = memory_.marks.types;
+  std::uint64_t pairs = 0;
   const auto sink = [&](std::int32_t a, std::int32_t b) {
     constexpr std::uint64_t pairs_between_stops = 4096;
-    if (counts_.candidate_pairs % pairs_between_stops == 0 && stop_ && stop_()) return false;
+    if (pairs++ % pairs_between_stops == 0 && stop_ && stop_()) return false;
     // A clean triangle is in no contact with its own component at t=0.
-    const bool may_pierce = !same_component(a, b) || (!clean_[at(a)] && !clean_[at(b)]);
-    contacts_.add_candidate(a, b, may_pierce);
-    return true;
+    const bool may_pierce =
+        (types[at(a)] == TriangleType::dirty && types[at(b)] == TriangleType::dirty) ||
+        !same_component(a, b);
+    return contacts_.add_candidate(a, b, may_pierce, stop_);
   };
-  return stages_.search.search({mesh_, tree_, marks_, tables}, counts_, sink);
+  return stages_.search.search({mesh_, tree_, memory_.marks, tables}, counts_, sink) &&
+         contacts_.run(stop_);
+}
+
+bool CandidateSearch::collect() {
+  const PairTables k = stages_.rule.candidates();
+  contacts_.ask(AskedTypes::in_first_search(k));
+  return search(k);
 }
 
 bool CandidateSearch::close() {
-  std::vector<std::uint8_t> in_h(mesh_.triangles.size(), 0);
   const PairTables tables = stages_.rule.closure();
-  std::size_t seen = 0;
-  while (true) {
-    bool grew = false;
-    for (auto& flags : marks_.triangle_flags) flags &= static_cast<std::uint8_t>(~flag::grown);
+  contacts_.ask(AskedTypes::in_closure(stages_.rule.candidates(), tables));
+  std::vector<Marking::Change> grown;
+  for (std::size_t seen = 0;;) {
+    grown.clear();
     for (; seen < contacts_.contacts().size(); ++seen) {
       for (const auto& pair : contacts_.contacts()[seen].pairs) {
         if (!same_component(pair.a, pair.b)) continue;
         for (const auto t : {pair.a, pair.b}) {
-          if (in_h[at(t)] || !stages_.rule.joins_closure(pair, t)) continue;
-          in_h[at(t)] = 1;
-          if (marks_.triangle_flags[at(t)] & (flag::zero | flag::violated)) continue;
-          marks_.triangle_flags[at(t)] |= flag::grown;
-          grew = true;
+          const auto type = memory_.marks.types[at(t)];
+          if (type != TriangleType::positive && type != TriangleType::negative) continue;
+          if (!stages_.rule.joins_closure(pair, t)) continue;
+          grown.push_back({t, type == TriangleType::positive ? TriangleType::positive_grown
+                                                             : TriangleType::negative_grown});
         }
       }
     }
-    if (!grew) return true;
+    if (grown.empty()) return true;
+    change_types(grown);
     ++closure_rounds_;
-    if (!collect(tables) || !test()) return false;
+    if (!search(tables)) return false;
+    for (auto& [triangle, type] : grown) {
+      type = type == TriangleType::positive_grown ? TriangleType::positive_joined
+                                                  : TriangleType::negative_joined;
+    }
+    change_types(grown);
   }
 }
 

@@ -9,46 +9,55 @@ namespace assay::detector {
 // The stages that a search is made of.
 struct SearchStages {
   const PairRule& rule;
+  const Marking& marking;
   const PairSearch& search;
   const ElementaryTest& elementary;
 };
 
+// What is kept from one search to the next: it depends on the types last marked alone.
+struct SearchMemory {
+  SearchMemory(const Topology& mesh, const BoundingVolumeTree& tree)
+      : marks(tree), representatives(mesh) {}
+  Marks marks;
+  Representatives representatives;
+};
+
 class CandidateSearch {
  public:
-  // tree: refitted to the step. clean: by triangle, at t=0. triangle_flags: see pair_rule.h. The
-  // references must outlive this object.
+  // tree: refitted to the step. The references must outlive this object.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
-                  const PositionsView& x_t0, const PositionsView& x_t1,
-                  const std::vector<std::uint8_t>& clean, std::vector<std::uint8_t> triangle_flags,
+                  SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop);
 
-  // Broad phase: notes the feature pairs of all candidates. Each of these three returns false when
-  // `stop` ended it.
-  bool collect() { return collect(stages_.rule.candidates()); }
-  // Narrow phase: tests what was noted.
-  bool test() { return contacts_.run(stop_); }
+  // Brings the marks to the step: the types of all triangles, without those of the closure.
+  void mark(std::span<const TriangleType> types);
+  // Finds the candidates and tests their feature pairs. This and `close` return false when `stop`
+  // ended it.
+  bool collect();
   // L7. H := the triangles found in contact with their own component (pairs of two components were
   // all tested, and layers count the own component only: L10). Tests (U,H), adds what is found,
-  // until H is stable. V0 and Vv were looked at against everything already.
+  // until H is stable. V0 and Vv were looked at against everything already. A round costs what it
+  // looks at: marks, search and tests around the triangles that joined.
   bool close();
 
-  std::vector<PairContact> pair_contacts() const { return contacts_.pair_contacts(); }
+  const FeatureContacts& contacts() const { return contacts_; }
   const SearchCounts& search_counts() const { return counts_; }
-  const NarrowCounts& narrow_counts() const { return contacts_.counts(); }
+  const MarkingCounts& marking_counts() const { return marking_counts_; }
   std::uint64_t closure_rounds() const { return closure_rounds_; }
 
  private:
-  bool collect(const PairTables& tables);
+  bool search(const PairTables& tables);
+  void change_types(std::span<const Marking::Change> changes);
   bool same_component(std::int32_t a, std::int32_t b) const;
 
   SearchStages stages_;
   const Topology& mesh_;
   const BoundingVolumeTree& tree_;
-  const std::vector<std::uint8_t>& clean_;
+  SearchMemory& memory_;
   const StopFunction& stop_;
-  Marks marks_;
   FeatureContacts contacts_;
   SearchCounts counts_;
+  MarkingCounts marking_counts_;
   std::uint64_t closure_rounds_ = 0;
 };
 

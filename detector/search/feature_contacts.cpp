@@ -3,33 +3,16 @@
 #include <algorithm>
 
 #include "detector/contact/contact_filter.h"
+#include "detector/stopwatch.h"
 
 namespace assay::detector {
 namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// A feature pair as one number: kind, first index (vertex or edge), second (face or edge).
-constexpr int index_bits = 31;
-constexpr std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
-
-std::uint64_t key_of(FeatureKind kind, std::int32_t first, std::int32_t second) {
-  return (static_cast<std::uint64_t>(kind) << (2 * index_bits)) |
-         (static_cast<std::uint64_t>(first) << index_bits) | static_cast<std::uint64_t>(second);
-}
-FeatureKind kind_of(std::uint64_t key) { return static_cast<FeatureKind>(key >> (2 * index_bits)); }
-std::int32_t first_of(std::uint64_t key) {
-  return static_cast<std::int32_t>((key >> index_bits) & index_mask);
-}
-std::int32_t second_of(std::uint64_t key) { return static_cast<std::int32_t>(key & index_mask); }
-
-bool contains(const std::array<std::int32_t, 3>& triangle, std::int32_t vertex) {
-  return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
-}
-
 // Whether an edge and a face are strictly ordered along an axis at t=0.
-bool apart_at_start(const PositionsView& x, const std::array<std::int32_t, 2>& e,
-                    const std::array<std::int32_t, 3>& f) {
+bool ordered_at_start(const PositionsView& x, const std::array<std::int32_t, 2>& e,
+                      const std::array<std::int32_t, 3>& f) {
   for (Eigen::Index k = 0; k < 3; ++k) {
     const auto [e_lo, e_hi] = std::minmax({x(e[0], k), x(e[1], k)});
     const auto [f_lo, f_hi] = std::minmax({x(f[0], k), x(f[1], k), x(f[2], k)});
@@ -38,21 +21,48 @@ bool apart_at_start(const PositionsView& x, const std::array<std::int32_t, 2>& e
   return false;
 }
 
-constexpr std::size_t first_compaction = std::size_t{1} << 22;
+// As many tests come together as keep the code and the data of a phase at hand.
+constexpr std::size_t tests_at_once = 2048;
 
 }  // namespace
 
+struct FeatureContacts::OneType {
+  Representatives representatives;
+  std::vector<TriangleType> types;
+};
+
 FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
                                  const PositionsView& x_t1, const ElementaryTest& elementary,
-                                 Want want)
+                                 Want want, const Representatives& representatives,
+                                 const std::vector<TriangleType>& types)
     : mesh_(mesh),
       x_t0_(x_t0),
       x_t1_(x_t1),
       elementary_(elementary),
       want_(want),
-      compact_at_(first_compaction) {}
+      pairs_(mesh, x_t0, x_t1, representatives, types) {
+  untested_.reserve(tests_at_once + FeaturePairs::max_keys);
+}
 
-FourPoints FeatureContacts::query(std::uint64_t key) const {
+FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
+                                 const PositionsView& x_t1, const ElementaryTest& elementary,
+                                 Want want, std::unique_ptr<OneType> own)
+    : FeatureContacts(mesh, x_t0, x_t1, elementary, want, own->representatives, own->types) {
+  own_ = std::move(own);
+}
+
+FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
+                                 const PositionsView& x_t1, const ElementaryTest& elementary,
+                                 Want want)
+    : FeatureContacts(
+          mesh, x_t0, x_t1, elementary, want,
+          std::unique_ptr<OneType>(new OneType{
+              Representatives(mesh), std::vector(mesh.triangles.size(), TriangleType::positive)})) {
+}
+
+FeatureContacts::~FeatureContacts() = default;
+
+FourPoints FeatureContacts::query(FeatureKey key) const {
   const auto point = [&](std::int32_t v) { return moving_point(x_t0_, x_t1_, v); };
   if (kind_of(key) == FeatureKind::vertex_face) {
     const auto& f = mesh_.triangles[at(second_of(key))];
@@ -62,57 +72,19 @@ FourPoints FeatureContacts::query(std::uint64_t key) const {
   return {{point(a[0]), point(a[1]), point(b[0]), point(b[1])}, 2};
 }
 
-void FeatureContacts::note(std::uint64_t key) {
-  if (separated_along_an_axis(query(key))) {
-    counts_.rungs.add(ContactRung::axis);
-    return;
-  }
-  noted_.push_back(key);
+bool FeatureContacts::add_candidate(std::int32_t a, std::int32_t b, bool may_pierce,
+                                    const StopFunction& stop) {
+  pairs_.append(a, b, may_pierce, untested_);
+  return untested_.size() < tests_at_once || run(stop);
 }
 
-void FeatureContacts::compact() {
-  std::sort(noted_.begin(), noted_.end());
-  noted_.erase(std::unique(noted_.begin(), noted_.end()), noted_.end());
-  compact_at_ = std::max(first_compaction, 2 * noted_.size());
-}
-
-void FeatureContacts::add_candidate(std::int32_t a, std::int32_t b, bool may_pierce) {
-  if (noted_.size() >= compact_at_) compact();
-  const auto &ta = mesh_.triangles[at(a)], &tb = mesh_.triangles[at(b)];
-  for (const auto v : ta) {
-    if (!contains(tb, v)) note(key_of(FeatureKind::vertex_face, v, b));
-  }
-  for (const auto v : tb) {
-    if (!contains(ta, v)) note(key_of(FeatureKind::vertex_face, v, a));
-  }
-  for (const auto ea : mesh_.triangle_edges[at(a)]) {
-    const auto& u = mesh_.edges[at(ea)];
-    for (const auto eb : mesh_.triangle_edges[at(b)]) {
-      const auto& v = mesh_.edges[at(eb)];
-      if (u[0] == v[0] || u[0] == v[1] || u[1] == v[0] || u[1] == v[1]) continue;
-      note(key_of(FeatureKind::edge_edge, std::min(ea, eb), std::max(ea, eb)));
-    }
-  }
-  if (!may_pierce) return;
-  const auto add_piercing = [&](std::int32_t edges_of, std::int32_t face) {
-    const auto& f = mesh_.triangles[at(face)];
-    for (const auto e : mesh_.triangle_edges[at(edges_of)]) {
-      const auto& ends = mesh_.edges[at(e)];
-      if (contains(f, ends[0]) || contains(f, ends[1])) continue;
-      if (apart_at_start(x_t0_, ends, f)) continue;
-      noted_.push_back(key_of(FeatureKind::piercing, e, face));
-    }
-  };
-  add_piercing(a, b);
-  add_piercing(b, a);
-}
-
-void FeatureContacts::test(std::uint64_t key) {
+void FeatureContacts::test(FeatureKey key) {
   FeatureContact contact;
   const auto first = first_of(key), second = second_of(key);
   const auto& face = mesh_.triangles[at(second)];
   if (kind_of(key) == FeatureKind::piercing) {
     const auto& e = mesh_.edges[at(first)];
+    if (ordered_at_start(x_t0_, e, face)) return;
     if (!elementary_.pierces(
             point_of(x_t0_, e[0]), point_of(x_t0_, e[1]),
             {point_of(x_t0_, face[0]), point_of(x_t0_, face[1]), point_of(x_t0_, face[2])})) {
@@ -123,8 +95,13 @@ void FeatureContacts::test(std::uint64_t key) {
       contact.pairs.push_back({std::min(t, second), std::max(t, second)});
     }
   } else {
+    const FourPoints points = query(key);
+    if (separated_along_an_axis(points)) {
+      counts_.rungs.add(ContactRung::axis);
+      return;
+    }
     ++counts_.elementary_tests;
-    const ContactResult result = elementary_.test(query(key), want_);
+    const ContactResult result = elementary_.test(points, want_);
     counts_.rungs.add(result.rung);
     if (!result.contact) return;
     contact.time = result.time;
@@ -147,19 +124,13 @@ void FeatureContacts::test(std::uint64_t key) {
 }
 
 bool FeatureContacts::run(const StopFunction& stop) {
-  compact();
-  std::vector<std::uint64_t> fresh;
-  std::set_difference(noted_.begin(), noted_.end(), tested_.begin(), tested_.end(),
-                      std::back_inserter(fresh));
-  noted_.clear();
+  Stopwatch watch(test_time_);
   constexpr std::size_t tests_between_stops = 256;
-  for (std::size_t i = 0; i < fresh.size(); ++i) {
+  for (std::size_t i = 0; i < untested_.size(); ++i) {
     if (i % tests_between_stops == 0 && stop && stop()) return false;
-    test(fresh[i]);
+    test(untested_[i]);
   }
-  const auto middle = static_cast<std::ptrdiff_t>(tested_.size());
-  tested_.insert(tested_.end(), fresh.begin(), fresh.end());
-  std::inplace_merge(tested_.begin(), tested_.begin() + middle, tested_.end());
+  untested_.clear();
   return true;
 }
 

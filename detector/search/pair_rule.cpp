@@ -24,6 +24,13 @@ void PairTable::update() {
   }
 }
 
+PairTable PairTable::joined_with(const PairTable& other) const {
+  PairTable both = *this;
+  for (std::size_t flags = 0; flags < unions; ++flags)
+    both.partners_[flags] |= other.partners_[flags];
+  return both;
+}
+
 PairTable PairTable::everything() {
   PairTable table;
   for (int a = 0; a < flag::count; ++a) table.partners_[std::size_t{1} << a] = unions - 1;

@@ -36,11 +36,15 @@ class PairTable {
 
   // Whether some flag of `a` and some flag of `b` are asked for.
   bool asks(std::uint8_t a, std::uint8_t b) const { return (partners_[a] & b) != 0; }
+  // The flags that some flag of `a` asks for.
+  std::uint8_t partners(std::uint8_t a) const { return partners_[a]; }
+  // Asks for what either of the two asks for.
+  PairTable joined_with(const PairTable& other) const;
 
  private:
   void update();
   static constexpr std::size_t unions = std::size_t{1} << flag::count;
-  std::array<std::uint8_t, unions> partners_{};  // flags that some flag of the index asks for
+  std::array<std::uint8_t, unions> partners_{};
 };
 
 // The tables of one search: for pairs of one component, and of two.

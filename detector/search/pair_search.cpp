@@ -5,88 +5,152 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-}  // namespace
+class Descent {
+ public:
+  Descent(const SearchInput& input, bool skips, SearchCounts& counts, const PairSink& sink)
+      : tree_(input.tree),
+        flags_(input.marks.node_flags.data()),
+        within_(input.tables.within),
+        across_(input.tables.across),
+        either_(within_.joined_with(across_)),
+        skips_(skips),
+        counts_(counts),
+        sink_(sink) {}
 
-void mark_nodes(const BoundingVolumeTree& tree, const Topology& mesh, Marks& marks) {
-  marks.node_flags.resize(tree.node_count());
-  marks.node_component.resize(tree.node_count());
-  for (std::size_t n = tree.node_count(); n-- > 0;) {
-    const auto node = static_cast<std::int32_t>(n);
-    if (tree.is_leaf(node)) {
-      marks.node_flags[n] = marks.triangle_flags[at(tree.triangle(node))];
-      marks.node_component[n] = mesh.component_of_triangle[at(tree.triangle(node))];
-      continue;
-    }
-    const auto l = at(tree.left(node)), r = at(tree.right(node));
-    marks.node_flags[n] = marks.node_flags[l] | marks.node_flags[r];
-    marks.node_component[n] = marks.node_component[l] == marks.node_component[r]
-                                  ? marks.node_component[l]
-                                  : mixed_components;
+  // False when the sink stopped it.
+  bool run() {
+    below_mixed(BoundingVolumeTree::root, BoundingVolumeTree::root);
+    return !stopped_;
   }
-}
 
-bool TreeSearch::search(const SearchInput& input, SearchCounts& counts,
-                        const PairSink& sink) const {
-  const BoundingVolumeTree& tree = input.tree;
-  Marks& marks = input.marks;
-  mark_nodes(tree, input.mesh, marks);
+ private:
   struct NodePair {
     std::int32_t a, b;
   };
-  const auto may_hold = [&](const NodePair& p) {
-    const auto a = marks.node_component[at(p.a)], b = marks.node_component[at(p.b)];
-    const auto a_flags = marks.node_flags[at(p.a)], b_flags = marks.node_flags[at(p.b)];
-    if (a == mixed_components || b == mixed_components) {
-      // Such nodes may hold pairs of one component and pairs of two.
-      return input.tables.within.asks(a_flags, b_flags) ||
-             input.tables.across.asks(a_flags, b_flags);
+
+  std::uint8_t flags(std::int32_t node) const { return flags_[at(node)]; }
+
+  // Nodes above the components, and pairs of which one is such a node.
+  void below_mixed(std::int32_t a, std::int32_t b) {
+    const auto c = tree_.component(a), d = tree_.component(b);
+    if (c != mixed_components && d != mixed_components) {
+      below(a, b, c == d ? within_ : across_);
+      return;
     }
-    return (a == b ? input.tables.within : input.tables.across).asks(a_flags, b_flags);
-  };
-  std::vector<NodePair> stack = {{0, 0}};
-  while (!stack.empty()) {
-    const NodePair p = stack.back();
-    stack.pop_back();
-    if (!may_hold(p)) continue;
-    if (p.a == p.b) {
-      if (tree.is_leaf(p.a)) continue;
-      const auto l = tree.left(p.a), r = tree.right(p.a);
-      stack.push_back({l, r});
-      stack.push_back({r, r});
-      stack.push_back({l, l});
-      continue;
+    if (stopped_ || !either_.asks(flags(a), flags(b))) return;
+    if (a == b) {
+      const auto child = tree_.child(a);
+      below_mixed(child, child);
+      below_mixed(child + 1, child + 1);
+      below_mixed(child, child + 1);
+      return;
     }
-    ++counts.box_tests;
-    if (!tree.box(p.a).meets(tree.box(p.b))) continue;
-    const bool a_leaf = tree.is_leaf(p.a), b_leaf = tree.is_leaf(p.b);
-    if (a_leaf && b_leaf) {
-      ++counts.candidate_pairs;
-      if (!sink(tree.triangle(p.a), tree.triangle(p.b))) return false;
-      continue;
+    ++counts_.box_tests;
+    if (apart(tree_.box(a), tree_.box(b))) return;
+    const bool splits_a = c == mixed_components, splits_b = d == mixed_components;
+    const auto first_a = splits_a ? tree_.child(a) : a, first_b = splits_b ? tree_.child(b) : b;
+    for (auto i = first_a; i <= first_a + splits_a; ++i) {
+      for (auto j = first_b; j <= first_b + splits_b; ++j) below_mixed(i, j);
     }
-    const std::int32_t a_children[2] = {a_leaf ? p.a : tree.right(p.a),
-                                        a_leaf ? -1 : tree.left(p.a)};
-    const std::int32_t b_children[2] = {b_leaf ? p.b : tree.right(p.b),
-                                        b_leaf ? -1 : tree.left(p.b)};
-    for (const auto a : a_children) {
-      for (const auto b : b_children) {
-        if (a >= 0 && b >= 0) stack.push_back({a, b});
+  }
+
+  // A node of one component against another or itself: one table serves all pairs below.
+  void below(std::int32_t a, std::int32_t b, const PairTable& table) {
+    if (stopped_ || !table.asks(flags(a), flags(b))) return;
+    if (a == b) {
+      if (!tree_.is_leaf(a)) stack_.push_back({a, a});
+    } else {
+      enter(a, b, table);
+    }
+    while (!stack_.empty() && !stopped_) {
+      const NodePair p = stack_.back();
+      stack_.pop_back();
+      if (p.a == p.b) {
+        split_one(p.a, table);
+      } else {
+        split_both(p, table);
+      }
+    }
+    stack_.clear();
+  }
+
+  void split_one(std::int32_t node, const PairTable& table) {
+    const auto l = tree_.child(node), r = l + 1;
+    for (const auto child : {r, l}) {
+      if (!tree_.is_leaf(child) && table.asks(flags(child), flags(child))) {
+        stack_.push_back({child, child});
+      }
+    }
+    if (table.asks(flags(l), flags(r))) enter(l, r, table);
+  }
+
+  void split_both(const NodePair& p, const PairTable& table) {
+    const bool splits_a = !tree_.is_leaf(p.a), splits_b = !tree_.is_leaf(p.b);
+    const auto a = splits_a ? tree_.child(p.a) : p.a, b = splits_b ? tree_.child(p.b) : p.b;
+    for (auto i = a; i <= a + splits_a; ++i) {
+      const auto partners = table.partners(flags(i));
+      for (auto j = b; j <= b + splits_b; ++j) {
+        if (partners & flags(j)) enter(i, j, table);
       }
     }
   }
-  return true;
+
+  // Two nodes that may hold a pair: to the sink, or onto the stack, unless their boxes are apart.
+  void enter(std::int32_t a, std::int32_t b, const PairTable& table) {
+    if (skips_) {
+      while (skip(a, b, table) || skip(b, a, table)) {
+      }
+    }
+    ++counts_.box_tests;
+    if (apart(tree_.box(a), tree_.box(b))) return;
+    if (!tree_.is_leaf(a) || !tree_.is_leaf(b)) {
+      stack_.push_back({a, b});
+      return;
+    }
+    ++counts_.candidate_pairs;
+    if (!stopped_ && !sink_(tree_.triangle(a), tree_.triangle(b))) stopped_ = true;
+  }
+
+  // Goes on to the only child of `node` that may hold a partner of `other`, if there is only one.
+  bool skip(std::int32_t& node, std::int32_t other, const PairTable& table) {
+    if (tree_.is_leaf(node)) return false;
+    ++counts_.child_counts;
+    const auto child = tree_.child(node);
+    const auto partners = table.partners(flags(other));
+    const bool first = (partners & flags(child)) != 0, second = (partners & flags(child + 1)) != 0;
+    if (first == second) return false;
+    node = first ? child : child + 1;
+    ++counts_.skipped;
+    return true;
+  }
+
+  const BoundingVolumeTree& tree_;
+  const std::uint8_t* flags_;
+  const PairTable within_, across_, either_;
+  const bool skips_;
+  SearchCounts& counts_;
+  const PairSink& sink_;
+  std::vector<NodePair> stack_;  // of `below`: their boxes meet
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+bool TreeSearch::search(const SearchInput& input, SearchCounts& counts,
+                        const PairSink& sink) const {
+  return Descent(input, skipping_ == Skipping::on, counts, sink).run();
 }
 
 bool ExhaustiveSearch::search(const SearchInput& input, SearchCounts& counts,
                               const PairSink& sink) const {
-  const auto& flags = input.marks.triangle_flags;
   const auto& component = input.mesh.component_of_triangle;
   const auto n = static_cast<std::int32_t>(input.mesh.triangles.size());
   for (std::int32_t a = 0; a < n; ++a) {
+    const auto flags = input.marks.flags(a);
     for (std::int32_t b = a + 1; b < n; ++b) {
       const bool same = component[at(a)] == component[at(b)];
       const PairTable& table = same ? input.tables.within : input.tables.across;
-      if (!table.asks(flags[at(a)], flags[at(b)])) continue;
+      if (!table.asks(flags, input.marks.flags(b))) continue;
       ++counts.candidate_pairs;
       if (!sink(a, b)) return false;
     }
@@ -94,21 +158,21 @@ bool ExhaustiveSearch::search(const SearchInput& input, SearchCounts& counts,
   return true;
 }
 
-bool search_box(const BoundingVolumeTree& tree, const Box& box, SearchCounts& counts,
+bool search_box(const BoundingVolumeTree& tree, const MovingBox& box, SearchCounts& counts,
                 const std::function<bool(std::int32_t)>& sink) {
-  std::vector<std::int32_t> stack = {0};
+  std::vector<std::int32_t> stack = {BoundingVolumeTree::root};
   while (!stack.empty()) {
     const auto node = stack.back();
     stack.pop_back();
     ++counts.box_tests;
-    if (!tree.box(node).meets(box)) continue;
+    if (apart(tree.box(node), box)) continue;
     if (tree.is_leaf(node)) {
       ++counts.candidate_pairs;
       if (!sink(tree.triangle(node))) return false;
       continue;
     }
-    stack.push_back(tree.right(node));
-    stack.push_back(tree.left(node));
+    stack.push_back(tree.child(node) + 1);
+    stack.push_back(tree.child(node));
   }
   return true;
 }

@@ -1,29 +1,18 @@
-// Broad phase: triangle pairs whose swept boxes meet and that the pair rule asks for.
+// Broad phase: triangle pairs whose moving boxes are not apart and that the pair rule asks for.
 #pragma once
 
 #include <functional>
-#include <vector>
 
-#include "detector/search/bounding_volume_tree.h"
-#include "detector/search/pair_rule.h"
+#include "detector/search/marking.h"
 
 namespace assay::detector {
 
 struct SearchCounts {
   std::uint64_t box_tests = 0;
+  std::uint64_t child_counts = 0;  // looks at how many children of a node may hold a partner
+  std::uint64_t skipped = 0;       // nodes with a single such child, left without a box test
   std::uint64_t candidate_pairs = 0;
 };
-
-// Flags of all triangles, and what follows of them for the nodes of the tree.
-struct Marks {
-  std::vector<std::uint8_t> triangle_flags;
-  std::vector<std::uint8_t> node_flags;
-  std::vector<std::int32_t> node_component;  // one component below the node, or mixed_components
-};
-inline constexpr std::int32_t mixed_components = -1;
-
-// node_flags and node_component from the triangles' flags. O(M).
-void mark_nodes(const BoundingVolumeTree& tree, const Topology& mesh, Marks& marks);
 
 // Takes a candidate pair (any order); false: stop the search.
 using PairSink = std::function<bool(std::int32_t, std::int32_t)>;
@@ -31,7 +20,7 @@ using PairSink = std::function<bool(std::int32_t, std::int32_t)>;
 struct SearchInput {
   const Topology& mesh;
   const BoundingVolumeTree& tree;  // fitted to the step
-  Marks& marks;                    // triangle_flags are set; the rest is the search's own
+  const Marks& marks;              // brought to its types
   const PairTables& tables;
 };
 
@@ -48,10 +37,20 @@ class PairSearch {
                       const PairSink& sink) const = 0;
 };
 
-// Descends the tree against itself.
+// Descends the tree against itself, along the partial trees that hold partners: (V+,V-), (U,V0),
+// (U,Vv) in one pass, as a table says for the flags of two nodes whether they may hold a pair.
+//
+// Where only one child of a node may hold a partner of the other node, the search goes on with that
+// child before any box is tested: its box lies inside, so the test would have told less. With a
+// marking that is one child with the flag, the compact vBVH of the thesis.
 class TreeSearch : public PairSearch {
  public:
+  enum class Skipping : std::uint8_t { on, off };
+  explicit TreeSearch(Skipping skipping = Skipping::on) : skipping_(skipping) {}
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
+
+ private:
+  Skipping skipping_;
 };
 
 // Looks at every pair, without boxes. O(M^2).
@@ -62,8 +61,9 @@ class ExhaustiveSearch : public PairSearch {
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
 };
 
-// Triangles whose box meets `box`, a single descent; false when the sink stopped it.
-bool search_box(const BoundingVolumeTree& tree, const Box& box, SearchCounts& counts,
+// Triangles whose box is not apart from `box` (of tree.box_of_triangle), a single descent; false
+// when the sink stopped it.
+bool search_box(const BoundingVolumeTree& tree, const MovingBox& box, SearchCounts& counts,
                 const std::function<bool(std::int32_t)>& sink);
 
 }  // namespace assay::detector

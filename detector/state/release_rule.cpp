@@ -16,19 +16,21 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& components,
                           std::vector<std::uint8_t>& touched) {
   const Topology& mesh = work.surface.mesh;
-  Marks marks;
-  marks.triangle_flags.assign(mesh.triangles.size(), 0);
+  std::vector<TriangleType> types(mesh.triangles.size(), TriangleType::positive);
   for (const auto c : components) {
-    for (const auto t : work.own_triangles(at(c))) marks.triangle_flags[at(t)] = flag::violated;
+    for (const auto t : work.own_triangles(at(c))) types[at(t)] = TriangleType::dirty;
   }
+  Marks marks(work.tree);
+  MarkingCounts marking;
+  Marking().bring_to(types, work.tree, marks, marking);
   const PairTables tables = {PairTable().add(flag::violated, flag::violated), {}};
   FeatureContacts contacts(mesh, work.x_t0, work.x_t0, work.elementary, Want::yes_no);
   SearchCounts counts;
-  constexpr std::uint64_t pairs_between_stops = 4096;
+  std::uint64_t pairs = 0;
   const auto sink = [&](std::int32_t a, std::int32_t b) {
-    if (counts.candidate_pairs % pairs_between_stops == 0 && work.stop && work.stop()) return false;
-    contacts.add_candidate(a, b, true);
-    return true;
+    constexpr std::uint64_t pairs_between_stops = 4096;
+    if (pairs++ % pairs_between_stops == 0 && work.stop && work.stop()) return false;
+    return contacts.add_candidate(a, b, true, work.stop);
   };
   if (!TreeSearch().search({mesh, work.tree, marks, tables}, counts, sink) ||
       !contacts.run(work.stop)) {

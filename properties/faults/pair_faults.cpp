@@ -1,5 +1,7 @@
 // Wrong candidate pairs: blocks of K left out (L3), neighbours and zero areas skipped, closures
 // that stop too early (L7), boxes that are too small.
+#include <algorithm>
+
 #include "detector/state/winding.h"
 #include "properties/faults/planting.h"
 
@@ -107,6 +109,25 @@ class ZeroAreaDropped : public FilteredSearch {
   mutable std::vector<std::uint8_t> dropped_;  // of the step at hand; one detector, one thread
 };
 
+struct Box {
+  double lo[3], hi[3];
+};
+
+Box swept_box(const std::array<std::int32_t, 3>& triangle, const PositionsView& x_t0,
+              const PositionsView& x_t1) {
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = box.hi[k] = x_t0(triangle[0], k);
+    for (const auto v : triangle) {
+      for (const double x : {x_t0(v, k), x_t1(v, k)}) {
+        box.lo[k] = std::min(box.lo[k], x);
+        box.hi[k] = std::max(box.hi[k], x);
+      }
+    }
+  }
+  return box;
+}
+
 // Boxes that only touch do not meet: lost are contacts in their common face.
 class OpenBoxes : public FilteredSearch {
  public:
@@ -115,7 +136,7 @@ class OpenBoxes : public FilteredSearch {
     FilteredSearch::fit(tree, mesh, x_t0, x_t1);
     boxes_.clear();
     for (const auto& triangle : mesh.triangles) {
-      boxes_.push_back(detector::swept_box(triangle, x_t0, x_t1));
+      boxes_.push_back(swept_box(triangle, x_t0, x_t1));
     }
   }
   bool skips(const Topology&, std::int32_t a, std::int32_t b) const override {
@@ -127,7 +148,7 @@ class OpenBoxes : public FilteredSearch {
   }
 
  private:
-  mutable std::vector<detector::Box> boxes_;  // of the step at hand
+  mutable std::vector<Box> boxes_;  // of the step at hand
 };
 
 template <bool end>

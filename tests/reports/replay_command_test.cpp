@@ -71,7 +71,7 @@ TEST(Replay, WhyTellsOfAPair) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "why 0, 1:")) << outcome.out;
   for (const std::string word : {"triangle 0: component 0", "triangle 1: component ",
-                                 "swept boxes ", "oracle: ", "detector: "}) {
+                                 "moving boxes ", "oracle: ", "detector: "}) {
     EXPECT_TRUE(contains(outcome.out, word)) << word << outcome.out;
   }
   EXPECT_EQ(run_assay("replay " + file + " --why 1,0").out, outcome.out);

@@ -1,0 +1,82 @@
+#include "detector/search/marking.h"
+
+#include <cassert>
+
+namespace assay::detector {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Marks::Marks(const BoundingVolumeTree& tree)
+    : types((tree.node_count() + 1) / 2, TriangleType::positive),
+      node_flags(tree.node_count(), flag::positive) {
+  changed.reserve(types.size());
+}
+
+void Marking::bring_to(std::span<const TriangleType> types, const BoundingVolumeTree& tree,
+                       Marks& marks, MarkingCounts& counts) const {
+  assert(types.size() == marks.types.size());
+  marks.changed.clear();
+  for (std::size_t t = 0; t < types.size(); ++t) {
+    if (types[t] == marks.types[t]) continue;
+    marks.types[t] = types[t];
+    marks.changed.push_back(static_cast<std::int32_t>(t));
+  }
+  update(tree, marks, counts);
+}
+
+void Marking::change(std::span<const Change> changes, const BoundingVolumeTree& tree, Marks& marks,
+                     MarkingCounts& counts) const {
+  marks.changed.clear();
+  for (const auto& [triangle, type] : changes) {
+    if (marks.types[at(triangle)] == type) continue;
+    marks.types[at(triangle)] = type;
+    marks.changed.push_back(triangle);
+  }
+  update(tree, marks, counts);
+}
+
+void Marking::update(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts& counts) const {
+  for (const auto t : marks.changed) {
+    const auto leaf = tree.leaf_of(t);
+    const auto old_flags = marks.node_flags[at(leaf)], new_flags = marks.flags(t);
+    counts.changed += old_flags != new_flags;
+    const auto added = static_cast<std::uint8_t>(new_flags & ~old_flags);
+    if (added) mark(leaf, added, tree, marks, counts);
+  }
+  for (const auto t : marks.changed) {
+    const auto leaf = tree.leaf_of(t);
+    const auto gone = static_cast<std::uint8_t>(marks.node_flags[at(leaf)] & ~marks.flags(t));
+    if (gone) clear(leaf, gone, tree, marks, counts);
+  }
+}
+
+void Marking::mark(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree,
+                   Marks& marks, MarkingCounts& counts) const {
+  for (std::int32_t node = leaf;; node = tree.parent(node)) {
+    auto& of_node = marks.node_flags[at(node)];
+    if ((of_node & flags) == flags) return;
+    of_node |= flags;
+    ++counts.marked;
+    if (node == BoundingVolumeTree::root) return;
+  }
+}
+
+void Marking::clear(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree,
+                    Marks& marks, MarkingCounts& counts) const {
+  auto& flags_of_leaf = marks.node_flags[at(leaf)];
+  flags_of_leaf = static_cast<std::uint8_t>(flags_of_leaf & ~flags);
+  ++counts.cleared;
+  for (std::int32_t node = leaf; node != BoundingVolumeTree::root;) {
+    node = tree.parent(node);
+    const auto child = at(tree.child(node));
+    const std::uint8_t below = marks.node_flags[child] | marks.node_flags[child + 1];
+    if (marks.node_flags[at(node)] == below) return;
+    marks.node_flags[at(node)] = below;
+    ++counts.cleared;
+  }
+}
+
+}  // namespace assay::detector

@@ -1,0 +1,119 @@
+// Boxes that move with a step, in floats, and the one test that a search makes of them.
+//
+// Coordinates are rounded to floats by functions f_x, f_y, f_z, one an axis, that never turn an
+// order around (RoundedPositions below): x <= y gives f(x) <= f(y). So f(x) < f(y) proves x < y,
+// and what touches or meets in doubles is never told apart in floats; no outward rounding is
+// needed.
+//
+// A box keeps its bounds at t=0 and at t=1. Two boxes are `apart` when they are strictly ordered
+// along an axis, in the same sense at both ends: every point moves linearly, so nothing inside the
+// one meets anything inside the other at any time. That is finer than boxes swept over the step,
+// which tell nothing apart once a motion is longer than the things that move.
+#pragma once
+
+#include <vector>
+
+#include "detector/mesh/types.h"
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
+namespace assay::detector {
+
+// Three coordinates and a place that holds 0.
+using Lanes = float __attribute__((vector_size(16)));
+using LaneTruth = int __attribute__((vector_size(16)));
+
+inline Lanes least(Lanes a, Lanes b) { return a < b ? a : b; }
+inline Lanes greatest(Lanes a, Lanes b) { return a > b ? a : b; }
+
+inline bool any(LaneTruth truth) {
+#ifdef __SSE__
+  return _mm_movemask_ps(reinterpret_cast<__m128>(truth)) != 0;
+#else
+  return (truth[0] | truth[1] | truth[2] | truth[3]) != 0;
+#endif
+}
+
+// A vertex over the step.
+struct RoundedPoint {
+  Lanes t0, t1;
+};
+
+// One cache line.
+struct alignas(64) MovingBox {
+  Lanes lo_t0, hi_t0, lo_t1, hi_t1;
+};
+
+inline MovingBox box_of(const RoundedPoint& p) { return {p.t0, p.t0, p.t1, p.t1}; }
+
+inline MovingBox box_of(const RoundedPoint& p, const RoundedPoint& q) {
+  return {least(p.t0, q.t0), greatest(p.t0, q.t0), least(p.t1, q.t1), greatest(p.t1, q.t1)};
+}
+
+inline MovingBox join(const MovingBox& a, const MovingBox& b) {
+  return {least(a.lo_t0, b.lo_t0), greatest(a.hi_t0, b.hi_t0), least(a.lo_t1, b.lo_t1),
+          greatest(a.hi_t1, b.hi_t1)};
+}
+
+inline MovingBox box_of(const RoundedPoint& p, const RoundedPoint& q, const RoundedPoint& r) {
+  return join(box_of(p, q), box_of(r));
+}
+
+inline bool apart(const MovingBox& a, const MovingBox& b) {
+  return any(((a.hi_t0 < b.lo_t0) & (a.hi_t1 < b.lo_t1)) |
+             ((b.hi_t0 < a.lo_t0) & (b.hi_t1 < a.lo_t1)));
+}
+
+inline bool apart_at_start(const MovingBox& a, const MovingBox& b) {
+  return any((a.hi_t0 < b.lo_t0) | (b.hi_t0 < a.lo_t0));
+}
+
+// f of an axis: (x - centre) * scale, rounded to double twice and to float once; each of the three
+// roundings keeps order. Finite doubles give floats or infinities, never NaN: the centre lies
+// between positions of the step, so their differences from it do not overflow, and those of other
+// points may (to infinities, in order still).
+class Rounding {
+ public:
+  Rounding() = default;
+  // For a step: the middle of all positions, and the power of two that brings them near 1. Where a
+  // mesh lies and how large it is then costs no accuracy. O(N).
+  Rounding(const PositionsView& x_t0, const PositionsView& x_t1);
+
+  Lanes operator()(const PositionsView& x, std::int32_t vertex) const {
+    const auto f = [&](int k) {
+      return static_cast<float>((x(vertex, k) - centre_[k]) * scale_[k]);
+    };
+    return Lanes{f(0), f(1), f(2), 0};
+  }
+  RoundedPoint operator()(const PositionsView& x_t0, const PositionsView& x_t1,
+                          std::int32_t vertex) const {
+    return {(*this)(x_t0, vertex), (*this)(x_t1, vertex)};
+  }
+
+ private:
+  double centre_[3] = {0, 0, 0};
+  double scale_[3] = {1, 1, 1};
+};
+
+// All vertices of a step.
+class RoundedPositions {
+ public:
+  RoundedPositions() = default;
+  RoundedPositions(const PositionsView& x_t0, const PositionsView& x_t1) { assign(x_t0, x_t1); }
+  void assign(const PositionsView& x_t0, const PositionsView& x_t1);
+
+  const Rounding& rounding() const { return rounding_; }
+  const RoundedPoint& operator[](std::int32_t vertex) const {
+    return points_[static_cast<std::size_t>(vertex)];
+  }
+  MovingBox box(const std::array<std::int32_t, 3>& triangle) const {
+    return box_of((*this)[triangle[0]], (*this)[triangle[1]], (*this)[triangle[2]]);
+  }
+
+ private:
+  Rounding rounding_;
+  std::vector<RoundedPoint> points_;
+};
+
+}  // namespace assay::detector

@@ -1,0 +1,48 @@
+#include "detector/search/representatives.h"
+
+namespace assay::detector {
+
+Representatives::Representatives(const Topology& mesh)
+    : features_(mesh.triangles.size()),
+      vertex_types_(mesh.vertex_triangles.starts.size() - 1),
+      edge_types_(mesh.edges.size()) {
+  const std::vector<TriangleType> types(mesh.triangles.size(), TriangleType::positive);
+  for (std::size_t v = 0; v < vertex_types_.size(); ++v) {
+    const auto vertex = static_cast<std::int32_t>(v);
+    vertex_types_[v] = choose(mesh.triangles, mesh.vertex_triangles.row(vertex), vertex, 0, types);
+  }
+  for (std::size_t e = 0; e < edge_types_.size(); ++e) {
+    const auto edge = static_cast<std::int32_t>(e);
+    edge_types_[e] = choose(mesh.triangle_edges, mesh.edge_triangles.row(edge), edge, 3, types);
+  }
+}
+
+void Representatives::update(const Topology& mesh, const std::vector<TriangleType>& types,
+                             std::span<const std::int32_t> changed) {
+  for (const auto t : changed) {
+    for (const auto v : mesh.triangles[at(t)]) {
+      vertex_types_[at(v)] = choose(mesh.triangles, mesh.vertex_triangles.row(v), v, 0, types);
+    }
+    for (const auto e : mesh.triangle_edges[at(t)]) {
+      edge_types_[at(e)] = choose(mesh.triangle_edges, mesh.edge_triangles.row(e), e, 3, types);
+    }
+  }
+}
+
+TypeSet Representatives::choose(const std::vector<std::array<std::int32_t, 3>>& lists,
+                                std::span<const std::int32_t> holders, std::int32_t index,
+                                int first_bit, const std::vector<TriangleType>& types) {
+  TypeSet seen = 0;
+  for (const auto t : holders) {
+    const auto& list = lists[at(t)];
+    const int place = list[0] == index ? 0 : list[1] == index ? 1 : 2;
+    const auto bit = static_cast<RepresentedFeatures>(1u << (first_bit + place));
+    const TypeSet type = set_of(types[at(t)]);
+    features_[at(t)] = static_cast<RepresentedFeatures>(seen & type ? features_[at(t)] & ~bit
+                                                                    : features_[at(t)] | bit);
+    seen |= type;
+  }
+  return seen;
+}
+
+}  // namespace assay::detector
