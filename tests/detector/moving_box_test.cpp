@@ -1,0 +1,166 @@
+// Boxes in floats: what they tell apart is apart, in doubles and at all times.
+#include "detector/search/moving_box.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "detector/search/bounding_volume_tree.h"
+#include "tests/detector/points.h"
+
+namespace assay::tests {
+namespace {
+
+using namespace detector;
+
+constexpr double denormal = std::numeric_limits<double>::denorm_min();
+constexpr double largest = std::numeric_limits<double>::max();
+
+// Coordinates of one family, with neighbours of each.
+std::vector<double> numbers(std::initializer_list<double> seeds) {
+  std::vector<double> out;
+  for (const double x : seeds) {
+    out.insert(out.end(), {x, -x, std::nextafter(x, 0), -std::nextafter(x, 0)});
+    if (std::abs(x) < largest) out.push_back(std::nextafter(x, largest));
+  }
+  return out;
+}
+
+const std::vector<std::vector<double>>& families() {
+  static const std::vector<std::vector<double>> all = {
+      numbers({0, 1, .5, 1. / 3, 2, 3}),
+      numbers({0, denormal, 3 * denormal, 0x1p-1060, 0x1p-1022}),
+      numbers({1, 0x1p1000, largest, largest / 2, 0x1.8p1023}),
+      numbers({1e9, 1e9 + 1, 1e9 + .125, 1e9 + 1e-6}),
+      numbers({0, denormal, 1e-300, 1e-40, 1, 1e30, 1e300, largest}),
+  };
+  return all;
+}
+
+struct RandomPoints {
+  RandomPoints(const std::vector<double>& from, Eigen::Index count, std::mt19937_64& engine)
+      : x_t0(count, 3), x_t1(count, 3) {
+    for (auto* x : {&x_t0, &x_t1}) {
+      for (Eigen::Index v = 0; v < count; ++v) {
+        for (Eigen::Index k = 0; k < 3; ++k) (*x)(v, k) = from[engine() % from.size()];
+      }
+    }
+  }
+  // Strictly ordered along an axis in one sense at both ends, as doubles.
+  bool ordered(std::int32_t a, std::int32_t b) const {
+    for (int k = 0; k < 3; ++k) {
+      for (const auto& [p, q] : {std::pair(a, b), std::pair(b, a)}) {
+        if (x_t0(p, k) < x_t0(q, k) && x_t1(p, k) < x_t1(q, k)) return true;
+      }
+    }
+    return false;
+  }
+  Positions x_t0, x_t1;
+};
+
+TEST(MovingBox, RoundingKeepsOrder) {
+  for (const auto& family : families()) {
+    const auto n = static_cast<Eigen::Index>(family.size());
+    Positions x(n, 3);
+    for (Eigen::Index i = 0; i < n; ++i) x.row(i).setConstant(family[static_cast<std::size_t>(i)]);
+    // Also of a step that holds only part of them.
+    for (const auto rows : {n, n / 2}) {
+      const Rounding f(x.topRows(rows), x.topRows(rows));
+      for (std::int32_t i = 0; i < n; ++i) {
+        for (int k = 0; k < 3; ++k) EXPECT_FALSE(std::isnan(f(x, i)[k]));
+        for (std::int32_t j = 0; j < n; ++j) {
+          if (x(i, 0) <= x(j, 0)) {
+            EXPECT_LE(f(x, i)[0], f(x, j)[0]) << x(i, 0) << " " << x(j, 0);
+          }
+        }
+      }
+    }
+  }
+}
+
+// A vertex of one box and one of the other, for boxes that are apart: strictly ordered in doubles.
+TEST(MovingBox, L3_ApartIsApartInDoubles) {
+  std::mt19937_64 engine(1);
+  std::size_t told_apart = 0, touching = 0;
+  for (const auto& family : families()) {
+    for (int round = 0; round < 400; ++round) {
+      const RandomPoints p(family, 4, engine);
+      const RoundedPositions points(p.x_t0, p.x_t1);
+      const bool is_apart = apart(points.box({0, 1, 1}), points.box({2, 3, 3}));
+      told_apart += is_apart;
+      for (std::int32_t i = 0; i < 2; ++i) {
+        for (std::int32_t j = 2; j < 4; ++j) {
+          EXPECT_TRUE(!is_apart || p.ordered(i, j));
+          touching += !p.ordered(i, j);
+        }
+      }
+    }
+  }
+  EXPECT_GT(told_apart, 50u);
+  EXPECT_GT(touching, 1000u);
+}
+
+TEST(MovingBox, TouchingIsNotApart) {
+  const Positions x = positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}});
+  const RoundedPositions still(x, x);
+  EXPECT_FALSE(apart(still.box({0, 1, 2}), still.box({3, 4, 5})));
+  Positions away = x;
+  away.bottomRows(3).col(0).array() += 0x1p-20;
+  EXPECT_FALSE(
+      apart(RoundedPositions(x, away).box({0, 1, 2}), RoundedPositions(x, away).box({3, 4, 5})));
+  EXPECT_TRUE(apart(RoundedPositions(away, away).box({0, 1, 2}),
+                    RoundedPositions(away, away).box({3, 4, 5})));
+}
+
+// Two triangles change places: ordered at both ends, but not in the same sense.
+TEST(MovingBox, PassingEachOtherIsNotApart) {
+  const Positions x = positions({{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {5, 1, 0}, {5, 0, 1}});
+  Positions swapped(6, 3);
+  swapped << x.bottomRows(3), x.topRows(3);
+  const RoundedPositions points(x, swapped);
+  EXPECT_FALSE(apart(points.box({0, 1, 2}), points.box({3, 4, 5})));
+}
+
+// Far along, side by side: swept boxes would meet.
+TEST(MovingBox, MovingTogetherIsApart) {
+  const Positions x = positions({{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {5, 1, 0}, {5, 0, 1}});
+  Positions moved = x;
+  moved.col(0).array() += 100;
+  const RoundedPositions points(x, moved);
+  EXPECT_TRUE(apart(points.box({0, 1, 2}), points.box({3, 4, 5})));
+}
+
+// Boxes of nodes hold those of the triangles below, wherever the mesh lies.
+TEST(MovingBox, NodesHoldTheirTriangles) {
+  std::mt19937_64 engine(2);
+  for (const auto& family : families()) {
+    const RandomPoints p(family, 30, engine);
+    Triangles list(28, 3);
+    for (Eigen::Index t = 0; t < 28; ++t) list.row(t) << t, t + 1, t + 2;
+    const Topology mesh = make_topology(list, 30);
+    BoundingVolumeTree tree(mesh, p.x_t0);
+    tree.refit(mesh, p.x_t0, p.x_t1);
+    ASSERT_EQ(tree.node_count(), 55u);
+    for (std::int32_t t = 0; t < 28; ++t) {
+      const MovingBox box =
+          tree.box_of_triangle(mesh.triangles[static_cast<std::size_t>(t)], p.x_t0, p.x_t1);
+      std::int32_t node = tree.leaf_of(t);
+      ASSERT_EQ(tree.triangle(node), t);
+      for (;; node = tree.parent(node)) {
+        const MovingBox all = join(tree.box(node), box);
+        for (int k = 0; k < 3; ++k) {
+          EXPECT_EQ(all.lo_t0[k], tree.box(node).lo_t0[k]);
+          EXPECT_EQ(all.hi_t0[k], tree.box(node).hi_t0[k]);
+          EXPECT_EQ(all.lo_t1[k], tree.box(node).lo_t1[k]);
+          EXPECT_EQ(all.hi_t1[k], tree.box(node).hi_t1[k]);
+        }
+        if (node == BoundingVolumeTree::root) break;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace assay::tests

@@ -1,0 +1,82 @@
+// Random meshes, motions and types for the tests of the search.
+#pragma once
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "detector/search/triangle_type.h"
+#include "tests/detector/points.h"
+
+namespace assay::tests {
+
+struct MovingMesh {
+  detector::Topology topology;
+  detector::Positions x_t0, x_t1;
+};
+
+class SearchMeshes {
+ public:
+  explicit SearchMeshes(std::uint64_t seed) : engine_(seed) {}
+
+  std::int32_t below(std::int32_t n) {
+    return static_cast<std::int32_t>(engine_() % static_cast<std::uint64_t>(n));
+  }
+  // In [-1,1]; with few values, so that boxes touch.
+  double number(bool coarse) {
+    return coarse ? below(5) - 2 : static_cast<double>(below(1 << 20)) / (1 << 19) - 1;
+  }
+
+  // Wavy sheets of size x size squares, one above the other, some joined at a vertex; each moves as
+  // a whole and trembles.
+  MovingMesh sheets(int count, int size, bool coarse) {
+    const auto side = size + 1;
+    std::vector<std::array<std::int32_t, 3>> rows;
+    MovingMesh mesh;
+    mesh.x_t0.resize(count * side * side, 3);
+    mesh.x_t1.resize(count * side * side, 3);
+    for (int s = 0; s < count; ++s) {
+      const double shift[3] = {number(coarse), number(coarse), number(coarse)};
+      const auto vertex = [&](int i, int j) { return (s * side + i) * side + j; };
+      for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) {
+          const double at[3] = {static_cast<double>(i), static_cast<double>(j),
+                                coarse ? 0 : .3 * s + .5 * number(false)};
+          for (int k = 0; k < 3; ++k) {
+            mesh.x_t0(vertex(i, j), k) = at[k];
+            mesh.x_t1(vertex(i, j), k) = at[k] + 2 * shift[k] + (coarse ? 0 : .2 * number(false));
+          }
+          if (i == size || j == size) continue;
+          rows.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+          rows.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+        }
+      }
+      if (s > 0 && below(2) == 0) rows.back()[2] = 0;
+    }
+    std::shuffle(rows.begin(), rows.end(), engine_);
+    detector::Triangles list(static_cast<Eigen::Index>(rows.size()), 3);
+    for (std::size_t t = 0; t < rows.size(); ++t) {
+      list.row(static_cast<Eigen::Index>(t)) << rows[t][0], rows[t][1], rows[t][2];
+    }
+    mesh.topology = detector::make_topology(list, mesh.x_t0.rows());
+    return mesh;
+  }
+
+  // Of the types that a step starts with; V+ mostly, or anything.
+  detector::TriangleType type() {
+    constexpr std::int32_t at_start = 5;
+    return static_cast<detector::TriangleType>(below(3) ? 0 : below(at_start));
+  }
+
+  // Gives some triangles new types; one in `rarity`.
+  void change(std::vector<detector::TriangleType>& types, std::int32_t rarity) {
+    for (auto& t : types) {
+      if (below(rarity) == 0) t = type();
+    }
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace assay::tests
