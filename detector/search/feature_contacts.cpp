@@ -10,17 +10,6 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// Whether an edge and a face are strictly ordered along an axis at t=0.
-bool ordered_at_start(const PositionsView& x, const std::array<std::int32_t, 2>& e,
-                      const std::array<std::int32_t, 3>& f) {
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const auto [e_lo, e_hi] = std::minmax({x(e[0], k), x(e[1], k)});
-    const auto [f_lo, f_hi] = std::minmax({x(f[0], k), x(f[1], k), x(f[2], k)});
-    if (e_hi < f_lo || f_hi < e_lo) return true;
-  }
-  return false;
-}
-
 // As many tests come together as keep the code and the data of a phase at hand.
 constexpr std::size_t tests_at_once = 2048;
 
@@ -84,7 +73,6 @@ void FeatureContacts::test(FeatureKey key) {
   const auto& face = mesh_.triangles[at(second)];
   if (kind_of(key) == FeatureKind::piercing) {
     const auto& e = mesh_.edges[at(first)];
-    if (ordered_at_start(x_t0_, e, face)) return;
     if (!elementary_.pierces(
             point_of(x_t0_, e[0]), point_of(x_t0_, e[1]),
             {point_of(x_t0_, face[0]), point_of(x_t0_, face[1]), point_of(x_t0_, face[2])})) {

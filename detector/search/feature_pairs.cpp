@@ -18,13 +18,13 @@ bool is_single(TypeSet types) { return (types & (types - 1)) == 0; }
 struct FeaturePairs::Triangle {
   std::int32_t index;
   const std::array<std::int32_t, 3>&corners, &edges;
-  std::array<const RoundedPoint*, 3> points;
-  MovingBox box;
+  std::array<const FeaturePoint*, 3> points;
+  FeatureBox box;
   TriangleType type;
   RepresentedFeatures represented;
 
-  MovingBox edge_box(std::size_t i) const {
-    return box_of(*points[(i + 1) % 3], *points[(i + 2) % 3]);
+  FeatureBox edge_box(std::size_t i) const {
+    return feature_box(*points[(i + 1) % 3], *points[(i + 2) % 3]);
   }
 };
 
@@ -40,13 +40,13 @@ void FeaturePairs::ask(const AskedTypes& asked) {
 
 FeaturePairs::Triangle FeaturePairs::triangle(std::int32_t t) const {
   const auto& corners = mesh_.triangles[at(t)];
-  const std::array<const RoundedPoint*, 3> p = {&points_[corners[0]], &points_[corners[1]],
+  const std::array<const FeaturePoint*, 3> p = {&points_[corners[0]], &points_[corners[1]],
                                                 &points_[corners[2]]};
   return {t,
           corners,
           mesh_.triangle_edges[at(t)],
           p,
-          box_of(*p[0], *p[1], *p[2]),
+          feature_box(*p[0], *p[1], *p[2]),
           types_[at(t)],
           representatives_.of(t)};
 }
@@ -64,6 +64,8 @@ void FeaturePairs::append(std::int32_t a, std::int32_t b, bool may_pierce,
   const bool within = mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
   if (asks_by_types_ && within && asked_.within_before.holds(types_[at(a)], types_[at(b)])) return;
   const Triangle of_a = triangle(a), of_b = triangle(b);
+  // The search has compared the boxes along the axes.
+  if (apart_along_diagonals(of_a.box.diagonals, of_b.box.diagonals)) return;
   const Pair pair{of_a, of_b, within};
   vertices_on_face(pair, of_a, of_b, keys);
   vertices_on_face(pair, of_b, of_a, keys);
@@ -74,7 +76,7 @@ void FeaturePairs::vertices_on_face(const Pair& pair, const Triangle& vertices_o
                                     const Triangle& face, std::vector<FeatureKey>& keys) const {
   for (std::size_t i = 0; i < 3; ++i) {
     if (!represents_corner(vertices_of.represented, i)) continue;
-    if (apart(box_of(*vertices_of.points[i]), face.box)) continue;
+    if (apart(feature_box(*vertices_of.points[i]), face.box)) continue;
     const std::int32_t v = vertices_of.corners[i];
     if (contains(face.corners, v)) continue;
     if (takes(pair, {vertices_of.type, representatives_.types_of_vertex(v)},
@@ -87,7 +89,7 @@ void FeaturePairs::vertices_on_face(const Pair& pair, const Triangle& vertices_o
 void FeaturePairs::edges_on_edges(const Pair& pair, bool may_pierce,
                                   std::vector<FeatureKey>& keys) const {
   const auto& [a, b, within] = pair;
-  std::array<MovingBox, 3> boxes_of_b;
+  std::array<FeatureBox, 3> boxes_of_b;
   std::array<std::size_t, 3> edges_of_b;
   std::size_t count = 0;
   for (std::size_t j = 0; j < 3; ++j) {
@@ -99,7 +101,7 @@ void FeaturePairs::edges_on_edges(const Pair& pair, bool may_pierce,
   }
   for (std::size_t i = 0; i < 3; ++i) {
     if (!represents_edge(a.represented, i)) continue;
-    const MovingBox box = a.edge_box(i);
+    const FeatureBox box = a.edge_box(i);
     if (apart(box, b.box)) continue;
     if (may_pierce) edge_through_face(pair, a.edges[i], box, a, b, keys);
     const auto u0 = a.corners[(i + 1) % 3], u1 = a.corners[(i + 2) % 3];
@@ -121,11 +123,11 @@ void FeaturePairs::edges_on_edges(const Pair& pair, bool may_pierce,
   }
 }
 
-void FeaturePairs::edge_through_face(const Pair& pair, std::int32_t edge, const MovingBox& box,
+void FeaturePairs::edge_through_face(const Pair& pair, std::int32_t edge, const FeatureBox& box,
                                      const Triangle& edge_of, const Triangle& face,
                                      std::vector<FeatureKey>& keys) const {
   const auto& ends = mesh_.edges[at(edge)];
-  if (apart_at_start(box, face.box)) return;
+  if (apart_at_start(box.axes, face.box.axes)) return;
   if (contains(face.corners, ends[0]) || contains(face.corners, ends[1])) return;
   // Inside a component both are dirty: one pair of types.
   if (!pair.within && !takes(pair, {edge_of.type, representatives_.types_of_edge(edge)},

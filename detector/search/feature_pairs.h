@@ -1,7 +1,7 @@
 // From a candidate pair of triangles to the feature pairs that it stands for.
 //
 // Taken are pairs of features that the two triangles represent (representatives.h), that share no
-// vertex, whose moving boxes are not apart (moving_box.h), at the first pair of types that the
+// vertex, whose boxes are not apart (feature_boxes.h), at the first pair of types that the
 // search asks for, and only if no earlier search has asked for them. Over all candidates that a
 // search finds, these are the feature pairs of all its candidates, each once: a feature pair whose
 // boxes meet lies in triangles whose boxes meet, so all that rests on types is known from types.
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "detector/search/asked_types.h"
+#include "detector/search/feature_boxes.h"
 #include "detector/search/feature_key.h"
-#include "detector/search/moving_box.h"
 #include "detector/search/representatives.h"
 
 namespace assay::detector {
@@ -42,7 +42,7 @@ class FeaturePairs {
   void vertices_on_face(const Pair& pair, const Triangle& vertices_of, const Triangle& face,
                         std::vector<FeatureKey>& keys) const;
   void edges_on_edges(const Pair& pair, bool may_pierce, std::vector<FeatureKey>& keys) const;
-  void edge_through_face(const Pair& pair, std::int32_t edge, const MovingBox& box,
+  void edge_through_face(const Pair& pair, std::int32_t edge, const FeatureBox& box,
                          const Triangle& edge_of, const Triangle& face,
                          std::vector<FeatureKey>& keys) const;
   Triangle triangle(std::int32_t t) const;
@@ -50,7 +50,7 @@ class FeaturePairs {
   const Topology& mesh_;
   const Representatives& representatives_;
   const std::vector<TriangleType>& types_;
-  RoundedPositions points_;
+  FeaturePoints points_;
   AskedTypes asked_;
   bool asks_by_types_ = false;
 };

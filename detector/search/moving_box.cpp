@@ -16,6 +16,7 @@ Rounding::Rounding(const PositionsView& x_t0, const PositionsView& x_t1) {
     std::frexp(0.5 * hi - 0.5 * lo, &exponent);
     constexpr int least_exponent = -1022, greatest_exponent = 1022;
     scale_[k] = std::ldexp(1.0, -std::clamp(exponent, least_exponent, greatest_exponent));
+    common_scale_ = k == 0 ? scale_[k] : std::min(common_scale_, scale_[k]);
   }
 }
 

@@ -91,9 +91,16 @@ class Rounding {
     return {(*this)(x_t0, vertex), (*this)(x_t1, vertex)};
   }
 
+  // (x - centre) times one power of two for all axes: at most 2 for positions of the step.
+  Point scaled(const PositionsView& x, std::int32_t vertex) const {
+    const auto y = [&](int k) { return (x(vertex, k) - centre_[k]) * common_scale_; };
+    return {y(0), y(1), y(2)};
+  }
+
  private:
   double centre_[3] = {0, 0, 0};
   double scale_[3] = {1, 1, 1};
+  double common_scale_ = 1;  // the least of the three
 };
 
 // All vertices of a step.

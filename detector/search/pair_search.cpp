@@ -113,10 +113,11 @@ class Descent {
 
   // Goes on to the only child of `node` that may hold a partner of `other`, if there is only one.
   bool skip(std::int32_t& node, std::int32_t other, const PairTable& table) {
-    if (tree_.is_leaf(node)) return false;
+    const auto partners = table.partners(flags(other));
+    // Where every flag of the node is asked for, each child may hold a partner: it has some flag.
+    if ((flags(node) & ~partners) == 0 || tree_.is_leaf(node)) return false;
     ++counts_.child_counts;
     const auto child = tree_.child(node);
-    const auto partners = table.partners(flags(other));
     const bool first = (partners & flags(child)) != 0, second = (partners & flags(child + 1)) != 0;
     if (first == second) return false;
     node = first ? child : child + 1;

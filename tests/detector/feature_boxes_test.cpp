@@ -1,0 +1,79 @@
+// What diagonals tell apart is strictly ordered along one of them in exact arithmetic.
+#include "detector/search/feature_boxes.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <limits>
+#include <random>
+
+#include "tests/detector/points.h"
+
+namespace assay::tests {
+namespace {
+
+using namespace detector;
+using Rational = boost::multiprecision::cpp_rational;
+
+constexpr std::array<std::array<int, 3>, 4> directions = {
+    {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}}};
+
+Rational along(const std::array<int, 3>& d, const Positions& x, std::int32_t v) {
+  return d[0] * Rational(x(v, 0)) + d[1] * Rational(x(v, 1)) + d[2] * Rational(x(v, 2));
+}
+
+// In one sense at both ends, along some diagonal.
+bool ordered(const Positions& x_t0, const Positions& x_t1, std::int32_t a, std::int32_t b) {
+  for (const auto& d : directions) {
+    const Rational t0 = along(d, x_t0, a) - along(d, x_t0, b);
+    const Rational t1 = along(d, x_t1, a) - along(d, x_t1, b);
+    if ((t0 < 0 && t1 < 0) || (t0 > 0 && t1 > 0)) return true;
+  }
+  return false;
+}
+
+TEST(FeatureBoxes, L3_ApartAlongDiagonalsIsOrderedExactly) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  std::mt19937_64 engine(3);
+  const auto below = [&](std::uint64_t n) { return static_cast<double>(engine() % n); };
+  std::size_t told_apart = 0, close = 0;
+  for (int round = 0; round < 30000; ++round) {
+    const int family = round % 6;
+    Positions x[2] = {Positions(4, 3), Positions(4, 3)};
+    for (auto& frame : x) {
+      for (Eigen::Index i = 0; i < 12; ++i) {
+        double& c = frame.data()[i];
+        if (family == 0) c = below(3) - 1;
+        if (family == 1) c = below(1 << 20) * 0x1p-19 - 1;
+        // Sums that differ by about the margin, near the middle and at the border.
+        if (family == 2) c = (below(3) - 1) + (below(9) - 4) * 0x1p-21;
+        if (family == 3) c = 1e9 + below(3) + (below(9) - 4) * 0x1p-20;
+        if (family == 4) c = (below(5) - 2) * (largest / 2);
+        if (family == 5) c = below(5) * std::numeric_limits<double>::denorm_min();
+      }
+    }
+    const FeaturePoints points(x[0], x[1]);
+    const FeatureBox a = feature_box(points[0]), b = feature_box(points[1]);
+    const bool is_apart = apart_along_diagonals(a.diagonals, b.diagonals);
+    const bool is_ordered = ordered(x[0], x[1], 0, 1);
+    EXPECT_TRUE(!is_apart || is_ordered);
+    told_apart += is_apart;
+    close += is_ordered && !is_apart;
+  }
+  EXPECT_GT(told_apart, 5000u);
+  EXPECT_GT(close, 100u);
+}
+
+// Neither the axes nor a diagonal tells these apart; one of each alone does.
+TEST(FeatureBoxes, AxesAndDiagonals) {
+  const Positions x = positions({{0, 0, 0}, {1, -1, 0}, {.9, .9, 0}, {1.5, -.5, .1}});
+  const FeaturePoints points(x, x);
+  const FeatureBox edge = feature_box(points[0], points[1]);
+  const FeatureBox other = feature_box(points[2], points[3]);
+  EXPECT_FALSE(apart(edge.axes, other.axes));
+  EXPECT_TRUE(apart(edge, other));
+  EXPECT_FALSE(apart(edge, edge));
+}
+
+}  // namespace
+}  // namespace assay::tests
