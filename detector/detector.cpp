@@ -37,7 +37,7 @@ Detector::~Detector() = default;
 
 Expected<Detector> Detector::create(const TrianglesView& triangles, const PositionsView& positions,
                                     const Options& options) {
-  return assemble(triangles, positions, options, standard_stages(options.culling));
+  return assemble(triangles, positions, options, standard_stages(options));
 }
 
 Expected<Detector> Detector::assemble(const TrianglesView& triangles,

@@ -5,8 +5,9 @@
 //   if (result.answer == Answer::collision) use(result.first, result.pairs);
 //
 // Every vertex moves linearly from x_t0 to x_t1 over t in [0,1]. Answers are those of exact
-// arithmetic on the doubles given. Touching counts; triangles that share a vertex or an edge are in
-// contact when they meet beyond what they share. The primitive may be anywhere, inside or not.
+// arithmetic on the doubles given, unless another is asked for (Arithmetic). Touching counts;
+// triangles that share a vertex or an edge are in contact when they meet beyond what they share.
+// The primitive may be anywhere, inside or not.
 //
 // State is per triangle, clean or dirty (L8, L9), and belongs to exact positions: evaluate() leaves
 // it alone, commit() advances it to the end of the step evaluated last, step() is both. A step that
@@ -28,7 +29,7 @@ class Detector {
   // best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
-  // The same of stages other than the standard ones of options.culling.
+  // The same of stages other than the standard ones of the options.
   static Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                                      const Options& options, Stages stages);
   Detector(Detector&&) noexcept;

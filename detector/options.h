@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "detector/arithmetic.h"
 #include "detector/boundary/ghost_sweep.h"
 #include "detector/contact/elementary_test.h"
 #include "detector/mesh/problem.h"
@@ -37,6 +38,7 @@ struct Options {
   Culling culling = Culling::view_point;
   Start start = Start::verified;
   Pairs pairs = Pairs::all;
+  Arithmetic arithmetic = Arithmetic::exact;
 };
 
 namespace doubt {
@@ -63,7 +65,9 @@ struct StepCounts {
 struct StepResult {
   Answer answer = Answer::error;
   std::optional<Problem> problem;  // when answer is error
-  TimeEnclosure first;             // when answer is collision
+  // When answer is collision: exact, the enclosure of the first contact time; bounded, an interval
+  // that holds it if there is a contact at all; double and float, a time without promise.
+  TimeEnclosure first;
   std::vector<PairContact> pairs;  // ascending by pair, each with its first time
 
   // Sizes of V+, V-, V0 without Vv, and of Vv: disjoint, together all triangles. With culling bvh

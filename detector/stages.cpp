@@ -2,10 +2,11 @@
 
 namespace assay::detector {
 
-Stages standard_stages(Culling culling) {
+Stages standard_stages(const Options& options) {
+  const Culling culling = options.culling;
   const bool uses_views = culling == Culling::view_point || culling == Culling::view_line;
   Stages stages;
-  stages.classifier = std::make_shared<ViewClassifier>();
+  stages.classifier = std::make_shared<ViewClassifier>(options.arithmetic);
   stages.boundary = std::make_shared<BoundaryHandler>();
   stages.pair_rule = uses_views ? std::make_shared<PairRule>() : std::make_shared<EveryPair>();
   stages.marking = std::make_shared<Marking>();
@@ -14,8 +15,8 @@ Stages standard_stages(Culling culling) {
   } else {
     stages.pair_search = std::make_shared<TreeSearch>();
   }
-  stages.elementary = std::make_shared<ElementaryTest>();
-  stages.release = std::make_shared<ReleaseRule>();
+  stages.elementary = make_elementary_test(options.arithmetic);
+  stages.release = std::make_shared<ReleaseRule>(options.arithmetic);
   return stages;
 }
 

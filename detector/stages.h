@@ -23,6 +23,7 @@ struct Stages {
   std::shared_ptr<const ReleaseRule> release;
 };
 
-Stages standard_stages(Culling culling);
+// Of the culling and the arithmetic asked for.
+Stages standard_stages(const Options& options);
 
 }  // namespace assay::detector

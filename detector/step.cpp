@@ -55,15 +55,23 @@ class Step {
                      : result_.pairs.empty() ? Answer::free
                                              : Answer::collision;
     if (completed) next = state_at_end(mesh_x_t1);  // whole or not at all, should memory fail
-    for (const auto& contact : result_.pairs) {
-      if (&contact == &result_.pairs.front() || contact.time < result_.first)
-        result_.first = contact.time;
-    }
+    set_first_time();
     hand_over();
     return std::move(result_);
   }
 
  private:
+  // Nothing is before the least lo, and each hi below 1 is one by which there is a contact. Of
+  // unique enclosures this is the least.
+  void set_first_time() {
+    if (result_.pairs.empty()) return;
+    result_.first = result_.pairs.front().time;
+    for (const auto& [pair, time, feature] : result_.pairs) {
+      result_.first.lo = std::min(result_.first.lo, time.lo);
+      result_.first.hi = std::min(result_.first.hi, time.hi);
+    }
+  }
+
   void place_primitives(const PositionsView& x_t0, const PositionsView& x_t1,
                         std::span<const ViewPrimitive> given) {
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {

@@ -216,13 +216,18 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
 }
 
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 detector::Pairs claimed) {
-  Claims claims = claims_of(claimed);
+                 const detector::Options& options) {
+  Claims claims = claims_of(options);
   // Bad input is refused by name, which is an answer that nobody asked for, and no defect.
   claims.total = false;
-  return Comparison(result, judgement, claims, {}, Times::unique).run([](TrianglePair) {
-    return false;
-  });
+  const auto times =
+      options.arithmetic == detector::Arithmetic::exact ? Times::unique : Times::interval;
+  return Comparison(result, judgement, claims, {}, times).run([](TrianglePair) { return false; });
+}
+
+StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
+                 detector::Pairs claimed) {
+  return compare(result, judgement, detector::Options{.pairs = claimed});
 }
 
 std::string stage_that_lost(const detector::TrianglesView& triangles,

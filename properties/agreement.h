@@ -56,8 +56,12 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
                  const Claims& claims, const Contract& contract,
                  const detector::TrianglesView& triangles);
 
-// The built-in detector, by claims_of(claimed): its times are the enclosures of exact arithmetic,
-// so each must agree in every bit. An input error is Outcome::error.
+// The built-in detector, by claims_of(options): in exact arithmetic its times are unique
+// enclosures, so each must agree in every bit; in others they are intervals. An input error is
+// Outcome::error.
+StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
+                 const detector::Options& options);
+// The same in exact arithmetic.
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  detector::Pairs claimed);
 

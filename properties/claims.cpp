@@ -78,13 +78,16 @@ std::vector<Claim> list_of(const Claims& claims) {
   return list;
 }
 
-Claims claims_of(detector::Pairs pairs) {
-  return {.free_sound = true,
-          .not_late = true,
-          .first_time = true,
-          .first_pairs = true,
-          .all_pairs = pairs == detector::Pairs::all,
-          .no_spurious = true,
+Claims claims_of(const detector::Options& options) {
+  using detector::Arithmetic;
+  const bool exact = options.arithmetic == Arithmetic::exact;
+  const bool proved = exact || options.arithmetic == Arithmetic::bounded;
+  return {.free_sound = proved,
+          .not_late = proved,
+          .first_time = proved,
+          .first_pairs = proved,
+          .all_pairs = proved && options.pairs == detector::Pairs::all,
+          .no_spurious = exact,
           .deterministic = true,
           .total = true};
 }

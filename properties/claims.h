@@ -55,8 +55,10 @@ const std::vector<Claim>& all_claims();
 // Those that `claims` has, in that order.
 std::vector<Claim> list_of(const Claims& claims);
 
-// Of the built-in detector: with pairs all everything; with pairs first all but all-pairs.
-Claims claims_of(detector::Pairs pairs);
+// Of the built-in detector. exact: everything; bounded: everything but no-spurious (its intervals
+// hold the times by construction, see options.h); double and float: deterministic and total. With
+// pairs first nobody claims all-pairs.
+Claims claims_of(const detector::Options& options);
 
 // Whether the contract lets the detector leave this pair out.
 bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,

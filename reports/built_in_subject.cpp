@@ -16,6 +16,7 @@ detector::Options options_of(const CheckRequest& request, const CheckInput& inpu
   options.culling = request.culling.value_or(options.culling);
   options.start = request.start.value_or(options.start);
   options.pairs = request.pairs.value_or(options.pairs);
+  options.arithmetic = request.arithmetic.value_or(options.arithmetic);
   return options;
 }
 
@@ -30,11 +31,19 @@ class BuiltIn : public Subject {
         limits_(limits) {}
 
   std::string title() const override {
-    return fmt::format("culling {}", properties::name_of(options_.culling));
+    const std::string culling = fmt::format("culling {}", properties::name_of(options_.culling));
+    if (!judged_by_claims()) return culling;
+    return fmt::format("{}, arithmetic {}", culling, properties::name_of(options_.arithmetic));
   }
 
   nlohmann::ordered_json to_json() const override {
-    return {{"culling", properties::name_of(options_.culling)}, {"detector", nullptr}};
+    return {{"culling", properties::name_of(options_.culling)},
+            {"arithmetic", properties::name_of(options_.arithmetic)},
+            {"detector", nullptr}};
+  }
+
+  bool judged_by_claims() const override {
+    return options_.arithmetic != detector::Arithmetic::exact;
   }
 
   StepResult answer(std::size_t s, const detector::StopFunction& stop) override {
@@ -62,7 +71,7 @@ class BuiltIn : public Subject {
 
   properties::StepDiff judge(const StepResult& result,
                              const oracle::StepJudgement& judgement) const override {
-    return properties::compare(result, judgement, options_.pairs);
+    return properties::compare(result, judgement, options_);
   }
 
   std::string stage_that_lost(std::size_t s, detector::TrianglePair pair) const override {

@@ -35,7 +35,9 @@ class Check {
         mesh_(std::move(mesh)),
         subject_(subject),
         script_(corpus::steps_of(input.c)),
-        limits_(limits) {}
+        limits_(limits) {
+    outcome_.judged_by_claims = subject.judged_by_claims();
+  }
 
   int run() {
     announce();
@@ -209,7 +211,8 @@ class Check {
 
   // A case states what is true of it: an answer that differs is a defect.
   void check_facts() {
-    const auto report = properties::check_case(case_, request_.culling, request_.jobs);
+    const auto report =
+        properties::check_case(case_, request_.culling, request_.jobs, request_.arithmetic);
     for (const auto& line : report.failed) fmt::print("expected facts: {}\n", line);
     outcome_.facts_differ = !report.failed.empty();
     outcome_.defect |= outcome_.facts_differ;
@@ -226,6 +229,7 @@ class Check {
                                            {"triangles", mesh_.triangles.size()},
                                            {"components", mesh_.components.size()},
                                            {"culling", tested["culling"]},
+                                           {"arithmetic", tested["arithmetic"]},
                                            {"detector", tested["detector"]},
                                            {"detector_ended", or_null(outcome_.ended)},
                                            {"judged", request_.use_oracle},

@@ -28,7 +28,7 @@ std::string CheckOutcome::summary(const CheckRequest& request) const {
                                                                      : limit_reached + " reached");
   } else if (!request.use_oracle) {
     text += "; not judged\n";
-  } else if (request.plugin_library.empty()) {
+  } else if (!judged_by_claims) {
     text += "; detector and oracle agree\n";
   } else {
     text += "; all claims hold\n";

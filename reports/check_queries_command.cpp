@@ -22,7 +22,8 @@ using corpus::LabelledQuery;
 
 struct Answered {
   bool contact = false;
-  int rung = 0;       // 0 axis, 1 interval or filter, 2 algebraic or exact; 0 for the referee
+  // 0 axis, 1 interval or filter, 2 the last: algebraic, exact or open; 0 for the referee
+  int rung = 0;
   bool open = false;  // by the referee: not decided
 };
 
@@ -39,9 +40,13 @@ Answered answer_by_oracle(const LabelledQuery& q) {
   return {answer.contact, static_cast<int>(answer.rung)};
 }
 
+template <detector::Arithmetic arithmetic>
 Answered answer_by_detector(const LabelledQuery& q) {
-  const auto answer = detector::test_contact(four_points_of(q), detector::Want::yes_no);
-  return {answer.contact, static_cast<int>(answer.rung)};
+  using detector::ContactRung;
+  const auto answer = detector::test_contact(four_points_of(q), detector::Want::yes_no, arithmetic);
+  return {answer.contact, answer.rung == ContactRung::axis     ? 0
+                          : answer.rung == ContactRung::filter ? 1
+                                                               : 2};
 }
 
 Answered answer_by_referee(const LabelledQuery& q) {
@@ -50,35 +55,42 @@ Answered answer_by_referee(const LabelledQuery& q) {
   return {verdict == oracle::RefereeVerdict::contact, 0, verdict == oracle::RefereeVerdict::open};
 }
 
-Answered answer(QueryMethod method, const LabelledQuery& q) {
-  switch (method) {
-    case QueryMethod::oracle:
-      return answer_by_oracle(q);
-    case QueryMethod::referee:
-      return answer_by_referee(q);
-    case QueryMethod::detector_exact:
-      break;
-  }
-  return answer_by_detector(q);
+// By method: its name, of the command line and the report, and the names of its rungs.
+struct MethodWords {
+  const char* name;
+  std::array<const char*, 3> rungs;  // "" where there is none
+  Answered (*answer)(const LabelledQuery&);
+};
+
+const MethodWords& words_of(QueryMethod method) {
+  using detector::Arithmetic;
+  static const std::array<MethodWords, 6> words = {{
+      {"oracle", {"axis", "interval", "algebraic"}, answer_by_oracle},
+      {"referee", {"", "", ""}, answer_by_referee},
+      {"detector-exact", {"axis", "filter", "exact"}, answer_by_detector<Arithmetic::exact>},
+      {"detector-bounded", {"axis", "filter", "open"}, answer_by_detector<Arithmetic::bounded>},
+      {"detector-double", {"axis", "filter", ""}, answer_by_detector<Arithmetic::double_precision>},
+      {"detector-float", {"axis", "filter", ""}, answer_by_detector<Arithmetic::single_precision>},
+  }};
+  return words[static_cast<std::size_t>(method)];
 }
+
+Answered answer(QueryMethod method, const LabelledQuery& q) { return words_of(method).answer(q); }
 
 QueryMethod other(QueryMethod method) {
   return method == QueryMethod::oracle ? QueryMethod::detector_exact : QueryMethod::oracle;
 }
 
-const char* name_of(QueryMethod method) {
-  switch (method) {
-    case QueryMethod::oracle:
-      return "oracle";
-    case QueryMethod::referee:
-      return "referee";
-    case QueryMethod::detector_exact:
-      break;
-  }
-  return "detector-exact";
-}
+const char* name_of(QueryMethod method) { return words_of(method).name; }
 
 bool has_rungs(QueryMethod method) { return method != QueryMethod::referee; }
+
+// Whether a wrong answer refutes the method: bounded arithmetic may raise false alarms, plain
+// doubles and floats promise nothing.
+bool claims_no_false_positives(QueryMethod method) { return method <= QueryMethod::detector_exact; }
+bool claims_no_false_negatives(QueryMethod method) {
+  return method <= QueryMethod::detector_bounded;
+}
 
 // A query where the answer is not the label.
 struct Difference {
@@ -122,8 +134,6 @@ class Score {
 
   void print() {
     std::sort(microseconds_.begin(), microseconds_.end());
-    const auto middle_rung = method_ == QueryMethod::oracle ? "interval" : "filter";
-    const auto last_rung = method_ == QueryMethod::oracle ? "algebraic" : "exact";
     fmt::print("{}: {} queries, {} yes, {} without a label{}\n", name_of(method_), count(), yes_,
                unlabelled_,
                method_ == QueryMethod::referee
@@ -136,7 +146,12 @@ class Score {
     fmt::print(
         "differences from the truth: {} false positives, {} false negatives, {} disputed labels\n",
         false_positives_, false_negatives_, disputed());
+    std::size_t listed = 0;
     for (const auto& d : differences_) {
+      if (listed++ == most_listed) {
+        fmt::print("  ... {} more\n", differences_.size() - most_listed);
+        break;
+      }
       fmt::print("  {} query {}: answer {}, label {}{}\n", d.file, d.index, d.answer, !d.answer,
                  d.label_disputed
                      ? "; coplanar throughout, both exact methods agree against the label"
@@ -145,8 +160,12 @@ class Score {
     fmt::print("us a query: mean {:.2f}, median {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.2f}\n",
                mean(), quantile(0.5), quantile(0.99), quantile(0.999), quantile(1));
     if (!has_rungs(method_)) return;
-    fmt::print("rungs: axis {:.1f} %, {} {:.1f} %, {} {:.1f} %\n", share(0), middle_rung, share(1),
-               last_rung, share(2));
+    const auto& rungs = words_of(method_).rungs;
+    std::string text;
+    for (std::size_t r = 0; r < rungs.size() && *rungs[r]; ++r) {
+      text += fmt::format("{}{} {:.1f} %", r == 0 ? "rungs: " : ", ", rungs[r], share(r));
+    }
+    fmt::print("{}\n", text);
   }
 
   nlohmann::ordered_json json(const std::vector<std::string>& files) const {
@@ -158,12 +177,10 @@ class Score {
                              {"label", !d.answer},
                              {"label_disputed", d.label_disputed}});
     }
-    const bool oracle = method_ == QueryMethod::oracle;
     nlohmann::ordered_json rungs;
-    if (has_rungs(method_)) {
-      rungs = {{"axis", rungs_[0]},
-               {oracle ? "interval" : "filter", rungs_[1]},
-               {oracle ? "algebraic" : "exact", rungs_[2]}};
+    for (std::size_t r = 0; r < rungs_.size(); ++r) {
+      const char* name = words_of(method_).rungs[r];
+      if (*name) rungs[name] = rungs_[r];
     }
     return {{"schema", "assay-queries/1"},
             {"version", version_text()},
@@ -187,7 +204,10 @@ class Score {
   }
 
   bool is_unsound() const { return !contradictions_.empty(); }
-  bool is_wrong() const { return false_positives_ + false_negatives_ > 0; }
+  bool is_wrong() const {
+    return (false_positives_ > 0 && claims_no_false_positives(method_)) ||
+           (false_negatives_ > 0 && claims_no_false_negatives(method_));
+  }
 
  private:
   void note_difference(const std::string& file, std::size_t index, const LabelledQuery& query,
@@ -216,6 +236,8 @@ class Score {
     if (static_cast<double>(index) == rank && index > 0) --index;
     return microseconds_[std::min(index, count() - 1)];
   }
+
+  static constexpr std::size_t most_listed = 50;
 
   QueryMethod method_;
   std::vector<double> microseconds_;

@@ -16,6 +16,7 @@ struct CheckRequest {
   std::optional<detector::Culling> culling;  // default: the case's own, or view-point
   std::optional<detector::Start> start;
   std::optional<detector::Pairs> pairs;
+  std::optional<detector::Arithmetic> arithmetic;
   std::string plugin_library;  // empty: the built-in detector
   bool use_oracle = true;
   std::optional<double> second_opinion;  // share in (0,1]; needs the oracle
@@ -27,7 +28,14 @@ struct CheckRequest {
 };
 int run_check(const CheckRequest& request);
 
-enum class QueryMethod : std::uint8_t { oracle, referee, detector_exact };
+enum class QueryMethod : std::uint8_t {
+  oracle,
+  referee,
+  detector_exact,
+  detector_bounded,
+  detector_double,
+  detector_float
+};
 struct CheckQueriesRequest {
   std::vector<std::string> files;
   std::vector<std::string> truths;  // none, or one a file

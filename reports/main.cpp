@@ -111,7 +111,9 @@ void add_check(CLI::App& app, reports::CheckRequest& request) {
              "What is known of the first frame (default verified)");
   add_choice(verb, "--pairs", request.pairs, "all, first", properties::pairs_named,
              "Which pairs are asked for (default all)");
-  for (const char* of_the_built_in : {"--culling", "--start", "--pairs"}) {
+  add_choice(verb, "--arithmetic", request.arithmetic, "exact, bounded, double, float",
+             properties::arithmetic_named, "What the detector computes in (default exact)");
+  for (const char* of_the_built_in : {"--culling", "--start", "--pairs", "--arithmetic"}) {
     plugin->excludes(verb->get_option(of_the_built_in));
   }
   auto* no_oracle = verb->add_flag_callback(
@@ -143,12 +145,17 @@ void add_check_queries(CLI::App& app, reports::CheckQueriesRequest& request) {
     if (word == "oracle") return reports::QueryMethod::oracle;
     if (word == "referee") return reports::QueryMethod::referee;
     if (word == "detector-exact") return reports::QueryMethod::detector_exact;
+    if (word == "detector-bounded") return reports::QueryMethod::detector_bounded;
+    if (word == "detector-double") return reports::QueryMethod::detector_double;
+    if (word == "detector-float") return reports::QueryMethod::detector_float;
     return std::nullopt;
   };
   verb->add_option_function<std::string>(
           "--method", [&request, parse](const std::string& word) { request.method = *parse(word); },
           "Who answers (default oracle)")
-      ->check(one_of("oracle, referee, detector-exact", parse));
+      ->check(one_of("oracle, referee, detector-exact, detector-bounded, detector-double, "
+                     "detector-float",
+                     parse));
   verb->add_option("--json", request.json_file, "Write the report here (assay-queries/1)");
 }
 

@@ -37,6 +37,7 @@ class Plugin : public Subject {
     }
     const auto& contract = description_.contract;
     return {{"culling", nullptr},
+            {"arithmetic", nullptr},
             {"detector",
              {{"name", description_.name},
               {"version", description_.version},

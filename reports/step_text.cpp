@@ -15,10 +15,16 @@ std::string time_text(const detector::TimeEnclosure& time) {
 
 namespace {
 
+// In ways that no claim is broken by, where the outcome is `holds`.
+bool differs(const properties::StepDiff& diff) {
+  return diff.wrong_answer || diff.wrong_first_time || !diff.missing.empty() ||
+         !diff.spurious.empty() || !diff.late.empty() || !diff.early.empty();
+}
+
 std::string verdict_text(const properties::StepDiff& diff) {
   switch (diff.outcome) {
     case Outcome::holds:
-      return "agree";
+      return differs(diff) ? "all claims hold" : "agree";
     case Outcome::undecided:
       return "undecided";
     default:
@@ -85,7 +91,7 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
                        judgement->feature_candidates, judgement->complete ? "" : " (stopped)");
   }
   out += "\n";
-  if (diff && diff->outcome != Outcome::holds) out += diff_text(*diff);
+  if (diff && (diff->outcome != Outcome::holds || differs(*diff))) out += diff_text(*diff);
   return out;
 }
 

@@ -18,8 +18,10 @@ class Subject {
 
   // For the line that announces the run: "culling view-point", "plug-in NAME VERSION".
   virtual std::string title() const = 0;
-  // Of the report: `culling` (null for a plug-in) and `detector`.
+  // Of the report: `culling` and `arithmetic` (null for a plug-in) and `detector`.
   virtual nlohmann::ordered_json to_json() const = 0;
+  // Judged by its claims; otherwise it must agree with the oracle in every bit.
+  virtual bool judged_by_claims() const { return true; }
 
   // Before the first step; what the run as a whole broke, with no verdict on any step. Not `holds`:
   // there may be no steps to ask for.

@@ -1,12 +1,18 @@
 #include "detector/contact/elementary_test.h"
 
+#include "detector/contact/contact_bounded.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/contact_filter.h"
+#include "detector/contact/contact_plain.h"
+#include "detector/contact/piercing.h"
 
 namespace assay::detector {
 
 void ContactRungCounts::add(ContactRung rung) {
-  ++(rung == ContactRung::axis ? axis : rung == ContactRung::filter ? filter : exact);
+  ++(rung == ContactRung::axis     ? axis
+     : rung == ContactRung::filter ? filter
+     : rung == ContactRung::exact  ? exact
+                                   : open);
 }
 
 ContactResult test_contact(const FourPoints& query, Want want) {
@@ -15,7 +21,7 @@ ContactResult test_contact(const FourPoints& query, Want want) {
 }
 
 ContactResult test_contact_past_axis(const FourPoints& query, Want want) {
-  const FilterResult filtered = filter_contact(query);
+  const FilterResult filtered = filter_contact(query, want);
   if (filtered.verdict == FilterVerdict::no_contact) return {false, {}, ContactRung::filter};
   if (filtered.verdict == FilterVerdict::contact) {
     if (want == Want::yes_no) return {true, {}, ContactRung::filter};
@@ -28,6 +34,64 @@ ContactResult test_contact_past_axis(const FourPoints& query, Want want) {
   const bool decided = filtered.verdict != FilterVerdict::unsure;
   return {time.has_value(), time.value_or(TimeEnclosure{}),
           decided ? ContactRung::filter : ContactRung::exact};
+}
+
+namespace {
+
+class BoundedTest : public ElementaryTest {
+ public:
+  ContactResult test(const FourPoints& query, Want want) const override {
+    return bounded_contact(query, want);
+  }
+  bool pierces(const Point& e0, const Point& e1, const std::array<Point, 3>& face) const override {
+    return bounded_piercing(e0, e1, face) != Piercing::no;
+  }
+  TimeEnclosure piercing_time(const Point& e0, const Point& e1,
+                              const std::array<Point, 3>& face) const override {
+    return {0, bounded_piercing(e0, e1, face) == Piercing::yes ? 0.0 : 1.0};
+  }
+};
+
+template <class Number>
+class PlainTest : public ElementaryTest {
+ public:
+  ContactResult test(const FourPoints& query, Want want) const override {
+    return plain_contact<Number>(query, want);
+  }
+  bool pierces(const Point& e0, const Point& e1, const std::array<Point, 3>& face) const override {
+    return plain_piercing<Number>(e0, e1, face);
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<const ElementaryTest> make_elementary_test(Arithmetic arithmetic) {
+  switch (arithmetic) {
+    case Arithmetic::bounded:
+      return std::make_shared<BoundedTest>();
+    case Arithmetic::double_precision:
+      return std::make_shared<PlainTest<double>>();
+    case Arithmetic::single_precision:
+      return std::make_shared<PlainTest<float>>();
+    case Arithmetic::exact:
+      break;
+  }
+  return std::make_shared<ElementaryTest>();
+}
+
+ContactResult test_contact(const FourPoints& query, Want want, Arithmetic arithmetic) {
+  if (separated_along_an_axis(query)) return {false, {}, ContactRung::axis};
+  switch (arithmetic) {
+    case Arithmetic::bounded:
+      return bounded_contact(query, want);
+    case Arithmetic::double_precision:
+      return plain_contact<double>(query, want);
+    case Arithmetic::single_precision:
+      return plain_contact<float>(query, want);
+    case Arithmetic::exact:
+      break;
+  }
+  return test_contact_past_axis(query, want);
 }
 
 }  // namespace assay::detector

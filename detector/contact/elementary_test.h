@@ -1,20 +1,25 @@
-// The elementary test of the production detector: vertex-face and edge-edge, exact by the ladder.
+// The elementary test of the production detector: vertex-face and edge-edge, by the ladder.
 //
-// Guarantee: the answer is that of exact arithmetic on the doubles given, for every finite input;
-// touching counts, and so do t=0 and t=1. A time is the unique enclosure of TimeEnclosure.
+// Guarantee of exact arithmetic: the answer is that of exact arithmetic on the doubles given, for
+// every finite input; touching counts, and so do t=0 and t=1. A time is the unique enclosure of
+// TimeEnclosure. The other arithmetics: contact_bounded.h, contact_plain.h.
 #pragma once
 
+#include <memory>
+
+#include "detector/arithmetic.h"
 #include "detector/contact/four_points.h"
 #include "detector/exact/orientation.h"
 
 namespace assay::detector {
 
-enum class ContactRung : std::uint8_t { axis, filter, exact };
+// `open`: bounded arithmetic could not tell, and counts a contact.
+enum class ContactRung : std::uint8_t { axis, filter, exact, open };
 
 struct ContactRungCounts {
-  std::uint64_t axis = 0, filter = 0, exact = 0;
+  std::uint64_t axis = 0, filter = 0, exact = 0, open = 0;
   void add(ContactRung rung);
-  std::uint64_t total() const { return axis + filter + exact; }
+  std::uint64_t total() const { return axis + filter + exact + open; }
 };
 
 struct ContactResult {
@@ -29,6 +34,9 @@ ContactResult test_contact(const FourPoints& query, Want want);
 // The same for a query that separated_along_an_axis did not settle.
 ContactResult test_contact_past_axis(const FourPoints& query, Want want);
 
+// By any arithmetic; axis order first, which compares the inputs themselves.
+ContactResult test_contact(const FourPoints& query, Want want, Arithmetic arithmetic);
+
 // The stage of the detector: asked for every feature pair that axis order left open, and for edges
 // that may pierce a triangle.
 class ElementaryTest {
@@ -42,6 +50,14 @@ class ElementaryTest {
   virtual bool pierces(const Point& e0, const Point& e1, const std::array<Point, 3>& face) const {
     return segment_pierces_triangle(e0, e1, face);
   }
+  // When two triangles first meet of which pierces() says that they do at t=0.
+  virtual TimeEnclosure piercing_time(const Point&, const Point&,
+                                      const std::array<Point, 3>&) const {
+    return {0, 0};
+  }
 };
+
+// The stage in this arithmetic.
+std::shared_ptr<const ElementaryTest> make_elementary_test(Arithmetic arithmetic);
 
 }  // namespace assay::detector

@@ -1,18 +1,13 @@
-// Error bound, u = 2^-53, M_k the largest |coordinate k| of the three differences: as for one
-// coefficient of the coplanarity cubic (contact_filter.cpp) without its middle terms: minors 8u,
-// each of three terms 8u + 2u + 2u = 12u, sums 10u: 46u MxMyMz.
 #include "detector/exact/orientation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "detector/bernstein/bernstein.h"
 #include "detector/exact/integer.h"
+#include "detector/exact/orientation_filter.h"
 
 namespace assay::detector {
 namespace {
-
-constexpr double orientation_error = 48 * 0x1p-53;
 
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
   const std::array<double, 12> values = {a[0], a[1], a[2], b[0], b[1], b[2],
@@ -30,7 +25,8 @@ int exact_orientation(const Point& a, const Point& b, const Point& c, const Poin
 }
 
 // Whether doubles prove both ends of the segment strictly on one side of the triangle's plane: two
-// orientations with the bound above, M_k the largest |coordinate k| of all four differences.
+// orientations with the bound of the filter, M_k the largest |coordinate k| of all four
+// differences.
 bool surely_on_one_side(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
   double u[4][3], magnitude[3] = {0, 0, 0};
   const std::array<const Point*, 4> points = {&face[1], &face[2], &e0, &e1};
@@ -48,33 +44,16 @@ bool surely_on_one_side(const Point& e0, const Point& e1, const std::array<Point
                        u[0][0] * u[1][1] - u[0][1] * u[1][0]};
   const double side0 = u[2][0] * n[0] + u[2][1] * n[1] + u[2][2] * n[2];
   const double side1 = u[3][0] * n[0] + u[3][1] * n[1] + u[3][2] * n[2];
-  const double bound = orientation_error * (magnitude[0] * magnitude[1] * magnitude[2]);
+  const double bound =
+      orientation_error<ProvedBounds> * (magnitude[0] * magnitude[1] * magnitude[2]);
   return (side0 > bound && side1 > bound) || (side0 < -bound && side1 < -bound);
 }
 
 }  // namespace
 
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const std::array<const Point*, 3> ends = {&b, &c, &d};
-  double u[3][3], magnitude[3] = {0, 0, 0};
-  for (std::size_t j = 0; j < 3; ++j) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      u[j][k] = (*ends[j])[k] - a[k];
-      magnitude[k] = std::max(magnitude[k], std::abs(u[j][k]));
-    }
-  }
-  const bool in_range = std::all_of(magnitude, magnitude + 3, [](double m) {
-    return m > least_magnitude && m < greatest_magnitude;
-  });
-  if (in_range) {
-    const double det = u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) +
-                       u[0][1] * (u[1][2] * u[2][0] - u[1][0] * u[2][2]) +
-                       u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
-    const double bound = orientation_error * (magnitude[0] * magnitude[1] * magnitude[2]);
-    if (det > bound) return 1;
-    if (det < -bound) return -1;
-  }
-  return exact_orientation(a, b, c, d);
+  const int sign = filtered_orientation<ProvedBounds>(a, b, c, d);
+  return sign != 0 ? sign : exact_orientation(a, b, c, d);
 }
 
 bool segment_pierces_triangle(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {

@@ -24,9 +24,11 @@ struct EdgeEdge {
 // Whether a caller wants the first contact time or only the answer.
 enum class Want { yes_no, first_time };
 
-// A time in [0,1]: lo == hi when it is a double, otherwise lo and hi are the adjacent doubles with
-// lo < time < hi. The enclosure of a time is unique, so two exact methods must agree in every bit,
-// and the enclosure of the lesser of two times is the lesser enclosure.
+// A time in [0,1]. In exact arithmetic (the oracle, the detector's `exact`) lo == hi when it is a
+// double, otherwise lo and hi are the adjacent doubles with lo < time < hi. This enclosure of a
+// time is unique, so two exact methods must agree in every bit, and the enclosure of the lesser of
+// two times is the lesser enclosure. In bounded arithmetic lo <= time <= hi; in plain doubles and
+// floats lo == hi, without promise.
 struct TimeEnclosure {
   double lo = 0, hi = 0;
   friend auto operator<=>(const TimeEnclosure&, const TimeEnclosure&) = default;

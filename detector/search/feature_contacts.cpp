@@ -73,11 +73,11 @@ void FeatureContacts::test(FeatureKey key) {
   const auto& face = mesh_.triangles[at(second)];
   if (kind_of(key) == FeatureKind::piercing) {
     const auto& e = mesh_.edges[at(first)];
-    if (!elementary_.pierces(
-            point_of(x_t0_, e[0]), point_of(x_t0_, e[1]),
-            {point_of(x_t0_, face[0]), point_of(x_t0_, face[1]), point_of(x_t0_, face[2])})) {
-      return;
-    }
+    const Point e0 = point_of(x_t0_, e[0]), e1 = point_of(x_t0_, e[1]);
+    const std::array<Point, 3> corners = {point_of(x_t0_, face[0]), point_of(x_t0_, face[1]),
+                                          point_of(x_t0_, face[2])};
+    if (!elementary_.pierces(e0, e1, corners)) return;
+    contact.time = elementary_.piercing_time(e0, e1, corners);
     contact.feature = {FeatureKind::piercing, {e[0], e[1], face[0], face[1], face[2]}};
     for (const auto t : mesh_.edge_triangles.row(first)) {
       contact.pairs.push_back({std::min(t, second), std::max(t, second)});

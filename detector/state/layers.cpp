@@ -32,6 +32,26 @@ std::vector<std::int32_t> grow_piece(const Surface& surface, std::int32_t seed,
   return piece;
 }
 
+// The winding number outside of the piece's triangles, which have it in common. Nothing when it is
+// not known: the piece stays dirty.
+std::optional<int> winding_outside(const Topology& all, std::span<const std::int32_t> cycle,
+                                   const PositionsView& x, const std::vector<std::int32_t>& piece,
+                                   Arithmetic arithmetic) {
+  if (arithmetic == Arithmetic::exact) {
+    const auto with_area = std::find_if(piece.begin(), piece.end(),
+                                        [&](std::int32_t t) { return !has_zero_area(all, x, t); });
+    if (with_area == piece.end()) return std::nullopt;
+    return winding_number_outside(all, cycle, x, *with_area);
+  }
+  int attempts = 4;  // doubles may fail at one triangle and not at the next
+  for (const auto t : piece) {
+    if (has_equal_corners(all, x, t)) continue;
+    if (const auto outside = winding_number_outside(all, cycle, x, t, arithmetic)) return outside;
+    if (--attempts == 0) break;
+  }
+  return std::nullopt;
+}
+
 struct LayerClass {
   std::vector<std::int32_t> triangles;
   std::int32_t lowest = 0;
@@ -41,7 +61,7 @@ struct LayerClass {
 
 void mark_clean_by_layers(const Surface& surface, std::size_t c, const PositionsView& x,
                           const std::vector<std::uint8_t>& touched, std::vector<std::uint8_t>& seen,
-                          std::vector<std::uint8_t>& clean) {
+                          std::vector<std::uint8_t>& clean, Arithmetic arithmetic) {
   const Topology& all = surface.all();
   const auto& own = surface.mesh.components[c].triangles;
   const auto& cycle = all.components[c].triangles;
@@ -50,11 +70,8 @@ void mark_clean_by_layers(const Surface& surface, std::size_t c, const Positions
   for (const auto seed : own) {
     if (touched[at(seed)] || seen[at(seed)]) continue;
     const auto piece = grow_piece(surface, seed, touched, seen);
-    const auto with_area = std::find_if(piece.begin(), piece.end(),
-                                        [&](std::int32_t t) { return !has_zero_area(all, x, t); });
-    if (with_area == piece.end()) continue;  // stays dirty
-    const auto outside = winding_number_outside(all, cycle, x, *with_area);
-    if (!outside) continue;
+    const auto outside = winding_outside(all, cycle, x, piece, arithmetic);
+    if (!outside) continue;  // stays dirty
     auto [entry, is_new] = by_layer.try_emplace(*outside);
     // Seeds ascend, so the first piece of a layer holds its lowest triangle.
     if (is_new) entry->second.lowest = piece.front();

@@ -54,15 +54,17 @@ bool ReleaseRule::is_free(StepWork& work, std::size_t c) const {
   const std::array<Point, 2> start = {primitive.q0.t0, primitive.q1.t0};
   if (work.known && work.known->inside[c] == start) return true;
   ++work.counts.winding_numbers;
-  return winding_number(work.surface.all(), triangles, work.x_t0, primitive.q0.t0) == 1;
+  return winding_number(work.surface.all(), triangles, work.x_t0, primitive.q0.t0, arithmetic_) ==
+         1;
 }
 
 bool ReleaseRule::released_at_start(const StepWork& work, std::size_t c) const {
   const Component& component = work.component(c);
   const ViewPrimitive& primitive = work.primitives[c];
-  return all_positive_at(work.surface.all(), component, work.x_t0, primitive.q0.t0,
-                         primitive.q1.t0) &&
-         winding_number(work.surface.all(), component.triangles, work.x_t0, primitive.q0.t0) == 1;
+  return all_positive_at(work.surface.all(), component, work.x_t0, primitive.q0.t0, primitive.q1.t0,
+                         arithmetic_) &&
+         winding_number(work.surface.all(), component.triangles, work.x_t0, primitive.q0.t0,
+                        arithmetic_) == 1;
 }
 
 bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& components) const {
@@ -77,7 +79,7 @@ bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& 
   std::vector<std::uint8_t> seen(work.surface.all().triangles.size(), 0);
   for (const auto c : components) {
     if (work.stop && work.stop()) return false;
-    mark_clean_by_layers(work.surface, at(c), work.x_t0, touched, seen, work.clean);
+    mark_clean_by_layers(work.surface, at(c), work.x_t0, touched, seen, work.clean, arithmetic_);
   }
   return true;
 }

@@ -7,6 +7,8 @@ namespace assay::detector {
 
 class ReleaseRule {
  public:
+  // bounded: what doubles cannot tell is not released.
+  explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact) : arithmetic_(arithmetic) {}
   virtual ~ReleaseRule() = default;
 
   // L8: whether the state of the last commit serves a step that starts at x_t0.
@@ -29,6 +31,9 @@ class ReleaseRule {
   // `complete`: all there are (else nothing is known after a collision).
   virtual void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
                       std::vector<std::uint8_t>& clean) const;
+
+ private:
+  Arithmetic arithmetic_;
 };
 
 }  // namespace assay::detector

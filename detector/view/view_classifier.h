@@ -7,6 +7,7 @@ namespace assay::detector {
 
 class ViewClassifier {
  public:
+  explicit ViewClassifier(Arithmetic arithmetic = Arithmetic::exact) : arithmetic_(arithmetic) {}
   virtual ~ViewClassifier() = default;
   // Signs of the triangles of a component of `surface`, ghosts too, over the step (L1, L2), written
   // to signs[triangle]. A triangle may be called zero at the cost of time; never wrongly positive
@@ -15,8 +16,12 @@ class ViewClassifier {
                         const PositionsView& x_t0, const PositionsView& x_t1,
                         const ViewPrimitive& primitive, std::vector<ViewSign>& signs,
                         ViewCounts& counts) const {
-    detector::classify(surface, component, x_t0, x_t1, primitive, signs, counts);
+    detector::classify(surface, component, x_t0, x_t1, primitive, signs, counts,
+                       best_instruction_set(), arithmetic_);
   }
+
+ private:
+  Arithmetic arithmetic_;
 };
 
 }  // namespace assay::detector

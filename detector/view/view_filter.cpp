@@ -24,52 +24,62 @@
 namespace assay::detector {
 namespace {
 
+template <class T>
 struct Range {
-  double lo, hi;
+  T lo, hi;
 };
 
-template <std::size_t n>
-Range range_of(const std::array<double, n>& b, double error) {
+template <class T, std::size_t n>
+Range<T> range_of(const std::array<T, n>& b, T error) {
   const auto [least, greatest] = std::minmax_element(b.begin(), b.end());
   return {*least - error, *greatest + error};
 }
 
-Range around(double value, double error) { return {value - error, value + error}; }
+template <class T>
+Range<T> around(T value, T error) {
+  return {value - error, value + error};
+}
 
 // Sign of (1-s) h0 + s h1 for all values in the ranges, 0 when it is not sure. The sums of ranges
 // above were rounded once more and these are rounded four times: `slack` covers that.
-int sure_value_sign(const Range& h0, const Range& h1, const Range& s) {
-  constexpr double slack = 16 * unit_roundoff;
-  const double margin = slack * (std::max(std::abs(h0.lo), std::abs(h0.hi)) +
-                                 std::max(std::abs(h1.lo), std::abs(h1.hi)));
-  const auto value = [](double a, double b, double s_) { return a + s_ * (b - a); };
+template <class Rounding, class T>
+int sure_value_sign(const Range<T>& h0, const Range<T>& h1, const Range<T>& s) {
+  constexpr T slack = 16 * Rounding::unit;
+  const T margin = slack * (std::max(std::abs(h0.lo), std::abs(h0.hi)) +
+                            std::max(std::abs(h1.lo), std::abs(h1.hi)));
+  const auto value = [](T a, T b, T s_) { return a + s_ * (b - a); };
   if (std::min(value(h0.lo, h1.lo, s.lo), value(h0.lo, h1.lo, s.hi)) > margin) return 1;
   if (std::max(value(h0.hi, h1.hi, s.lo), value(h0.hi, h1.hi, s.hi)) < -margin) return -1;
   return 0;
 }
 
-Range clamped_axial(const Range& along, const Range& length2) {
-  constexpr double slack = 8 * unit_roundoff;
+template <class Rounding, class T>
+Range<T> clamped_axial(const Range<T>& along, const Range<T>& length2) {
+  constexpr T slack = 8 * Rounding::unit;
   if (!(length2.lo > 0)) return {0, 1};
-  const double lo = along.lo > 0 ? along.lo / length2.hi * (1 - slack) : 0;
-  const double hi = along.hi > 0 ? along.hi / length2.lo * (1 + slack) : 0;
-  return {std::min(lo, 1.0), std::min(hi, 1.0)};
+  const T lo = along.lo > 0 ? along.lo / length2.hi * (1 - slack) : 0;
+  const T hi = along.hi > 0 ? along.hi / length2.lo * (1 + slack) : 0;
+  return {std::min(lo, T(1)), std::min(hi, T(1))};
 }
 
+template <class Rounding>
 class ViewFilter {
+  using Number = typename Rounding::Number;
+  using NumberRange = Range<Number>;
+
  public:
   ViewFilter(const MovingTriangle& triangle, const ViewPrimitive& primitive)
       : is_point_(primitive.is_point()) {
-    const MovingVector e1 = difference(triangle[1], triangle[0]);
-    const MovingVector e2 = difference(triangle[2], triangle[0]);
-    Vector edge = {0, 0, 0};
+    const auto e1 = difference<Number>(triangle[1], triangle[0]);
+    const auto e2 = difference<Number>(triangle[2], triangle[0]);
+    VectorOf<Number> edge = {0, 0, 0};
     grow(edge, e1);
     grow(edge, e2);
     normal_ = cross(e1, e2);
-    usable_ =
-        in_range(edge) && make_cubic(difference(triangle[0], primitive.q0), edge, h0_, scale0_);
+    usable_ = usable(edge) &&
+              make_cubic(difference<Number>(triangle[0], primitive.q0), edge, h0_, scale0_);
     if (is_point_ || !usable_) return;
-    usable_ = make_cubic(difference(triangle[0], primitive.q1), edge, h1_, scale1_) &&
+    usable_ = make_cubic(difference<Number>(triangle[0], primitive.q1), edge, h1_, scale1_) &&
               make_axial(triangle, primitive);
   }
 
@@ -83,16 +93,22 @@ class ViewFilter {
   }
 
  private:
+  static bool usable(const VectorOf<Number>& magnitude) {
+    if constexpr (Rounding::proved) return in_range(magnitude);
+    return true;
+  }
+
   struct Piece {
-    Cubic h0, h1;
-    std::array<Quadratic, 3> along;  // (p_i - q0).d
-    Quadratic length2;               // d.d
+    CubicOf<Number> h0, h1;
+    std::array<QuadraticOf<Number>, 3> along;  // (p_i - q0).d
+    QuadraticOf<Number> length2;               // d.d
   };
 
-  bool make_cubic(const MovingVector& w, const Vector& edge, Cubic& h, double& scale) {
-    Vector reach = {0, 0, 0};
+  bool make_cubic(const MovingVectorOf<Number>& w, const VectorOf<Number>& edge, CubicOf<Number>& h,
+                  Number& scale) {
+    VectorOf<Number> reach = {0, 0, 0};
     grow(reach, w);
-    if (!in_range(reach)) return false;
+    if (!usable(reach)) return false;
     h = triple_product(w, normal_);
     scale =
         reach[0] * edge[1] * edge[2] + reach[1] * edge[2] * edge[0] + reach[2] * edge[0] * edge[1];
@@ -100,18 +116,18 @@ class ViewFilter {
   }
 
   bool make_axial(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
-    const MovingVector d = difference(primitive.q1, primitive.q0);
-    Vector reach = {0, 0, 0}, line = {0, 0, 0};
+    const auto d = difference<Number>(primitive.q1, primitive.q0);
+    VectorOf<Number> reach = {0, 0, 0}, line = {0, 0, 0};
     grow(line, d);
     length2_ = dot(d, d);
     for (std::size_t i = 0; i < 3; ++i) {
-      const MovingVector w = difference(triangle[i], primitive.q0);
+      const auto w = difference<Number>(triangle[i], primitive.q0);
       grow(reach, w);
       along_[i] = dot(w, d);
     }
     along_scale_ = dot(reach, line);
     length2_scale_ = dot(line, line);
-    return in_range(reach) && in_range(line);
+    return usable(reach) && usable(line);
   }
 
   // Marks what is sure of the piece; true: two signs were seen, nothing more to learn.
@@ -134,16 +150,19 @@ class ViewFilter {
   }
 
   bool settle(const Piece& piece, int depth) {
-    const Range h0 = range_of(piece.h0, view_cubic_error(depth) * scale0_);
+    const NumberRange h0 = range_of(piece.h0, view_cubic_error<Rounding>(depth) * scale0_);
     if (is_point_) return note(h0.lo > 0 ? 1 : h0.hi < 0 ? -1 : 0);
-    const Range h1 = range_of(piece.h1, view_cubic_error(depth) * scale1_);
-    const int whole_line = sure_value_sign(h0, h1, {0, 1});
+    const NumberRange h1 = range_of(piece.h1, view_cubic_error<Rounding>(depth) * scale1_);
+    const int whole_line = sure_value_sign<Rounding, Number>(h0, h1, {0, 1});
     if (whole_line != 0) return note(whole_line);
-    const Range length2 = range_of(piece.length2, view_axial_error(depth) * length2_scale_);
+    const NumberRange length2 =
+        range_of(piece.length2, view_axial_error<Rounding>(depth) * length2_scale_);
     int common = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Range along = range_of(piece.along[i], view_axial_error(depth) * along_scale_);
-      const int sign = sure_value_sign(h0, h1, clamped_axial(along, length2));
+      const NumberRange along =
+          range_of(piece.along[i], view_axial_error<Rounding>(depth) * along_scale_);
+      const int sign = sure_value_sign<Rounding, Number>(
+          h0, h1, clamped_axial<Rounding, Number>(along, length2));
       if (sign == 0) return false;
       note(sign);
       if (i > 0 && sign != common) return true;
@@ -154,20 +173,21 @@ class ViewFilter {
 
   void note_end_values(const Piece& piece, int depth) {
     for (const bool at_end : {false, true}) {
-      const double error0 = view_cubic_error(depth) * scale0_;
-      const Range h0 = around(at_end ? piece.h0[3] : piece.h0[0], error0);
+      const Number error0 = view_cubic_error<Rounding>(depth) * scale0_;
+      const NumberRange h0 = around(at_end ? piece.h0[3] : piece.h0[0], error0);
       if (is_point_) {
         note(h0.lo > 0 ? 1 : h0.hi < 0 ? -1 : 0);
         continue;
       }
-      const Range h1 =
-          around(at_end ? piece.h1[3] : piece.h1[0], view_cubic_error(depth) * scale1_);
-      const double axial = view_axial_error(depth);
-      const Range length2 =
+      const NumberRange h1 =
+          around(at_end ? piece.h1[3] : piece.h1[0], view_cubic_error<Rounding>(depth) * scale1_);
+      const Number axial = view_axial_error<Rounding>(depth);
+      const NumberRange length2 =
           around(at_end ? piece.length2[2] : piece.length2[0], axial * length2_scale_);
       for (const auto& a : piece.along) {
-        const Range along = around(at_end ? a[2] : a[0], axial * along_scale_);
-        note(sure_value_sign(h0, h1, clamped_axial(along, length2)));
+        const NumberRange along = around(at_end ? a[2] : a[0], axial * along_scale_);
+        note(sure_value_sign<Rounding, Number>(h0, h1,
+                                               clamped_axial<Rounding, Number>(along, length2)));
       }
     }
   }
@@ -179,11 +199,11 @@ class ViewFilter {
   }
 
   bool is_point_, usable_ = false;
-  CrossQuadratic normal_{};
-  Cubic h0_{}, h1_{};
-  std::array<Quadratic, 3> along_{};
-  Quadratic length2_{};
-  double scale0_ = 0, scale1_ = 0, along_scale_ = 0, length2_scale_ = 0;
+  CrossQuadraticOf<Number> normal_{};
+  CubicOf<Number> h0_{}, h1_{};
+  std::array<QuadraticOf<Number>, 3> along_{};
+  QuadraticOf<Number> length2_{};
+  Number scale0_ = 0, scale1_ = 0, along_scale_ = 0, length2_scale_ = 0;
   bool seen_positive_ = false, seen_negative_ = false, open_ = false;
 };
 
@@ -191,7 +211,15 @@ class ViewFilter {
 
 std::optional<ViewSign> filter_view_sign(const MovingTriangle& triangle,
                                          const ViewPrimitive& primitive) {
-  return ViewFilter(triangle, primitive).run();
+  return ViewFilter<ProvedBounds>(triangle, primitive).run();
 }
+
+template <class Number>
+ViewSign plain_view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
+  return ViewFilter<NoBounds<Number>>(triangle, primitive).run().value_or(ViewSign::zero);
+}
+
+template ViewSign plain_view_sign<double>(const MovingTriangle&, const ViewPrimitive&);
+template ViewSign plain_view_sign<float>(const MovingTriangle&, const ViewPrimitive&);
 
 }  // namespace assay::detector

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "detector/bernstein/rounding.h"
 #include "detector/mesh/step_types.h"
 
 namespace assay::detector {
@@ -16,9 +17,20 @@ using MovingTriangle = std::array<MovingPoint, 3>;
 std::optional<ViewSign> filter_view_sign(const MovingTriangle& triangle,
                                          const ViewPrimitive& primitive);
 
+// The same with bounds 0, as computed in Number (double or float): no promise. What stays open is
+// zero.
+template <class Number>
+ViewSign plain_view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive);
+
 // Bounds derived in view_filter.cpp, in units of 2^-53 times the scale named there.
-constexpr double view_cubic_error(int depth) { return (24 + 6 * depth) * 0x1p-53; }
-constexpr double view_axial_error(int depth) { return (8 + 2 * depth) * 0x1p-53; }
+template <class Rounding = ProvedBounds>
+constexpr auto view_cubic_error(int depth) {
+  return static_cast<typename Rounding::Number>(24 + 6 * depth) * Rounding::unit;
+}
+template <class Rounding = ProvedBounds>
+constexpr auto view_axial_error(int depth) {
+  return static_cast<typename Rounding::Number>(8 + 2 * depth) * Rounding::unit;
+}
 inline constexpr int max_view_depth = 5;
 
 }  // namespace assay::detector

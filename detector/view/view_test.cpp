@@ -21,30 +21,37 @@ constexpr std::size_t block_size = 512;
 class Rungs {
  public:
   Rungs(const Topology& mesh, std::span<const std::int32_t> vertices, const PositionsView& x_t0,
-        const PositionsView& x_t1, const ViewPrimitive& primitive, InstructionSet set)
+        const PositionsView& x_t1, const ViewPrimitive& primitive, InstructionSet set,
+        Arithmetic arithmetic)
       : mesh_(mesh),
         x_t0_(x_t0),
         x_t1_(x_t1),
         primitive_(primitive),
+        arithmetic_(arithmetic),
         kernels_(lane_kernels(set)),
         is_point_(primitive.is_point()),
-        has_bounds_(make_lane_input(vertices, x_t0, x_t1, primitive, input_)) {
+        usable_(arithmetic != Arithmetic::single_precision &&
+                make_lane_input(vertices, x_t0, x_t1, primitive, input_)) {
     input_.corners = mesh.triangles.front().data();
+    if (arithmetic == Arithmetic::double_precision) {
+      input_.cubic_error = input_.value_error = input_.end_error = 0;
+      if (input_.length2_reciprocals[0] > 0) input_.axial_error = 0;
+    }
   }
 
   // At most block_size triangles.
   void run(std::span<const std::int32_t> block, std::vector<ViewSign>& signs) {
     std::span<const std::int32_t> left = block;
-    if (has_bounds_ && is_point_) {
+    if (usable_ && is_point_) {
       left = rung(kernels_.point, left, signs);
-    } else if (has_bounds_) {
+    } else if (usable_) {
       left = rung(kernels_.two_cubics, left, signs);
       left = rung(kernels_.middle_piece, left, signs);
     }
     counts_.lanes += block.size() - left.size();
     for (const auto t : left) {
       signs[static_cast<std::size_t>(t)] =
-          view_sign(moving_triangle(mesh_, t, x_t0_, x_t1_), primitive_, counts_);
+          view_sign(moving_triangle(mesh_, t, x_t0_, x_t1_), primitive_, counts_, arithmetic_);
     }
   }
 
@@ -70,9 +77,10 @@ class Rungs {
   const Topology& mesh_;
   const PositionsView &x_t0_, &x_t1_;
   const ViewPrimitive& primitive_;
+  Arithmetic arithmetic_;
   const LaneKernels& kernels_;
   LaneInput input_{};
-  bool is_point_, has_bounds_;
+  bool is_point_, usable_;
   std::array<std::int32_t, block_size> open_;
   ViewCounts counts_;
 };
@@ -80,10 +88,19 @@ class Rungs {
 }  // namespace
 
 ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive,
-                   ViewCounts& counts) {
+                   ViewCounts& counts, Arithmetic arithmetic) {
+  if (arithmetic == Arithmetic::double_precision || arithmetic == Arithmetic::single_precision) {
+    ++counts.filter;
+    return arithmetic == Arithmetic::double_precision ? plain_view_sign<double>(triangle, primitive)
+                                                      : plain_view_sign<float>(triangle, primitive);
+  }
   if (const auto sign = filter_view_sign(triangle, primitive)) {
     ++counts.filter;
     return *sign;
+  }
+  if (arithmetic == Arithmetic::bounded) {
+    ++counts.open;
+    return ViewSign::zero;
   }
   ++counts.exact;
   return exact_view_sign(triangle, primitive);
@@ -91,8 +108,9 @@ ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitiv
 
 void classify(const Topology& mesh, const Component& component, const PositionsView& x_t0,
               const PositionsView& x_t1, const ViewPrimitive& primitive,
-              std::vector<ViewSign>& signs, ViewCounts& counts, InstructionSet set) {
-  Rungs rungs(mesh, component.vertices, x_t0, x_t1, primitive, set);
+              std::vector<ViewSign>& signs, ViewCounts& counts, InstructionSet set,
+              Arithmetic arithmetic) {
+  Rungs rungs(mesh, component.vertices, x_t0, x_t1, primitive, set, arithmetic);
   const std::span<const std::int32_t> triangles = component.triangles;
   for (std::size_t begin = 0; begin < triangles.size(); begin += block_size) {
     rungs.run(triangles.subspan(begin, std::min(block_size, triangles.size() - begin)), signs);
@@ -101,9 +119,9 @@ void classify(const Topology& mesh, const Component& component, const PositionsV
 }
 
 bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,
-                     const Point& q0, const Point& q1) {
+                     const Point& q0, const Point& q1, Arithmetic arithmetic) {
   const ViewPrimitive still{{q0, q0}, {q1, q1}};
-  Rungs rungs(mesh, component.vertices, x, x, still, best_instruction_set());
+  Rungs rungs(mesh, component.vertices, x, x, still, best_instruction_set(), arithmetic);
   std::vector<ViewSign> signs(mesh.triangles.size());
   const std::span<const std::int32_t> triangles = component.triangles;
   for (std::size_t begin = 0; begin < triangles.size(); begin += block_size) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "detector/arithmetic.h"
 #include "detector/mesh/topology.h"
 #include "detector/view/view_filter.h"
 #include "detector/view/view_lanes.h"
@@ -12,29 +13,33 @@ namespace assay::detector {
 
 struct ViewCounts {
   std::uint64_t lanes = 0, filter = 0, exact = 0;  // triangles settled by each rung
+  std::uint64_t open = 0;                          // bounded arithmetic could not tell: zero
 
   ViewCounts& operator+=(const ViewCounts& other) {
     lanes += other.lanes;
     filter += other.filter;
     exact += other.exact;
+    open += other.open;
     return *this;
   }
 };
 
-// Exact sign over the step: the filter, then integers for what it leaves open.
+// Sign over the step: the filter, then, for what it leaves open, integers (exact) or zero (bounded:
+// never wrongly positive or negative). double, float: as computed, without promise.
 ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive,
-                   ViewCounts& counts);
+                   ViewCounts& counts, Arithmetic arithmetic = Arithmetic::exact);
 
-// Exact signs over the step of the component's triangles, written to signs[triangle]: lanes first,
-// then view_sign for what they leave open. Counts and signs do not depend on `set`.
+// Signs over the step of the component's triangles, written to signs[triangle]: lanes first (none
+// in float), then view_sign for what they leave open. Counts and signs do not depend on `set`.
 void classify(const Topology& mesh, const Component& component, const PositionsView& x_t0,
               const PositionsView& x_t1, const ViewPrimitive& primitive,
               std::vector<ViewSign>& signs, ViewCounts& counts,
-              InstructionSet set = best_instruction_set());
+              InstructionSet set = best_instruction_set(),
+              Arithmetic arithmetic = Arithmetic::exact);
 
 // Whether all triangles of the component are positive at one instant. Stops soon after the first
-// that is not.
+// that is not. Bounded arithmetic says so only where it is certain.
 bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,
-                     const Point& q0, const Point& q1);
+                     const Point& q0, const Point& q1, Arithmetic arithmetic = Arithmetic::exact);
 
 }  // namespace assay::detector

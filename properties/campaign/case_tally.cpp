@@ -56,7 +56,8 @@ CaseTally tally_case(const GeneratedCase& made, std::span<const Configuration> c
   bool counted_blocks = false;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].end != RunEnd::completed || !has_view_sets(configurations[i]) ||
-        configurations[i].options.pairs != detector::Pairs::all) {
+        configurations[i].options.pairs != detector::Pairs::all ||
+        configurations[i].options.arithmetic != detector::Arithmetic::exact) {
       continue;
     }
     if (!counted_blocks) count_blocks(runs[i], truth, tally.counts);

@@ -11,7 +11,7 @@ using detector::Pairs;
 using detector::Start;
 
 Claims DetectorUnderTest::claims_in(const Configuration& configuration) const {
-  return built_in ? claims_of(configuration.options.pairs) : claims;
+  return built_in ? claims_of(configuration.options) : claims;
 }
 
 DetectorUnderTest built_in_detector() {
@@ -24,6 +24,9 @@ DetectorUnderTest built_in_detector() {
   for (const auto culling : {Culling::view_point, Culling::view_line}) {
     detector.configurations.push_back(
         {fmt::format("{}/first", name_of(culling)), {culling, Start::verified, Pairs::first}});
+    detector.configurations.push_back(
+        {fmt::format("{}/bounded", name_of(culling)),
+         {culling, Start::verified, Pairs::all, detector::Arithmetic::bounded}});
   }
   return detector;
 }
@@ -87,7 +90,7 @@ Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement
   RunVerdict whole = judge_run(c, run, by_claims, claims, detector.contract, again);
   if (detector.built_in) {
     for (std::size_t s = 0; s < run.steps.size(); ++s) {
-      whole.steps.push_back(compare(run.steps[s], truth[s], configuration.options.pairs));
+      whole.steps.push_back(compare(run.steps[s], truth[s], configuration.options));
     }
   }
   Verdict verdict{whole.outcome, {}, whole.left_out_misses};

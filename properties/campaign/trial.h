@@ -15,14 +15,15 @@ namespace assay::properties {
 struct DetectorUnderTest {
   std::string name;
   bool built_in = true;
-  Claims claims;  // of a plug-in; the built-in claims by its configuration's `pairs`
+  Claims claims;  // of a plug-in; the built-in claims by its configuration's options
   Contract contract;
   std::vector<Configuration> configurations;
 
   Claims claims_in(const Configuration& configuration) const;
 };
 
-// Every culling built so far with pairs all, and the view cullings with pairs first.
+// Every culling built so far with pairs all, and the view cullings with pairs first and in bounded
+// arithmetic.
 DetectorUnderTest built_in_detector();
 
 // A defect, as far as it tells one defect from another.
@@ -47,7 +48,8 @@ struct Verdict {
 };
 
 // truth: of the same case, contracted (run_verdict.h). again: a second run, if there was one. The
-// built-in detector's times must be the oracle's in every bit; a plug-in is judged by its claims.
+// built-in detector's times in exact arithmetic must be the oracle's in every bit; a plug-in is
+// judged by its claims.
 Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
                     const CaseRun& run, const Configuration& configuration,
                     const DetectorUnderTest& detector, const CaseRun* again = nullptr);

@@ -61,7 +61,7 @@ std::optional<StepDefect> first_defect(const corpus::Case& c, const Fault& fault
 
 std::optional<StepDefect> first_defect_without(const corpus::Case& c, const Fault& fault,
                                                std::span<const oracle::StepJudgement> judgements) {
-  const auto right = detector::standard_stages(fault.options.culling);
+  const auto right = detector::standard_stages(fault.options);
   return first_defect(run_case(c, fault.options, right), judgements, fault.options.pairs);
 }
 

@@ -11,7 +11,7 @@ namespace assay::properties {
 // Replaces one stage of the standard ones: with<&Stages::classifier, SignAtStart>.
 template <auto stage, class Wrong>
 detector::Stages with(const detector::Options& options) {
-  detector::Stages stages = detector::standard_stages(options.culling);
+  detector::Stages stages = detector::standard_stages(options);
   stages.*stage = std::make_shared<Wrong>();
   return stages;
 }

@@ -20,7 +20,7 @@ using detector::Triangles;
 std::string create_wrong(const CaseFacts& facts, const Triangles& triangles, const Positions& x,
                          InputError wanted) {
   const auto made =
-      Detector::assemble(triangles, x, facts.options(), facts.stages_of()(facts.options().culling));
+      Detector::assemble(triangles, x, facts.options(), facts.stages_of()(facts.options()));
   if (!made && made.error().error == wanted) return {};
   return std::string("a mesh is not refused as ") + detector::name_of(wanted);
 }

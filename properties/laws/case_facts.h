@@ -19,7 +19,7 @@ namespace assay::properties {
 
 // How a law makes a detector of its own, to run a changed case; empty where results come from a
 // detector that cannot be made here (a plug-in): the laws that need it are then not met.
-using StagesOf = std::function<detector::Stages(detector::Culling)>;
+using StagesOf = std::function<detector::Stages(const detector::Options&)>;
 
 class CaseFacts {
  public:

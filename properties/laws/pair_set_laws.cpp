@@ -37,7 +37,7 @@ Observation closure_is_the_pair_set(CaseFacts& facts, std::size_t s) {
 template <Claim claim>
 Observation claim_holds(CaseFacts& facts, std::size_t s) {
   const auto& result = facts.result(s);
-  const Claims claims = claims_of(facts.options().pairs);
+  const Claims claims = claims_of(facts.options());
   if (!claims.has(claim) || !facts.is_trusted(s)) return not_met();
   if (claim == Claim::total) {
     return holds_if(result.answer == Answer::free || result.answer == Answer::collision,
@@ -49,7 +49,7 @@ Observation claim_holds(CaseFacts& facts, std::size_t s) {
   const bool about_contacts = claim != Claim::free_sound && claim != Claim::no_spurious;
   if (about_contacts && !contact) return not_met();
   if (claim == Claim::free_sound && result.answer != Answer::free && !contact) return not_met();
-  const auto diff = compare(result, judgement, facts.options().pairs);
+  const auto diff = compare(result, judgement, facts.options());
   const bool broken = std::count(diff.broken.begin(), diff.broken.end(), claim) != 0;
   return holds_if(!broken, "refuted");
 }

@@ -46,7 +46,7 @@ std::vector<detector::ViewPrimitive> given_view(const corpus::Case& c, std::size
 detector::Stages stages_of(const Configuration& configuration) {
   const Fault* fault = configuration.fault.empty() ? nullptr : find_fault(configuration.fault);
   return fault ? fault->stages(configuration.options)
-               : detector::standard_stages(configuration.options.culling);
+               : detector::standard_stages(configuration.options);
 }
 
 StepResult undecided() {

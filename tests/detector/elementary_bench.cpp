@@ -32,6 +32,36 @@ void run(benchmark::State& state, const std::vector<FourPoints>& all, Want want)
   benchmark::DoNotOptimize(contacts);
 }
 
+template <Arithmetic arithmetic>
+void run_in(benchmark::State& state, const std::vector<FourPoints>& all, Want want) {
+  std::size_t i = 0, contacts = 0;
+  for (auto _ : state) {
+    contacts += test_contact(all[i++ % all.size()], want, arithmetic).contact ? 1 : 0;
+  }
+  benchmark::DoNotOptimize(contacts);
+}
+
+void register_arithmetics() {
+  using Run = void (*)(benchmark::State&, const std::vector<FourPoints>&, Want);
+  const std::pair<const char*, Run> arithmetics[] = {
+      {"exact", run_in<Arithmetic::exact>},
+      {"bounded", run_in<Arithmetic::bounded>},
+      {"double", run_in<Arithmetic::double_precision>},
+      {"float", run_in<Arithmetic::single_precision>}};
+  for (const auto& [name, run_one] : arithmetics) {
+    const auto add = [&, run = run_one](const std::string& kind, double drop, double jitter,
+                                        Want want) {
+      benchmark::RegisterBenchmark(
+          (kind + "/" + name).c_str(),
+          [run, want, all = queries(drop, jitter)](auto& state) { run(state, all, want); });
+    };
+    add("passes_beside_or_through", 2, .4, Want::yes_no);
+    add("passes_through", 2, .1, Want::yes_no);
+    add("passes_through_with_time", 2, .1, Want::first_time);
+    add("touches_at_the_end", 1, 0, Want::yes_no);
+  }
+}
+
 BENCHMARK_CAPTURE(run, separated_by_axis, queries(.5, .1), Want::yes_no);
 BENCHMARK_CAPTURE(run, passes_through, queries(2, .1), Want::yes_no);
 BENCHMARK_CAPTURE(run, passes_through_with_time, queries(2, .1), Want::first_time);
@@ -40,4 +70,8 @@ BENCHMARK_CAPTURE(run, touches_at_the_end, queries(1, 0), Want::yes_no);
 }  // namespace
 }  // namespace assay::detector
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  assay::detector::register_arithmetics();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -87,7 +87,7 @@ TEST(PlantedFaults, OnlyTheNamedStageIsReplaced) {
   for (const auto& fault : faults()) {
     SCOPED_TRACE(fault.name);
     const detector::Stages wrong = fault.stages(fault.options);
-    const detector::Stages right = detector::standard_stages(fault.options.culling);
+    const detector::Stages right = detector::standard_stages(fault.options);
     std::map<std::string_view, bool> replaced = {
         {"classifier", typeid(*wrong.classifier) != typeid(*right.classifier)},
         {"boundary", typeid(*wrong.boundary) != typeid(*right.boundary)},

@@ -55,14 +55,26 @@ oracle::StepJudgement truth(std::vector<PairContact> pairs) {
 using List = std::vector<Claim>;
 
 StepDiff judged(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                Claims claims = claims_of(detector::Pairs::all), Contract contract = {}) {
+                Claims claims = claims_of({}), Contract contract = {}) {
   return compare(result, judgement, claims, contract, mesh());
 }
 
 TEST(Claims, TheBuiltInClaimsAllButAllPairsWhenItIsAskedForTheFirst) {
-  EXPECT_EQ(list_of(claims_of(detector::Pairs::all)), all_claims());
-  const auto first = claims_of(detector::Pairs::first);
+  EXPECT_EQ(list_of(claims_of({})), all_claims());
+  const auto first = claims_of({.pairs = detector::Pairs::first});
   for (const auto claim : all_claims()) EXPECT_EQ(first.has(claim), claim != Claim::all_pairs);
+}
+
+TEST(Claims, FollowTheArithmetic) {
+  using detector::Arithmetic;
+  auto bounded = claims_of({.arithmetic = Arithmetic::bounded});
+  EXPECT_FALSE(bounded.no_spurious);
+  bounded.no_spurious = true;
+  EXPECT_EQ(bounded, claims_of({}));
+  for (const auto plain : {Arithmetic::double_precision, Arithmetic::single_precision}) {
+    const std::vector<Claim> few = {Claim::deterministic, Claim::total};
+    EXPECT_EQ(list_of(claims_of({.arithmetic = plain})), few);
+  }
 }
 
 TEST(Claims, FreeAgainstAContactIsUnsoundAndLosesItsPairs) {
@@ -80,8 +92,7 @@ TEST(Claims, CollisionAgainstNoneIsSpurious) {
   const Claims others = {.free_sound = true, .not_late = true, .first_time = true};
   EXPECT_EQ(judged(alarm, truth({})).outcome, Outcome::defect);
   EXPECT_EQ(judged(alarm, truth({}), others).outcome, Outcome::holds);
-  const auto with_margin =
-      judged(alarm, truth({}), claims_of(detector::Pairs::all), {.margin = .1});
+  const auto with_margin = judged(alarm, truth({}), claims_of({}), {.margin = .1});
   EXPECT_EQ(with_margin.outcome, Outcome::holds);
 }
 
@@ -121,13 +132,13 @@ TEST(Claims, L6_MissingPairsAreExcusedWhereAllPairsIsNotClaimed) {
   const auto step =
       truth({contact(0, 3, .5), contact(1, 2, .5), contact(2, 4, .75), contact(3, 4, .5)});
   const auto both_parts = collision({.5, .5}, {contact(1, 2, .5), contact(3, 4, .5)});
-  const auto first = judged(both_parts, step, claims_of(detector::Pairs::first));
+  const auto first = judged(both_parts, step, claims_of({.pairs = detector::Pairs::first}));
   EXPECT_EQ(first.outcome, Outcome::holds);
   EXPECT_EQ(first.excused.size(), 2u);
   EXPECT_EQ(judged(both_parts, step).broken, List{Claim::all_pairs});
 
   const auto one_part = collision({.5, .5}, {contact(3, 4, .5)});
-  const auto lost = judged(one_part, step, claims_of(detector::Pairs::first));
+  const auto lost = judged(one_part, step, claims_of({.pairs = detector::Pairs::first}));
   EXPECT_EQ(lost.broken, List{Claim::first_pairs});
   ASSERT_EQ(lost.missing.size(), 1u);
   EXPECT_EQ(lost.missing[0].pair, (detector::TrianglePair{1, 2}));
@@ -138,7 +149,7 @@ TEST(Claims, L6_MissingPairsAreExcusedWhereAllPairsIsNotClaimed) {
 TEST(Claims, TheContractIsTakenFromTheOraclesSide) {
   // Sharing an edge at 0.25, a vertex at 0.5, nothing at 0.75.
   const auto step = truth({contact(0, 1, .25), contact(0, 2, .5), contact(3, 4, .75)});
-  const Claims all = claims_of(detector::Pairs::all);
+  const Claims all = claims_of({});
   const Contract no_edges = {.adjacency = Adjacency::not_edge_sharing};
   const Contract no_neighbours = {.adjacency = Adjacency::no_shared_vertex};
 

@@ -49,7 +49,7 @@ class JudgedCase {
         setting_(std::move(setting)),
         detector_(detector::Detector::assemble(source.triangles, source.frames.front(),
                                                setting_.options,
-                                               setting_.stages_of(setting_.options.culling))
+                                               setting_.stages_of(setting_.options))
                       .value()) {
     const auto script = corpus::steps_of(source);
     for (std::size_t s = 0; s < script.size(); ++s) {

@@ -92,8 +92,8 @@ class BlindInTheEnd : public detector::ElementaryTest {
 };
 
 template <class Elementary>
-detector::Stages with_fault(detector::Culling culling) {
-  auto stages = detector::standard_stages(culling);
+detector::Stages with_fault(const detector::Options& options) {
+  auto stages = detector::standard_stages(options);
   stages.elementary = std::make_shared<Elementary>();
   return stages;
 }

@@ -99,7 +99,7 @@ PinnedPlayer::PinnedPlayer(const PinnedRun& run, std::shared_ptr<PinnedBoundary>
 std::optional<PinnedPlayer> PinnedPlayer::make(const PinnedRun& run,
                                                const detector::Options& options,
                                                const StagesOf& stages_of) {
-  auto stages = stages_of(options.culling);
+  auto stages = stages_of(options);
   const auto boundary = std::make_shared<PinnedBoundary>(stages.boundary);
   stages.boundary = boundary;
   auto made =

@@ -35,6 +35,7 @@ bool same_counts(const detector::StepCounts& a, const detector::StepCounts& b) {
                       c.narrow.rungs.axis,
                       c.narrow.rungs.filter,
                       c.narrow.rungs.exact,
+                      c.narrow.rungs.open,
                       c.view.lanes,
                       c.view.filter,
                       c.view.exact,

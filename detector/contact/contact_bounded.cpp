@@ -1,0 +1,48 @@
+#include "detector/contact/contact_bounded.h"
+
+#include "detector/contact/contact_pieces.h"
+#include "detector/contact/first_root.h"
+
+namespace assay::detector {
+namespace {
+
+// Pieces are halved this far, as long as the number of halvings allows: until the first that stays
+// open, which decides; after it only to find where a contact is certain.
+constexpr int max_depth = 20, max_depth_after_open = 6, max_halvings = 64;
+
+struct BoundedSearch {
+  using Piece = ContactPiece<double>;
+
+  bool may_halve(int depth) {
+    return depth < (result.contact ? max_depth_after_open : max_depth) && halvings++ < max_halvings;
+  }
+
+  bool open(const Piece& piece) {
+    if (!result.contact) result = {true, {piece.lo, 1}, ContactRung::open};
+    return want == Want::yes_no;
+  }
+
+  void contact(const Piece& piece, double f_bound, int) {
+    if (want == Want::first_time) {
+      const TimeEnclosure root = enclose_first_root(piece.f, f_bound, piece.lo, piece.hi);
+      if (!result.contact) result.time.lo = root.lo;
+      result.time.hi = root.hi;
+    }
+    result.contact = true;
+    result.rung = ContactRung::filter;
+  }
+
+  Want want;
+  int halvings = 0;
+  ContactResult result{false, {}, ContactRung::filter};
+};
+
+}  // namespace
+
+ContactResult bounded_contact(const FourPoints& query, Want want) {
+  BoundedSearch search{want};
+  ContactPieces<ProvedBounds, BoundedSearch>(query, search).run();
+  return search.result;
+}
+
+}  // namespace assay::detector

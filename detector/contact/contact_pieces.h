@@ -1,0 +1,192 @@
+// Four moving points over pieces of [0,1], in time order: the ladder of the elementary test below
+// its integers, written once for every arithmetic.
+//
+// Notation: u_j = x_j - x_0 for j = 1..3, moving linearly from a_j (t=0) to c_j (t=1).
+//   F = u_1 . (u_2 x u_3), a cubic: the four points are coplanar where it vanishes.
+//   lam_1 = u_2 x u_3, lam_2 = u_3 x u_1, lam_3 = u_1 x u_2, lam_0 = -(lam_1 + lam_2 + lam_3);
+//   component k of these is an affine dependency of the points projected along axis k.
+//   L_i = lam_i for points of the first group, -lam_i for those of the second.
+// At a root of F: one L_k,i > 0 and another < 0 for some axis k -> no contact; all of one sign, not
+// all zero, for some axis -> contact.
+//
+// Error bounds (bernstein.h has the steps), all M alike, u = 2^-53:
+//   lam_1..3    10u M M (cross)
+//   lam_0       three of those: 30u, sums at most 4 and 6 M M rounded: 10u; 40u M M
+//   F           22u S with S = 3 MxMyMz: 66u MxMyMz
+//   halving     coefficients of F are at most 6 MxMyMz, those of lam_0 6 M M: 18u and 12u a level
+#pragma once
+
+#include "detector/bernstein/bernstein.h"
+#include "detector/contact/four_points.h"
+
+namespace assay::detector {
+
+// M_k = largest |coordinate k of x_j(0) - x_0(0), x_j(1) - x_0(1)|. After `depth` halvings a
+// computed coefficient of the cubic is off by less than cubic_error(depth) * MxMyMz, one of a
+// dependency by less than quadratic_error(depth) * MpMq.
+template <class Rounding = ProvedBounds>
+constexpr auto cubic_error(int depth) {
+  return static_cast<typename Rounding::Number>(67 + 18 * depth) * Rounding::unit;
+}
+template <class Rounding = ProvedBounds>
+constexpr auto quadratic_error(int depth) {
+  return static_cast<typename Rounding::Number>(41 + 12 * depth) * Rounding::unit;
+}
+
+template <class Number>
+struct ContactPiece {
+  CubicOf<Number> f;
+  // L_k,i of the notation, by axis k and point i.
+  std::array<std::array<QuadraticOf<Number>, 4>, 3> dependencies;
+  Number lo, hi;  // dyadic: exact
+};
+
+// `Search` says what to do where the signs tell:
+//   bool may_halve(int depth)             whether a piece of that depth that is not settled is
+//   split bool open(const Piece&)               such a piece that is not: true ends the search void
+//   contact(const Piece&, Number f_bound, int f_lo)
+//                                         F changes sign over the piece, from f_lo, by coefficients
+//                                         off by at most f_bound; a contact at each of its roots
+// Pieces without contact are passed over. After contact() the search ends.
+template <class Rounding, class Search>
+class ContactPieces {
+ public:
+  using Number = typename Rounding::Number;
+  using Piece = ContactPiece<Number>;
+
+  ContactPieces(const FourPoints& query, Search& search) : query_(query), search_(search) {
+    make_differences();
+  }
+
+  void run() {
+    const auto n = cross(u_[1], u_[2]);
+    Piece whole;
+    whole.f = triple_product(u_[0], n);
+    f_scale_ = magnitude_[0] * magnitude_[1] * magnitude_[2];
+    if (sure_sign(whole.f, cubic_error<Rounding>(0) * f_scale_) != 0) return;
+    make_dependencies(n, whole);
+    whole.lo = 0;
+    whole.hi = 1;
+    visit(whole, 0);
+  }
+
+ private:
+  void make_differences() {
+    for (std::size_t j = 0; j < 3; ++j) {
+      u_[j] = difference<Number>(query_.points[j + 1], query_.points[0]);
+      grow(magnitude_, u_[j]);
+    }
+    if constexpr (Rounding::proved) {
+      if (!in_range(magnitude_)) bring_into_range();
+    }
+  }
+
+  // Multiplies each axis by a power of two that makes 1 <= M_k < 2: an affine map, so that contacts
+  // and their times are the same. What underflows is off by less than 2^-1074, far below the slack
+  // of u MxMyMz in the bounds. Where a difference overflows, those of halved coordinates serve.
+  [[gnu::noinline]] void bring_into_range() {
+    const bool overflows = !std::all_of(magnitude_.begin(), magnitude_.end(),
+                                        [](Number m) { return std::isfinite(m); });
+    if (overflows) {
+      magnitude_ = {};
+      for (std::size_t j = 0; j < 3; ++j) {
+        u_[j] = difference<Number>(half(query_.points[j + 1]), half(query_.points[0]));
+        grow(magnitude_, u_[j]);
+      }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (magnitude_[k] == 0) continue;
+      const int exponent = std::ilogb(magnitude_[k]);
+      for (auto& u : u_) {
+        u.t0[k] = std::scalbn(u.t0[k], -exponent);
+        u.t1[k] = std::scalbn(u.t1[k], -exponent);
+      }
+      magnitude_[k] = std::scalbn(magnitude_[k], -exponent);
+    }
+  }
+
+  static MovingPoint half(MovingPoint p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      p.t0[k] /= 2;
+      p.t1[k] /= 2;
+    }
+    return p;
+  }
+
+  void make_dependencies(const CrossQuadraticOf<Number>& n23, Piece& piece) {
+    const std::array<CrossQuadraticOf<Number>, 3> lam = {n23, cross(u_[2], u_[0]),
+                                                         cross(u_[0], u_[1])};
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto& l = piece.dependencies[k];
+      for (std::size_t i = 0; i < 3; ++i) l[i + 1] = {lam[i].b0[k], lam[i].b1[k], lam[i].b2[k]};
+      for (std::size_t c = 0; c < 3; ++c) l[0][c] = -(l[1][c] + l[2][c] + l[3][c]);
+      for (int i = query_.first_group; i < 4; ++i) {
+        for (Number& c : l[static_cast<std::size_t>(i)]) c = -c;
+      }
+      scale_[k] = magnitude_[(k + 1) % 3] * magnitude_[(k + 2) % 3];
+    }
+  }
+
+  // True: stop.
+  bool visit(const Piece& piece, int depth) {
+    const Number f_bound = cubic_error<Rounding>(depth) * f_scale_;
+    if (sure_sign(piece.f, f_bound) != 0) return false;
+    const int f_lo = sign_beyond(piece.f[0], f_bound), f_hi = sign_beyond(piece.f[3], f_bound);
+    const bool f_changes_sign = f_lo * f_hi < 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Number bound = quadratic_error<Rounding>(depth) * scale_[k];
+      bool positive = false, negative = false, open = false;
+      for (const auto& l : piece.dependencies[k]) {
+        const int sign = sure_sign(l, bound);
+        positive |= sign > 0;
+        negative |= sign < 0;
+        open |= sign == 0;
+      }
+      if (positive && negative) return false;
+      if (!open && f_changes_sign) {
+        search_.contact(piece, f_bound, f_lo);
+        return true;
+      }
+    }
+    if (!search_.may_halve(depth)) return search_.open(piece);
+    Piece left, right;
+    halve(piece.f, left.f, right.f);
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        halve(piece.dependencies[k][i], left.dependencies[k][i], right.dependencies[k][i]);
+      }
+    }
+    left.lo = piece.lo;
+    right.hi = piece.hi;
+    left.hi = right.lo = (piece.lo + piece.hi) / 2;
+    return visit(left, depth + 1) || visit(right, depth + 1);
+  }
+
+  const FourPoints& query_;
+  Search& search_;
+  std::array<MovingVectorOf<Number>, 3> u_;
+  VectorOf<Number> magnitude_ = {0, 0, 0};
+  VectorOf<Number> scale_ = {0, 0, 0};
+  Number f_scale_ = 0;
+};
+
+// A root of the cubic, whose ends differ in sign, in [0,1]: Newton steps, halvings where they leave
+// the bracket. No promise of how near.
+template <class Number>
+Number guess_root(const CubicOf<Number>& b) {
+  const Number c1 = 3 * (b[1] - b[0]), c2 = 3 * (b[2] - 2 * b[1] + b[0]);
+  const Number c3 = b[3] - 3 * b[2] + 3 * b[1] - b[0];
+  Number lo = 0, hi = 1, s = Number(0.5);
+  constexpr int max_steps = 60;
+  for (int i = 0; i < max_steps; ++i) {
+    const Number value = ((c3 * s + c2) * s + c1) * s + b[0];
+    ((value > 0) == (b[0] > 0) ? lo : hi) = s;
+    const Number newton = s - value / ((3 * c3 * s + 2 * c2) * s + c1);
+    const Number next = newton > lo && newton < hi ? newton : (lo + hi) / 2;
+    if (next == s) break;
+    s = next;
+  }
+  return s;
+}
+
+}  // namespace assay::detector

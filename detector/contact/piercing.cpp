@@ -1,0 +1,87 @@
+// The segment pierces the triangle strictly when its ends lie strictly on opposite sides of the
+// plane and its line strictly inside the three edges (segment_pierces_triangle). Where the sides of
+// the plane cannot be told, as between coplanar triangles, a shadow settles it: what pierces meets
+// in the projection along every axis. There the two are apart when a line through an edge of the
+// triangle, or through the segment, has the one strictly on its one side and the other not there.
+//
+// Error bound of a side in the projection along axis k, p and q the other two axes, M the largest
+// |difference|: (b-a) x (c-a) is one minor of differences: 8u Mp Mq (bernstein.h).
+#include "detector/contact/piercing.h"
+
+#include "detector/exact/orientation_filter.h"
+
+namespace assay::detector {
+namespace {
+
+constexpr double side_error = 9 * unit_roundoff;
+
+// The sign of (b-a) x (c-a) in the projection along `axis`, 0 when it is not sure.
+int sure_side(const Point& a, const Point& b, const Point& c, std::size_t axis) {
+  const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
+  const double bp = b[p] - a[p], bq = b[q] - a[q], cp = c[p] - a[p], cq = c[q] - a[q];
+  const double mp = std::max(std::abs(bp), std::abs(cp)), mq = std::max(std::abs(bq), std::abs(cq));
+  if (!(mp > least_magnitude && mp < greatest_magnitude) ||
+      !(mq > least_magnitude && mq < greatest_magnitude)) {
+    return 0;
+  }
+  return sign_beyond(bp * cq - bq * cp, side_error * mp * mq);
+}
+
+bool surely_apart(const Point& e0, const Point& e1, const std::array<Point, 3>& face,
+                  std::size_t axis) {
+  const auto &a = face[0], &b = face[1], &c = face[2];
+  const int of_segment = sure_side(e0, e1, a, axis);
+  if (of_segment != 0 && sure_side(e0, e1, b, axis) == of_segment &&
+      sure_side(e0, e1, c, axis) == of_segment) {
+    return true;
+  }
+  const int inside = sure_side(a, b, c, axis);
+  if (inside == 0) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto &u = face[i], &v = face[(i + 1) % 3];
+    if (sure_side(u, v, e0, axis) == -inside && sure_side(u, v, e1, axis) == -inside) return true;
+  }
+  return false;
+}
+
+// Signs of the two sides of the plane and of the three turns around the segment.
+template <class Rounding>
+struct PiercingSigns {
+  PiercingSigns(const Point& e0, const Point& e1, const std::array<Point, 3>& face)
+      : side0(filtered_orientation<Rounding>(face[0], face[1], face[2], e0)),
+        side1(filtered_orientation<Rounding>(face[0], face[1], face[2], e1)),
+        turns{filtered_orientation<Rounding>(e0, e1, face[0], face[1]),
+              filtered_orientation<Rounding>(e0, e1, face[1], face[2]),
+              filtered_orientation<Rounding>(e0, e1, face[2], face[0])} {}
+
+  bool pierces() const {
+    return side0 * side1 < 0 && turns[0] != 0 && turns[0] == turns[1] && turns[1] == turns[2];
+  }
+
+  int side0, side1;
+  std::array<int, 3> turns;
+};
+
+}  // namespace
+
+Piercing bounded_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
+  const PiercingSigns<ProvedBounds> signs(e0, e1, face);
+  if (signs.pierces()) return Piercing::yes;
+  if (signs.side0 * signs.side1 > 0) return Piercing::no;
+  const auto [least, greatest] = std::minmax_element(signs.turns.begin(), signs.turns.end());
+  if (*least < 0 && *greatest > 0) return Piercing::no;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (surely_apart(e0, e1, face, axis)) return Piercing::no;
+  }
+  return Piercing::open;
+}
+
+template <class Number>
+bool plain_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
+  return PiercingSigns<NoBounds<Number>>(e0, e1, face).pierces();
+}
+
+template bool plain_piercing<double>(const Point&, const Point&, const std::array<Point, 3>&);
+template bool plain_piercing<float>(const Point&, const Point&, const std::array<Point, 3>&);
+
+}  // namespace assay::detector

@@ -1,0 +1,43 @@
+// Sign of a 3x3 determinant of coordinate differences in double or float, by the policy's bounds.
+//
+// Error bound, u = 2^-53, M_k the largest |coordinate k| of the three differences: as for one
+// coefficient of the coplanarity cubic (contact_pieces.h) without its middle terms: minors 8u,
+// each of three terms 8u + 2u + 2u = 12u, sums 10u: 46u MxMyMz.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "detector/bernstein/bernstein.h"
+
+namespace assay::detector {
+
+template <class Rounding>
+inline constexpr typename Rounding::Number orientation_error = 48 * Rounding::unit;
+
+// Sign of det(b-a, c-a, d-a); with proved bounds 0 means zero or not known.
+template <class Rounding>
+int filtered_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  using Number = typename Rounding::Number;
+  const std::array<const Point*, 3> ends = {&b, &c, &d};
+  Number u[3][3], magnitude[3] = {0, 0, 0};
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      u[j][k] = static_cast<Number>((*ends[j])[k]) - static_cast<Number>(a[k]);
+      magnitude[k] = std::max(magnitude[k], std::abs(u[j][k]));
+    }
+  }
+  if constexpr (Rounding::proved) {
+    const bool in_range = std::all_of(magnitude, magnitude + 3, [](Number m) {
+      return m > least_magnitude && m < greatest_magnitude;
+    });
+    if (!in_range) return 0;
+  }
+  const Number det = u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) +
+                     u[0][1] * (u[1][2] * u[2][0] - u[1][0] * u[2][2]) +
+                     u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
+  return sign_beyond(det,
+                     orientation_error<Rounding> * (magnitude[0] * magnitude[1] * magnitude[2]));
+}
+
+}  // namespace assay::detector

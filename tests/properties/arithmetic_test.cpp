@@ -1,0 +1,179 @@
+// Bounded arithmetic against the oracle: it never misses, is never late, and its intervals hold the
+// time; its false alarms are counted. Double and float are counted too, and must be wrong
+// somewhere.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "corpus/query_csv.h"
+#include "detector/contact/elementary_test.h"
+#include "detector/detector.h"
+#include "properties/case_check.h"
+#include "properties/query_generators.h"
+#include "properties/small_steps.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Arithmetic;
+using detector::Culling;
+using detector::Want;
+
+struct Wrong {
+  std::uint64_t alarms = 0, misses = 0;
+  void add(bool contact, bool truth) {
+    alarms += contact && !truth ? 1 : 0;
+    misses += !contact && truth ? 1 : 0;
+  }
+};
+
+struct QueryScore {
+  std::uint64_t queries = 0, contacts = 0;
+  std::uint64_t certain = 0, narrow = 0;  // contacts, and those with intervals below 1e-9
+  Wrong bounded, doubles, floats;
+};
+
+void judge(const Query& query, QueryScore& score) {
+  const auto truth = ask_oracle(query, Want::first_time);
+  const auto contact = [&](Arithmetic arithmetic) {
+    return test_contact(query, Want::first_time, arithmetic);
+  };
+  const auto timed = contact(Arithmetic::bounded);
+  ASSERT_EQ(test_contact(query, Want::yes_no, Arithmetic::bounded).contact, timed.contact);
+  ++score.queries;
+  score.contacts += truth.contact ? 1 : 0;
+  score.bounded.add(timed.contact, truth.contact);
+  score.doubles.add(contact(Arithmetic::double_precision).contact, truth.contact);
+  score.floats.add(contact(Arithmetic::single_precision).contact, truth.contact);
+  if (timed.contact && timed.rung != detector::ContactRung::open) {
+    ASSERT_TRUE(truth.contact) << "said to be certain";
+    ++score.certain;
+    score.narrow += timed.time.hi - timed.time.lo < 1e-9 ? 1 : 0;
+  }
+  if (!truth.contact) return;
+  ASSERT_TRUE(timed.contact) << "missed";
+  ASSERT_LE(timed.time.lo, truth.first.lo) << "late";
+  ASSERT_GE(timed.time.hi, truth.first.hi) << "the interval ends before the contact";
+}
+
+unsigned long long number(std::uint64_t n) { return n; }
+
+void print(const char* name, const QueryScore& s) {
+  std::printf(
+      "%-13s %7llu queries, %6llu contacts; false alarms: bounded %llu, double %llu, float %llu; "
+      "misses: double %llu, float %llu; bounded: %llu certain, %llu of them within 1e-9\n",
+      name, number(s.queries), number(s.contacts), number(s.bounded.alarms),
+      number(s.doubles.alarms), number(s.floats.alarms), number(s.doubles.misses),
+      number(s.floats.misses), number(s.certain), number(s.narrow));
+}
+
+TEST(ArithmeticQueries, BoundedNeverMissesAndIsNeverLate) {
+  constexpr std::uint64_t seed = 20113, small_integers = 120'000;
+  std::uint64_t queries = 0;
+  Wrong doubles, floats;
+  for (const auto& family : query_generators()) {
+    QueryScore score;
+    for (std::uint64_t i = 0; i < small_integers / static_cast<std::uint64_t>(family.one_in); ++i) {
+      ASSERT_NO_FATAL_FAILURE(judge(family.make(seed, i).query, score))
+          << family.name << ", seed " << seed << ", query " << i;
+    }
+    print(family.name, score);
+    queries += score.queries;
+    doubles.alarms += score.doubles.alarms;
+    doubles.misses += score.doubles.misses;
+    floats.alarms += score.floats.alarms;
+    floats.misses += score.floats.misses;
+  }
+  EXPECT_GE(queries, 200'000u);
+  EXPECT_GT(doubles.misses, 0u);
+  EXPECT_GT(doubles.alarms, 0u);
+  EXPECT_GT(floats.misses, 0u);
+  EXPECT_GT(floats.alarms, doubles.alarms);
+}
+
+TEST(ArithmeticQueries, LabelledQueries) {
+  const char* folder = std::getenv("ASSAY_DATA");
+  if (!folder || !std::filesystem::is_directory(folder)) {
+    GTEST_SKIP() << "no public data: ASSAY_DATA is " << (folder ? folder : "not set");
+  }
+  QueryScore score;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(
+           std::filesystem::path(folder) / "sample-queries")) {
+    if (entry.path().extension() != ".csv") continue;
+    const auto queries = corpus::read_queries(entry.path());
+    ASSERT_TRUE(queries.has_value()) << queries.error().message;
+    for (const auto& q : queries.value()) {
+      const auto points =
+          std::visit([](const auto& x) { return detector::four_points(x); }, q.query);
+      ASSERT_NO_FATAL_FAILURE(judge(points, score)) << entry.path();
+    }
+  }
+  print("labelled", score);
+  EXPECT_EQ(score.queries, 2324u);
+}
+
+TEST(ArithmeticSteps, BoundedKeepsItsClaimsOnSmallSteps) {
+  constexpr std::uint64_t seed = 20114, steps = 4000;
+  std::uint64_t pairs = 0, spurious = 0, false_collisions = 0;
+  for (std::uint64_t i = 0; i < steps; ++i) {
+    const SmallStep step = make_small_step(seed, i);
+    const auto judgement = oracle::judge_step(step.x_t0, step.x_t1, step.triangles, {1, {}});
+    pairs += judgement.pairs.size();
+    for (const auto culling :
+         {Culling::view_point, Culling::view_line, Culling::bvh, Culling::none}) {
+      for (const auto wanted : {detector::Pairs::all, detector::Pairs::first}) {
+        const detector::Options options{culling, detector::Start::verified, wanted,
+                                        Arithmetic::bounded};
+        auto made = detector::Detector::create(step.triangles, step.x_t0, options);
+        std::vector<detector::ViewPrimitive> given;
+        if (i % 2 && culling == Culling::view_point) given.push_back(step.point);
+        if (i % 2 && culling == Culling::view_line) given.push_back(step.line);
+        const auto result = made.value().step(step.x_t0, step.x_t1, given);
+        const auto diff = compare(result, judgement, options);
+        ASSERT_EQ(diff.outcome, Outcome::holds)
+            << name_of(culling) << ", seed " << seed << ", step " << i << ": "
+            << diff.missing.size() << " missing, " << diff.late.size() << " late, first time ["
+            << result.first.lo << ", " << result.first.hi << "], oracle " << judgement.first.lo;
+        spurious += diff.spurious.size();
+        false_collisions += result.answer == detector::Answer::collision && judgement.pairs.empty();
+      }
+    }
+  }
+  std::printf(
+      "%llu steps with %llu pairs, each 8 times: %llu spurious pairs, %llu false collisions\n",
+      number(steps), number(pairs), number(spurious), number(false_collisions));
+}
+
+// Every curated case in every arithmetic: bounded is held to its claims and to the facts that they
+// cover, double and float to answering.
+TEST(ArithmeticSteps, CuratedCases) {
+  const auto files = corpus::case_files(std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated");
+  ASSERT_TRUE(files.has_value());
+  std::map<Arithmetic, int> wrong_steps;
+  for (const auto& file : files.value()) {
+    const auto c = corpus::read_case(file);
+    ASSERT_TRUE(c.has_value());
+    for (const auto culling : {Culling::view_point, Culling::view_line, Culling::bvh}) {
+      for (const auto arithmetic :
+           {Arithmetic::bounded, Arithmetic::double_precision, Arithmetic::single_precision}) {
+        const auto report = check_case(c.value(), culling, 1, arithmetic);
+        std::string lines;
+        for (const auto& line : report.failed) lines += line + "\n";
+        EXPECT_EQ(report.outcome, Outcome::holds) << file.stem() << ", " << name_of(culling) << ", "
+                                                  << name_of(arithmetic) << ": " << lines;
+        for (const auto& step : report.steps) {
+          wrong_steps[arithmetic] +=
+              step.diff.wrong_answer || !step.diff.missing.empty() || !step.diff.spurious.empty();
+        }
+      }
+    }
+  }
+  for (const auto& [arithmetic, steps] : wrong_steps) {
+    std::printf("%s: %d steps with a wrong answer or wrong pairs\n", name_of(arithmetic), steps);
+  }
+  EXPECT_GT(wrong_steps[Arithmetic::double_precision], 0);
+}
+
+}  // namespace
+}  // namespace assay::properties
