@@ -47,8 +47,8 @@ TEST(CleanStarts, OfEveryNewStart) {
 
 TEST(CleanStarts, OnlyVerifiedOnesAreVouchedFor) {
   using detector::Culling, detector::Start;
-  const auto changed = with_clean_start({{"a", {Culling::bvh, Start::verified}},
-                                         {"b", {Culling::bvh, Start::unknown}}});
+  const auto changed = with_clean_start(
+      {{"a", {Culling::bvh, Start::verified}}, {"b", {Culling::bvh, Start::unknown}}});
   EXPECT_EQ(changed[0].options.start, Start::clean);
   EXPECT_EQ(changed[1].options.start, Start::unknown);
 }
