@@ -13,7 +13,7 @@ namespace assay::reports {
 
 struct CheckRequest {
   std::vector<std::string> files;            // frames of one mesh, or one case file
-  std::optional<detector::Culling> culling;  // default: the case's own, or view-point
+  std::optional<detector::Culling> culling;  // default: the case's own, or view-auto
   std::optional<detector::Start> start;
   std::optional<detector::Pairs> pairs;
   std::optional<detector::Arithmetic> arithmetic;
