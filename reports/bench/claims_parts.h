@@ -28,7 +28,9 @@ void count_traversals_of_free_steps(const BenchSettings& settings, BenchReport& 
 void time_whole_steps(const std::vector<NamedStep>& steps, bool has_rod_twist,
                       const BenchSettings& settings, BenchReport& report);
 
-// The scatter of time over bvh's against the share of V+, and the break-even share.
-void measure_break_even(const BenchSettings& settings, Progress& progress, BenchReport& report);
+// The scatter of time over bvh's against the share of V+, and the break-even share. rod_twist: may
+// be null.
+void measure_break_even(const NamedStep* rod_twist, const BenchSettings& settings,
+                        Progress& progress, BenchReport& report);
 
 }  // namespace assay::reports

@@ -79,7 +79,8 @@ void add_break_even(const char* culling, const std::vector<ScatterPoint>& points
 
 }  // namespace
 
-void measure_break_even(const BenchSettings& settings, Progress& progress, BenchReport& report) {
+void measure_break_even(const NamedStep* rod_twist, const BenchSettings& settings,
+                        Progress& progress, BenchReport& report) {
   for (const std::string name :
        {"breathing-sphere", "dented-sphere", "crumpling-sphere", "bend", "twist"}) {
     progress.phase("break-even, " + name);
@@ -87,6 +88,7 @@ void measure_break_even(const BenchSettings& settings, Progress& progress, Bench
     add_points(name, bench_scene(name, settings.triangles(5'120), frames), settings.rounds(5),
                report);
   }
+  if (rod_twist) add_points(rod_twist->name, rod_twist->step, settings.rounds(5), report);
   for (const char* culling : {"view-point", "view-line"}) {
     std::vector<ScatterPoint> points;
     for (const auto& p : report.scatter) {

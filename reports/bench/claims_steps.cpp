@@ -46,7 +46,10 @@ void compare(const NamedStep& named, bool is_rod_twist, int rounds, BenchReport&
   with_views(point, samples[1], "view-point");
   with_views(line, samples[2], "view-line");
   report.add(fmt::format("exact over double, whole step, {}", name), "times",
-             ratio_of(samples[1], samples[3]), at_most(1.3), "view-point");
+             ratio_of(samples[1], samples[3]), at_most(1.3),
+             fmt::format("view-point; integers decide {} of {} tests",
+                         point.result().counts.narrow.rungs.exact,
+                         point.result().counts.narrow.elementary_tests));
 }
 
 }  // namespace

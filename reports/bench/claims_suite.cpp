@@ -65,7 +65,7 @@ BenchReport claims_suite(const BenchSettings& settings, Progress& progress) {
   count_traversals_of_free_steps(settings, report);
   progress.phase("whole steps");
   time_whole_steps(steps, has_rod_twist, settings, report);
-  measure_break_even(settings, progress, report);
+  measure_break_even(has_rod_twist ? &steps.back() : nullptr, settings, progress, report);
   return report;
 }
 

@@ -32,10 +32,14 @@ bool forget_peak() {
 double measured_in_child(const std::function<void()>& work) {
   constexpr double unknown = -1;
   if (!forget_peak()) return unknown;
-  const auto before = status_bytes("VmRSS:");
+  const auto before = status_bytes("VmRSS:"), file_before = status_bytes("RssFile:");
   work();
-  const auto peak = status_bytes("VmHWM:");
-  return before && peak ? *peak - *before : unknown;
+  const auto peak = status_bytes("VmHWM:"), file_after = status_bytes("RssFile:");
+  if (!before || !peak || !file_before || !file_after) return unknown;
+  // Pages of the program itself that the child touched for the first time: they are not of the
+  // work, and none goes away again in between.
+  const double of_the_program = *file_after - *file_before;
+  return *peak - *before - of_the_program;
 }
 
 }  // namespace
