@@ -9,10 +9,12 @@ BreakEven break_even(std::span<const ScatterPoint> points) {
   std::vector<double> shares, logs;
   BreakEven out;
   for (const auto& p : points) {
+    if (p.ratio > 1) out.last_crossing = std::max(out.last_crossing, p.share);
+    if (p.share >= 1) continue;
     shares.push_back(p.share);
     logs.push_back(std::log(p.ratio));
-    if (p.ratio > 1) out.last_crossing = std::max(out.last_crossing, p.share);
   }
+  if (shares.size() < 2) return out;
   const Line line = fit_line(shares, logs);
   if (line.slope != 0) {
     const double share = -line.intercept / line.slope;

@@ -70,7 +70,8 @@ void add_break_even(const char* culling, const std::vector<ScatterPoint>& points
   const BreakEven found = break_even(points);
   if (found.by_fit) {
     report.add(fmt::format("break-even share of V+, {}, by a fit", culling), "%",
-               exactly(100 * *found.by_fit), {}, "line through log(ratio) over share");
+               exactly(100 * *found.by_fit), {},
+               "line through log(ratio) over share, steps that search");
   }
   report.add(fmt::format("break-even share of V+, {}, last crossing", culling), "%",
              exactly(100 * found.last_crossing), {},

@@ -18,30 +18,32 @@ constexpr std::array colours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
 
 double x_of(double share) { return left + share * (width - left - right); }
 
+// From below the least to above the largest ratio, 1 included, at a 1, 2 or 5 of a decade.
 class RatioAxis {
  public:
   explicit RatioAxis(const std::vector<ScatterPoint>& points) {
+    double least = 0.1, largest = 1;
     for (const auto& p : points) {
-      least_ = std::min(least_, std::floor(std::log10(p.ratio)));
-      largest_ = std::max(largest_, std::ceil(std::log10(p.ratio)));
+      least = std::min(least, p.ratio);
+      largest = std::max(largest, p.ratio);
+    }
+    for (double decade = std::pow(10, std::floor(std::log10(least)));; decade *= 10) {
+      for (const double digit : {1., 2., 5.}) {
+        const double tick = digit * decade;
+        if (ticks_.size() == 1 && tick <= least) ticks_.clear();  // a closer one below
+        ticks_.push_back(tick);
+        if (tick > largest) return;
+      }
     }
   }
   double y_of(double ratio) const {
-    const double part = (std::log10(ratio) - least_) / (largest_ - least_);
+    const double part = std::log(ratio / ticks_.front()) / std::log(ticks_.back() / ticks_.front());
     return height - bottom - part * (height - top - bottom);
   }
-  // 1, 2 and 5 of each decade within the axis.
-  std::vector<double> ticks() const {
-    std::vector<double> out;
-    for (double decade = least_; decade < largest_; ++decade) {
-      for (const double digit : {1., 2., 5.}) out.push_back(digit * std::pow(10, decade));
-    }
-    out.push_back(std::pow(10, largest_));
-    return out;
-  }
+  const std::vector<double>& ticks() const { return ticks_; }
 
  private:
-  double least_ = -1, largest_ = 1;  // of log10
+  std::vector<double> ticks_;
 };
 
 std::string text(double x, double y, const char* anchor, const std::string& words) {
