@@ -27,7 +27,7 @@ using test::plugin;
 using test::small_case;
 
 const std::vector<Configuration> four = {
-    {"view-point", {}},
+    {"view-point", {detector::Culling::view_point}},
     {"view-line", {detector::Culling::view_line}},
     {"bvh", {detector::Culling::bvh}},
     {"first", {detector::Culling::view_point, detector::Start::verified, detector::Pairs::first}}};
