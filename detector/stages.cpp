@@ -16,7 +16,7 @@ Stages standard_stages(const Options& options) {
     stages.pair_search = std::make_shared<TreeSearch>();
   }
   stages.elementary = make_elementary_test(options.arithmetic);
-  stages.release = std::make_shared<ReleaseRule>(options.arithmetic);
+  stages.release = std::make_shared<ReleaseRule>(options.arithmetic, options.release);
   return stages;
 }
 

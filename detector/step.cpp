@@ -116,7 +116,7 @@ class Step {
       return true;
     }
     const ReleaseRule& release = *context_.stages.release;
-    std::vector<std::int32_t> to_verify;
+    std::vector<std::int32_t> to_release, to_verify;
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
       bool all_clean = work_.free[c] != 0;
       if (!all_clean && work_.known) {
@@ -125,7 +125,7 @@ class Step {
           work_.clean[at(t)] = work_.known->clean[at(t)];
           all_clean &= work_.clean[at(t)] != 0;
         }
-        if (!all_clean) all_clean = release.released_at_start(work_, c);
+        if (!all_clean) to_release.push_back(static_cast<std::int32_t>(c));
       } else if (!all_clean && context_.options.start == Start::clean) {
         all_clean = true;
       } else if (!all_clean && context_.options.start == Start::verified) {
@@ -136,7 +136,8 @@ class Step {
         for (const auto t : work_.own_triangles(c)) work_.clean[at(t)] = 1;
       }
     }
-    return to_verify.empty() || release.verify_start(work_, to_verify);
+    return (to_release.empty() || release.release(work_, to_release)) &&
+           (to_verify.empty() || release.verify_start(work_, to_verify));
   }
 
   bool sweep_ghosts() {
@@ -225,13 +226,12 @@ class Step {
   StepState state_at_end(const PositionsView& mesh_x_t1) const {
     StepState state;
     state.keep(mesh_x_t1);
-    state.clean.resize(mesh_.triangles.size());
     state.inside.resize(mesh_.components.size());
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
       if (work_.free[c]) state.inside[c] = {work_.primitives[c].q0.t1, work_.primitives[c].q1.t1};
     }
     const bool complete = !context_.uses_views() || context_.options.pairs == Pairs::all;
-    context_.stages.release->settle(work_, result_.pairs, complete, state.clean);
+    context_.stages.release->settle(work_, result_.pairs, complete, state);
     return state;
   }
 

@@ -1,16 +1,10 @@
 // Which triangles of the mesh the ghosts touch (L11).
 #pragma once
 
-#include "detector/boundary/surface.h"
-#include "detector/contact/elementary_test.h"
+#include "detector/boundary/face_pair_test.h"
 #include "detector/search/pair_search.h"
 
 namespace assay::detector {
-
-struct GhostCounts {
-  std::uint64_t pairs = 0;             // ghost and triangle whose moving boxes are not apart
-  std::uint64_t elementary_tests = 0;  // feature pairs of these tested beyond axis order
-};
 
 struct GhostSweep {
   const Surface& surface;
