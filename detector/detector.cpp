@@ -86,6 +86,29 @@ void Detector::reset() {
   parts_->evaluated.reset();
 }
 
+SavedState Detector::state() const {
+  const StepContext& context = parts_->context;
+  return {digest_of(context.surface.mesh, context.surface.first_apex), context.options.culling,
+          parts_->committed, context.apex_rules, context.anchors};
+}
+
+std::optional<Problem> Detector::restore(const SavedState& state) {
+  StepContext& context = parts_->context;
+  if (state.mesh != digest_of(context.surface.mesh, context.surface.first_apex)) {
+    return Problem{InputError::foreign_state, "the state is of a detector of another mesh"};
+  }
+  if (state.culling != context.options.culling || state.anchors.size() != context.anchors.size() ||
+      state.apex_rules.size() != context.apex_rules.size()) {
+    return Problem{InputError::foreign_state, "the state is of a detector with another culling"};
+  }
+  SavedState copy = state;  // first: whole or not at all, should memory fail
+  parts_->committed = std::move(copy.committed);
+  context.apex_rules = std::move(copy.apex_rules);
+  context.anchors = std::move(copy.anchors);
+  parts_->evaluated.reset();
+  return std::nullopt;
+}
+
 const Topology& Detector::topology() const { return parts_->context.surface.mesh; }
 
 const Surface& Detector::surface() const { return parts_->context.surface; }

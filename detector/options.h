@@ -47,6 +47,7 @@ struct Options {
   Pairs pairs = Pairs::all;
   Arithmetic arithmetic = Arithmetic::exact;
   Release release = Release::pieces;
+  GhostTest ghost_test = GhostTest::exact;
 };
 
 namespace doubt {

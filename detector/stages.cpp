@@ -7,7 +7,7 @@ Stages standard_stages(const Options& options) {
   const bool uses_views = culling == Culling::view_point || culling == Culling::view_line;
   Stages stages;
   stages.classifier = std::make_shared<ViewClassifier>(options.arithmetic);
-  stages.boundary = std::make_shared<BoundaryHandler>();
+  stages.boundary = std::make_shared<BoundaryHandler>(options.ghost_test);
   stages.pair_rule = uses_views ? std::make_shared<PairRule>() : std::make_shared<EveryPair>();
   stages.marking = std::make_shared<Marking>();
   if (culling == Culling::none) {

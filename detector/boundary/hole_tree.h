@@ -22,6 +22,7 @@ class HoleTree {
   static constexpr std::size_t root = 0;
   bool is_leaf(std::size_t node) const { return node + 1 >= ghosts_.size(); }
   std::size_t child(std::size_t node) const { return 2 * node + 1; }  // the other is the next
+  std::int32_t first_ghost() const { return ghosts_.front(); }
   std::int32_t ghost(std::size_t leaf) const { return ghosts_[leaf + 1 - ghosts_.size()]; }
   const MovingBox& box(std::size_t node) const { return boxes_[node]; }
 
