@@ -82,6 +82,23 @@ struct ReleaseHalfChecked : ReleaseRule {
   }
 };
 
+// A clean neighbour serves also what a ghost or the mesh touches; pieces end there all the same.
+struct ReleasedWhileTouched : ReleaseRule {
+  bool release(StepWork& work, const Components& components) const override {
+    if (!ReleaseRule::release(work, components)) return false;
+    const auto& mesh = work.surface.mesh;
+    const Flags released = work.clean;
+    for (const auto component : components) {
+      for (const auto t : work.own_triangles(at(component))) {
+        for (const auto edge : mesh.triangle_edges[at(t)]) {
+          for (const auto s : mesh.edge_triangles.row(edge)) work.clean[at(t)] |= released[at(s)];
+        }
+      }
+    }
+    return true;
+  }
+};
+
 template <class Release>
 Fault row(std::string_view name, std::string_view about, std::string_view curated, int vertices) {
   return {name,    about,    "L9",      FaultStatus::planted,           "", with_points,
@@ -111,6 +128,12 @@ std::vector<Fault> release_faults() {
       row<ReleaseHalfChecked<C::tested, G::tested, L::not_looked_at>>(
           "release/layers-not-checked", "what touches nothing is released, whatever its layer",
           "D8_release_arm_sequence", 22),
+      {"release/released-while-touched",
+       "what still touches something is released beside a clean neighbour", "L9", FaultStatus::open,
+       "where it meets the mesh in (V+,V+) alone, so far a dirty triangle next to it did too: none "
+       "of "
+       "60,000 changes of D8's second step shows it",
+       with_points, "", 0, "release", with<&Stages::release, ReleasedWhileTouched>},
   };
 }
 
