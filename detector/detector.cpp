@@ -8,22 +8,24 @@ namespace assay::detector {
 namespace {
 
 // From where all of S at rest is seen best, ghosts included.
-void place_anchors(StepContext& context, const PositionsView& positions) {
-  const Surface& surface = context.surface;
+std::vector<ViewAnchor> place_anchors(const Surface& surface,
+                                      const std::vector<ApexRule>& apex_rules, Culling culling,
+                                      const PositionsView& positions) {
   std::vector<MovingPoint> apexes;
   for (std::size_t l = 0; l < surface.loops.size(); ++l) {
-    const Point apex = place_apex(context.apex_rules[l], surface.loops[l], positions);
+    const Point apex = place_apex(apex_rules[l], surface.loops[l], positions);
     apexes.push_back({apex, apex});
   }
   const Positions x = with_apexes(positions, apexes, false);
-  const Culling culling = context.options.culling;
+  std::vector<ViewAnchor> anchors;
   for (const auto& component : surface.all().components) {
-    context.anchors.push_back(
+    anchors.push_back(
         culling == Culling::view_auto
             ? choose_view_anchor(surface.all(), component, surface.first_apex, x)
             : make_view_anchor(culling == Culling::view_line ? ViewKind::line : ViewKind::point,
                                surface.all(), component, surface.first_apex, x));
   }
+  return anchors;
 }
 
 }  // namespace
@@ -49,17 +51,22 @@ Expected<Detector> Detector::assemble(const TrianglesView& triangles,
   if (auto problem = check_triangles(triangles, positions.rows())) return std::move(*problem);
   if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
   Surface surface = stages.boundary->close_up(triangles, positions.rows());
+  const bool views = uses_views(options.culling);
+  // Before the tree, where no apex has to be chosen with its help: what the search for a place
+  // takes is given back when the tree is built.
+  std::vector<ViewAnchor> anchors;
+  if (views && surface.is_closed())
+    anchors = place_anchors(surface, {}, options.culling, positions);
   BoundingVolumeTree tree(surface.mesh, positions);
-  SearchMemory search(surface.mesh, tree);
-  StepContext context{
-      options, std::move(stages), std::move(surface), std::move(tree), std::move(search), {}, {},
-      {}};
-  if (uses_views(options.culling)) {
-    context.apex_rules = context.stages.boundary->choose_apexes(
-        context.surface, context.tree, positions, *context.stages.elementary);
-    place_anchors(context, positions);
-    context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
+  std::vector<ApexRule> apex_rules;
+  if (views && !surface.is_closed()) {
+    apex_rules = stages.boundary->choose_apexes(surface, tree, positions, *stages.elementary);
+    anchors = place_anchors(surface, apex_rules, options.culling, positions);
   }
+  SearchMemory search(surface.mesh, tree);
+  StepContext context{options,           std::move(stages),  std::move(surface),    std::move(tree),
+                      std::move(search), std::move(anchors), std::move(apex_rules), 0};
+  if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
   return Detector(std::unique_ptr<Parts>(new Parts{std::move(context), {}, {}}));
 }
 
@@ -89,6 +96,29 @@ StepResult Detector::step(const PositionsView& x_t0, const PositionsView& x_t1,
 void Detector::reset() {
   parts_->committed.reset();
   parts_->evaluated.reset();
+}
+
+SavedState Detector::state() const {
+  const StepContext& context = parts_->context;
+  return {digest_of(context.surface.mesh, context.surface.first_apex), context.options.culling,
+          parts_->committed, context.apex_rules, context.anchors};
+}
+
+std::optional<Problem> Detector::restore(const SavedState& state) {
+  StepContext& context = parts_->context;
+  if (state.mesh != digest_of(context.surface.mesh, context.surface.first_apex)) {
+    return Problem{InputError::foreign_state, "the state is of a detector of another mesh"};
+  }
+  if (state.culling != context.options.culling || state.anchors.size() != context.anchors.size() ||
+      state.apex_rules.size() != context.apex_rules.size()) {
+    return Problem{InputError::foreign_state, "the state is of a detector with another culling"};
+  }
+  SavedState copy = state;  // first: whole or not at all, should memory fail
+  parts_->committed = std::move(copy.committed);
+  context.apex_rules = std::move(copy.apex_rules);
+  context.anchors = std::move(copy.anchors);
+  parts_->evaluated.reset();
+  return std::nullopt;
 }
 
 const Topology& Detector::topology() const { return parts_->context.surface.mesh; }

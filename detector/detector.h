@@ -19,6 +19,7 @@
 #include <span>
 
 #include "detector/stages.h"
+#include "detector/state/saved_state.h"
 
 namespace assay::detector {
 
@@ -52,6 +53,16 @@ class Detector {
   // evaluate, and commit where there is an answer.
   StepResult step(const PositionsView& x_t0, const PositionsView& x_t1,
                   std::span<const ViewPrimitive> primitives = {}, const StopFunction& stop = {});
+
+  // What later steps rest on: the last commit, and where views and apexes are placed. A plain
+  // value.
+  SavedState state() const;
+
+  // Goes on from there: further results are those of the detector that was saved, bit by bit (where
+  // both were made from the same positions; else all but the counts). What was evaluated and not
+  // committed is dropped. foreign_state, and nothing changes, when it is of another mesh or
+  // culling.
+  std::optional<Problem> restore(const SavedState& state);
 
   // Forgets the state: the next step is a new start.
   void reset();

@@ -41,11 +41,20 @@ enum class Pairs : std::uint8_t {
   first,  // contacts found through K: the first contact time is right, the set is not complete (L6)
 };
 
+// How dirty triangles become clean again within a sequence.
+enum class Release : std::uint8_t {
+  pieces,  // piece by piece (L9)
+  model,   // a component at once, when L9 releases all of it
+  view,    // a component at once, when all of it is positive and has winding number 1 (L5)
+};
+
 struct Options {
   Culling culling = Culling::view_auto;
   Start start = Start::verified;
   Pairs pairs = Pairs::all;
   Arithmetic arithmetic = Arithmetic::exact;
+  Release release = Release::pieces;
+  GhostTest ghost_test = GhostTest::exact;
 };
 
 namespace doubt {
@@ -58,12 +67,22 @@ struct StepTimes {
          total = 0;
 };
 
+// At the start of a step that goes on from a committed one (L9).
+struct ReleaseCounts {
+  std::uint64_t in_doubt = 0;  // dirty by L8
+  std::uint64_t released = 0;
+  std::uint64_t pairs = 0;  // tested at that instant: met before, or a ghost beside
+  std::uint64_t elementary_tests = 0;
+  std::uint64_t winding_numbers = 0;  // of pieces
+};
+
 struct StepCounts {
   SearchCounts search;
   MarkingCounts marking;  // these rest on the steps before, see search/marking.h
   NarrowCounts narrow;
   ViewCounts view;
   GhostCounts ghosts;
+  ReleaseCounts release;
   std::uint64_t closure_rounds = 0;
   std::uint64_t winding_numbers = 0;  // of view primitives (L5)
   std::uint64_t free_components = 0;  // by L5, without any pair

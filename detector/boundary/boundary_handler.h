@@ -8,6 +8,7 @@ namespace assay::detector {
 
 class BoundaryHandler {
  public:
+  explicit BoundaryHandler(GhostTest test = GhostTest::exact) : test_(test) {}
   virtual ~BoundaryHandler() = default;
 
   virtual Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count) const;
@@ -25,10 +26,14 @@ class BoundaryHandler {
                                                 const PositionsView& x_t0,
                                                 const PositionsView& x_t1) const;
 
-  // Sets touched[t] for the ghosts given (L11). Returns false when `stop` ended it.
+  // Sets touched[t] for the ghosts given (L11), hole by hole, a small tree each. Returns false when
+  // `stop` ended it.
   virtual bool sweep(const GhostSweep& sweep, std::span<const std::int32_t> ghosts,
                      const StopFunction& stop, std::vector<std::uint8_t>& touched,
                      GhostCounts& counts) const;
+
+ private:
+  GhostTest test_;
 };
 
 // x, and below it the apexes' places at t=0 or t=1.

@@ -1,80 +1,79 @@
 #include "detector/boundary/ghost_sweep.h"
 
-#include "detector/contact/contact_filter.h"
-
 namespace assay::detector {
 namespace {
 
-using Corners = std::array<std::int32_t, 3>;
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-bool contains(const Corners& triangle, std::int32_t vertex) {
-  return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
-}
-
-class PairTest {
+class HoleSweep {
  public:
-  PairTest(const GhostSweep& sweep, GhostCounts& counts) : sweep_(sweep), counts_(counts) {}
+  HoleSweep(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
+            std::vector<std::uint8_t>& touched, GhostCounts& counts)
+      : sweep_(sweep),
+        tree_(sweep.tree),
+        all_(sweep.surface.all()),
+        hole_(hole),
+        component_(all_.component_of_triangle[at(hole.first_ghost())]),
+        stop_(stop),
+        touched_(touched),
+        counts_(counts),
+        faces_(sweep.x_t0, sweep.x_t1, sweep.elementary, sweep.piercing_at_start) {}
 
-  bool meet(const Corners& a, const Corners& b) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!contains(b, a[i]) && contact({{path(a[i]), path(b[0]), path(b[1]), path(b[2])}, 1}))
-        return true;
-      if (!contains(a, b[i]) && contact({{path(b[i]), path(a[0]), path(a[1]), path(a[2])}, 1}))
-        return true;
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto u0 = a[i], u1 = a[(i + 1) % 3];
-      for (std::size_t j = 0; j < 3; ++j) {
-        const auto v0 = b[j], v1 = b[(j + 1) % 3];
-        if (u0 == v0 || u0 == v1 || u1 == v0 || u1 == v1) continue;
-        if (contact({{path(u0), path(u1), path(v0), path(v1)}, 2})) return true;
-      }
-    }
-    return sweep_.piercing_at_start && (pierces(a, b) || pierces(b, a));
+  bool run() {
+    descend(HoleTree::root, BoundingVolumeTree::root);
+    return !stopped_;
   }
 
  private:
-  MovingPoint path(std::int32_t v) const { return moving_point(sweep_.x_t0, sweep_.x_t1, v); }
-
-  bool contact(const FourPoints& query) const {
-    if (separated_along_an_axis(query)) return false;
-    ++counts_.elementary_tests;
-    return sweep_.elementary.test(query, Want::yes_no).contact;
+  // Both are split at once, so that their boxes stay of like size.
+  void descend(std::size_t of_hole, std::int32_t node) {
+    const auto component = tree_.component(node);
+    if (stopped_ || (component != component_ && component != mixed_components)) return;
+    if (apart(hole_.box(of_hole), tree_.box(node))) return;
+    const bool splits_hole = !hole_.is_leaf(of_hole), splits_tree = !tree_.is_leaf(node);
+    if (!splits_hole && !splits_tree) {
+      test(hole_.ghost(of_hole), tree_.triangle(node));
+      return;
+    }
+    const auto ghosts = splits_hole ? hole_.child(of_hole) : of_hole;
+    const auto nodes = splits_tree ? tree_.child(node) : node;
+    for (auto g = ghosts; g <= ghosts + splits_hole; ++g) {
+      for (auto n = nodes; n <= nodes + splits_tree; ++n) descend(g, n);
+    }
   }
 
-  bool pierces(const Corners& edges_of, const Corners& face) const {
-    const auto start = [&](std::int32_t v) { return point_of(sweep_.x_t0, v); };
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto u = edges_of[i], v = edges_of[(i + 1) % 3];
-      if (contains(face, u) || contains(face, v)) continue;
-      if (sweep_.elementary.pierces(start(u), start(v),
-                                    {start(face[0]), start(face[1]), start(face[2])})) {
-        return true;
-      }
-    }
-    return false;
+  void test(std::int32_t ghost, std::int32_t t) {
+    constexpr std::uint64_t pairs_between_stops = 256;
+    if (counts_.pairs++ % pairs_between_stops == 0 && stop_ && stop_()) stopped_ = true;
+    if (stopped_ || touched_[at(t)]) return;
+    touched_[at(t)] = sweep_.test == GhostTest::boxes ||
+                      faces_.meet(all_.triangles[at(ghost)], all_.triangles[at(t)], counts_);
   }
 
   const GhostSweep& sweep_;
+  const BoundingVolumeTree& tree_;
+  const Topology& all_;
+  const HoleTree& hole_;
+  const std::int32_t component_;
+  const StopFunction& stop_;
+  std::vector<std::uint8_t>& touched_;
   GhostCounts& counts_;
+  const FacePairTest faces_;
+  bool stopped_ = false;
 };
 
 }  // namespace
 
+bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
+                std::vector<std::uint8_t>& touched, GhostCounts& counts) {
+  return HoleSweep(sweep, hole, stop, touched, counts).run();
+}
+
 void sweep_ghost(const GhostSweep& sweep, std::int32_t ghost, std::vector<std::uint8_t>& touched,
                  GhostCounts& counts) {
-  const Topology& all = sweep.surface.all();
-  const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
-  const Corners& corners = all.triangles[at(ghost)];
-  const PairTest pair(sweep, counts);
-  SearchCounts descent;
-  const MovingBox box = sweep.tree.box_of_triangle(corners, sweep.x_t0, sweep.x_t1);
-  search_box(sweep.tree, box, descent, [&](std::int32_t t) {
-    if (all.component_of_triangle[at(t)] != all.component_of_triangle[at(ghost)]) return true;
-    ++counts.pairs;
-    if (!touched[at(t)] && pair.meet(corners, all.triangles[at(t)])) touched[at(t)] = 1;
-    return true;
-  });
+  const HoleTree alone(sweep.surface.all(), {&ghost, 1}, sweep.tree.rounding(), sweep.x_t0,
+                       sweep.x_t1);
+  sweep_hole(sweep, alone, {}, touched, counts);
 }
 
 }  // namespace assay::detector

@@ -1,15 +1,16 @@
 // Which triangles of the mesh the ghosts touch (L11).
 #pragma once
 
-#include "detector/boundary/surface.h"
-#include "detector/contact/elementary_test.h"
+#include "detector/boundary/face_pair_test.h"
+#include "detector/boundary/hole_tree.h"
 #include "detector/search/pair_search.h"
 
 namespace assay::detector {
 
-struct GhostCounts {
-  std::uint64_t pairs = 0;             // ghost and triangle whose moving boxes are not apart
-  std::uint64_t elementary_tests = 0;  // feature pairs of these tested beyond axis order
+// When a ghost counts as touching a triangle.
+enum class GhostTest : std::uint8_t {
+  exact,  // their closed faces meet
+  boxes,  // their moving boxes are not apart: a superset, as sound, and dirty for longer
 };
 
 struct GhostSweep {
@@ -18,12 +19,19 @@ struct GhostSweep {
   PositionsView x_t0, x_t1;        // rows: vertices of the mesh, then apexes
   const ElementaryTest& elementary;
   bool piercing_at_start = false;  // also edges that pierce at t=0: where no state is known
+  GhostTest test = GhostTest::exact;
 };
 
-// Sets touched[t] of each mesh triangle t that `ghost` (an index into surface.all()), of the same
-// component, touches at any time in [0,1]: closed faces of the two that share no vertex meet, those
-// of triangles next to the loop and of degenerate ghosts included. Triangles that are set already
-// are not looked at again. Costs a descent of the tree and up to 15 elementary tests a pair.
+// Sets touched[t] of each mesh triangle t that a ghost of the hole (ghosts of one component)
+// touches at any time in [0,1]: closed faces of the two that share no vertex meet, those of
+// triangles next to the loop and of degenerate ghosts included. Triangles that are set already are
+// not looked at again. The hole's tree, of this step and of the tree's rounding, is descended
+// against the mesh's own: box tests where they meet, and up to 15 elementary tests a pair. False
+// when stopped.
+bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
+                std::vector<std::uint8_t>& touched, GhostCounts& counts);
+
+// The same for one ghost, an index into surface.all().
 void sweep_ghost(const GhostSweep& sweep, std::int32_t ghost, std::vector<std::uint8_t>& touched,
                  GhostCounts& counts);
 

@@ -20,6 +20,8 @@ const char* name_of(InputError error) {
       return "wrong_primitive_count";
     case InputError::nothing_to_commit:
       return "nothing_to_commit";
+    case InputError::foreign_state:
+      return "foreign_state";
   }
   return "unknown_error";
 }

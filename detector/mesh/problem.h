@@ -17,6 +17,7 @@ enum class InputError : std::uint8_t {
   non_finite_coordinate = 6,  // NaN or infinity
   wrong_primitive_count = 7,  // view primitives: none, one, or one for each component
   nothing_to_commit = 8,      // commit() without a completed evaluate()
+  foreign_state = 9,          // restore() with the state of another mesh or culling
 };
 
 const char* name_of(InputError error);

@@ -32,7 +32,7 @@ bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start
     std::fill(work.clean.begin(), work.clean.end(), 1);
     return true;
   }
-  std::vector<std::int32_t> to_verify;
+  std::vector<std::int32_t> to_release, to_verify;
   for (std::size_t c = 0; c < work.free.size(); ++c) {
     bool all_clean = work.free[c] != 0;
     if (!all_clean && is_known(work, c)) {
@@ -41,7 +41,7 @@ bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start
         work.clean[at(t)] = work.known->clean[at(t)];
         all_clean &= work.clean[at(t)] != 0;
       }
-      if (!all_clean) all_clean = release.released_at_start(work, c);
+      if (!all_clean) to_release.push_back(static_cast<std::int32_t>(c));
     } else if (!all_clean && start == Start::clean && !work.known) {
       all_clean = true;
     } else if (!all_clean && start != Start::unknown) {
@@ -52,7 +52,8 @@ bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start
       for (const auto t : work.own_triangles(c)) work.clean[at(t)] = 1;
     }
   }
-  return to_verify.empty() || release.verify_start(work, to_verify);
+  return (to_release.empty() || release.release(work, to_release)) &&
+         (to_verify.empty() || release.verify_start(work, to_verify));
 }
 
 StepState state_at_end(const StepWork& work, const ReleaseRule& release,
@@ -60,12 +61,11 @@ StepState state_at_end(const StepWork& work, const ReleaseRule& release,
                        const PositionsView& mesh_x_t1) {
   StepState state;
   state.keep(mesh_x_t1);
-  state.clean.resize(work.surface.mesh.triangles.size());
   state.inside.resize(work.surface.mesh.components.size());
   for (std::size_t c = 0; c < state.inside.size(); ++c) {
     if (work.free[c]) state.inside[c] = {work.primitives[c].q0.t1, work.primitives[c].q1.t1};
   }
-  release.settle(work, pairs, complete, state.clean);
+  release.settle(work, pairs, complete, state);
   state.lost = work.lost;
   state.lost.resize(state.inside.size(), 0);
   if (work.has_views()) return state;

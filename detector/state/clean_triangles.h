@@ -6,8 +6,9 @@
 namespace assay::detector {
 
 // Sets work.clean of all triangles at t=0, by component: free over the step (L5), else the state of
-// the last commit (L8), else what `start` says. A component not known to be clean is looked at from
-// its view primitive (L5), at a new start by layers too (L9). False when stopped.
+// the last commit (L8), of which the dirty ones may be released (L9), else what `start` says: at a
+// verified one it is looked at from the view primitive (L5), then by layers (L9). False when
+// stopped.
 bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start);
 
 // Whether the last commit tells of every component.

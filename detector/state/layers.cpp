@@ -10,40 +10,67 @@ namespace {
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// The triangles of the mesh linked to `seed`, itself included, ascending; marks them seen.
-std::vector<std::int32_t> grow_piece(const Surface& surface, std::int32_t seed,
-                                     const std::vector<std::uint8_t>& touched,
-                                     std::vector<std::uint8_t>& seen) {
-  const Topology& all = surface.all();
-  const auto ghosts_begin = static_cast<std::int32_t>(surface.mesh.triangles.size());
-  std::vector<std::int32_t> piece = {seed};
-  seen[at(seed)] = 1;
-  for (std::size_t next = 0; next < piece.size(); ++next) {
-    for (const auto edge : all.triangle_edges[at(piece[next])]) {
-      const auto around = all.edge_triangles.row(edge);
-      if (around.size() != 2) continue;
-      const auto other = around[0] == piece[next] ? around[1] : around[0];
-      if (other >= ghosts_begin || touched[at(other)] || seen[at(other)]) continue;
-      seen[at(other)] = 1;
-      piece.push_back(other);
+// Doubles may fail at one triangle and not at the next.
+constexpr std::size_t most_attempts = 4;
+
+struct Piece {
+  std::vector<std::int32_t> triangles;  // ascending; those in doubt
+  bool holds_clean = false;             // and a clean one, with all that is linked to it
+};
+
+// Pieces of the untouched triangles in doubt, in the order of their lowest triangles.
+class Flood {
+ public:
+  Flood(const TouchedSurface& instant, std::vector<std::uint8_t>& seen,
+        const std::vector<std::uint8_t>& clean)
+      : instant_(instant), seen_(seen), clean_(clean) {}
+
+  bool is_new(std::int32_t t) const { return !instant_.touched[at(t)] && !seen_[at(t)]; }
+
+  Piece from(std::int32_t seed) {
+    const Topology& all = instant_.surface.all();
+    const auto ghosts_begin = static_cast<std::int32_t>(instant_.surface.mesh.triangles.size());
+    Piece piece{{seed}, false};
+    seen_[at(seed)] = 1;
+    for (std::size_t next = 0; next < piece.triangles.size(); ++next) {
+      const auto t = piece.triangles[next];
+      for (const auto edge : all.triangle_edges[at(t)]) {
+        const auto around = all.edge_triangles.row(edge);
+        if (around.size() != 2) continue;
+        const auto other = around[0] == t ? around[1] : around[0];
+        if (other >= ghosts_begin) continue;
+        if (clean_[at(other)]) {
+          piece.holds_clean = true;
+        } else if (is_new(other)) {
+          seen_[at(other)] = 1;
+          piece.triangles.push_back(other);
+        }
+      }
     }
+    std::sort(piece.triangles.begin(), piece.triangles.end());
+    return piece;
   }
-  std::sort(piece.begin(), piece.end());
-  return piece;
-}
+
+ private:
+  const TouchedSurface& instant_;
+  std::vector<std::uint8_t>& seen_;
+  const std::vector<std::uint8_t>& clean_;
+};
 
 // The winding number outside of the piece's triangles, which have it in common. Nothing when it is
 // not known: the piece stays dirty.
-std::optional<int> winding_outside(const Topology& all, std::span<const std::int32_t> cycle,
-                                   const PositionsView& x, const std::vector<std::int32_t>& piece,
-                                   Arithmetic arithmetic) {
+std::optional<int> winding_outside(const TouchedSurface& instant, std::size_t c,
+                                   std::span<const std::int32_t> piece) {
+  const Topology& all = instant.surface.all();
+  const auto& cycle = all.components[c].triangles;
+  const auto& [surface, x, touched, arithmetic] = instant;
   if (arithmetic == Arithmetic::exact) {
     const auto with_area = std::find_if(piece.begin(), piece.end(),
                                         [&](std::int32_t t) { return !has_zero_area(all, x, t); });
     if (with_area == piece.end()) return std::nullopt;
     return winding_number_outside(all, cycle, x, *with_area);
   }
-  int attempts = 4;  // doubles may fail at one triangle and not at the next
+  std::size_t attempts = most_attempts;
   for (const auto t : piece) {
     if (has_equal_corners(all, x, t)) continue;
     if (const auto outside = winding_number_outside(all, cycle, x, t, arithmetic)) return outside;
@@ -52,41 +79,78 @@ std::optional<int> winding_outside(const Topology& all, std::span<const std::int
   return std::nullopt;
 }
 
-struct LayerClass {
-  std::vector<std::int32_t> triangles;
+// The layer that most untouched triangles have, by its winding number outside.
+std::optional<int> most_common(const std::map<int, std::vector<std::int32_t>>& by_layer) {
+  std::optional<int> common;
+  std::size_t most = 0;
   std::int32_t lowest = 0;
-};
+  for (const auto& [layer, triangles] : by_layer) {
+    const auto size = triangles.size();
+    const auto first = *std::min_element(triangles.begin(), triangles.end());
+    if (size < most || (size == most && first > lowest)) continue;
+    common = layer;
+    most = size;
+    lowest = first;
+  }
+  return common;
+}
 
 }  // namespace
 
-void mark_clean_by_layers(const Surface& surface, std::size_t c, const PositionsView& x,
-                          const std::vector<std::uint8_t>& touched, std::vector<std::uint8_t>& seen,
-                          std::vector<std::uint8_t>& clean, Arithmetic arithmetic) {
-  const Topology& all = surface.all();
-  const auto& own = surface.mesh.components[c].triangles;
-  const auto& cycle = all.components[c].triangles;
-  for (const auto t : own) clean[at(t)] = 0;
-  std::map<int, LayerClass> by_layer;  // key: winding number outside
-  for (const auto seed : own) {
-    if (touched[at(seed)] || seen[at(seed)]) continue;
-    const auto piece = grow_piece(surface, seed, touched, seen);
-    const auto outside = winding_outside(all, cycle, x, piece, arithmetic);
-    if (!outside) continue;  // stays dirty
-    auto [entry, is_new] = by_layer.try_emplace(*outside);
-    // Seeds ascend, so the first piece of a layer holds its lowest triangle.
-    if (is_new) entry->second.lowest = piece.front();
-    entry->second.triangles.insert(entry->second.triangles.end(), piece.begin(), piece.end());
-  }
-  const LayerClass* common = nullptr;
-  for (const auto& [layer, candidate] : by_layer) {
-    const auto size = candidate.triangles.size();
-    if (!common || size > common->triangles.size() ||
-        (size == common->triangles.size() && candidate.lowest < common->lowest)) {
-      common = &candidate;
+std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
+                             std::span<const std::int32_t> in_doubt,
+                             std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& clean) {
+  const auto release = [&](const std::vector<std::int32_t>& triangles) {
+    for (const auto t : triangles) clean[at(t)] = 1;
+  };
+  const auto& own = at_instant.surface.mesh.components[c].triangles;
+  const bool some_clean = in_doubt.size() < own.size();
+  std::vector<Piece> alone;
+  {
+    Flood flood(at_instant, seen, clean);
+    for (const auto seed : in_doubt) {
+      // What a flood has released is seen, and what is linked to it too.
+      if (!flood.is_new(seed)) continue;
+      Piece piece = flood.from(seed);
+      if (piece.holds_clean) {
+        release(piece.triangles);
+      } else {
+        alone.push_back(std::move(piece));
+      }
     }
   }
-  if (!common) return;
-  for (const auto t : common->triangles) clean[at(t)] = 1;
+  if (alone.empty()) return 0;
+  std::uint64_t winding_numbers = alone.size();
+  std::map<int, std::vector<std::int32_t>> by_layer;  // key: winding number outside
+  for (const auto& piece : alone) {
+    const auto outside = winding_outside(at_instant, c, piece.triangles);
+    if (!outside) continue;  // stays dirty
+    auto& of_layer = by_layer[*outside];
+    of_layer.insert(of_layer.end(), piece.triangles.begin(), piece.triangles.end());
+  }
+  std::optional<int> common;
+  if (some_clean) {
+    // All clean ones share it, also those that were released just now.
+    std::vector<std::int32_t> some;
+    for (std::size_t i = 0; i < own.size() && some.size() < most_attempts; ++i) {
+      if (clean[at(own[i])]) some.push_back(own[i]);
+    }
+    common = winding_outside(at_instant, c, some);
+    ++winding_numbers;
+  } else {
+    common = most_common(by_layer);
+  }
+  if (!common) return winding_numbers;
+  if (const auto found = by_layer.find(*common); found != by_layer.end()) release(found->second);
+  return winding_numbers;
+}
+
+std::uint64_t mark_clean_by_layers(const TouchedSurface& at_instant, std::size_t c,
+                                   std::vector<std::uint8_t>& seen,
+                                   std::vector<std::uint8_t>& clean) {
+  const auto& own = at_instant.surface.mesh.components[c].triangles;
+  for (const auto t : own) clean[at(t)] = 0;
+  return release_pieces(at_instant, c, own, seen, clean);
 }
 
 }  // namespace assay::detector

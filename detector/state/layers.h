@@ -1,7 +1,8 @@
-// L9: which triangles of a component are clean at an instant, without history.
+// L9: which triangles of a component are clean at an instant, by pieces of the same layer.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "detector/arithmetic.h"
@@ -9,20 +10,38 @@
 
 namespace assay::detector {
 
-// Marks clean[t] for the triangles of the mesh's component `c`. `touched[t]` (by mesh triangle)
-// says that t meets another triangle or a ghost of the component, beyond what they share, at x
-// (rows: vertices of the mesh, then apexes).
+// An instant of the surface: x has the vertices of the mesh, then apexes. `touched[t]` (by mesh
+// triangle) says that t meets another triangle or a ghost of its component, beyond what they share.
+struct TouchedSurface {
+  const Surface& surface;
+  PositionsView x;
+  const std::vector<std::uint8_t>& touched;
+  Arithmetic arithmetic = Arithmetic::exact;
+};
+
+// Sets clean[t] for those of `in_doubt` that L9 releases, triangles of the mesh's component `c`,
+// ascending, all not clean; all others of the component that are clean touch nothing and share a
+// layer.
 //
 // Two untouched triangles are linked when they alone share an edge (oppositely directed, as mesh
-// and ghosts form a cycle); layers continue across links, so one exact winding number serves a
-// whole piece (in bounded arithmetic a piece whose number doubles cannot tell stays dirty). Clean
-// are the pieces of the common layer: the layer with most untouched triangles (tie: the one that
-// holds the lowest triangle index). "Connected" would not be enough: two tetrahedra, one inside the
-// other, may share an edge (case L9_shared_edge_two_layers). `seen` is scratch by mesh triangle, 0
-// for those of the component. O(component) for each piece.
-void mark_clean_by_layers(const Surface& surface, std::size_t c, const PositionsView& x,
-                          const std::vector<std::uint8_t>& touched, std::vector<std::uint8_t>& seen,
-                          std::vector<std::uint8_t>& clean,
-                          Arithmetic arithmetic = Arithmetic::exact);
+// and ghosts form a cycle); layers continue across links, and pieces are the classes. A piece that
+// holds a clean triangle is released: found by flood. Any other has one exact winding number (in
+// bounded arithmetic a piece whose number doubles cannot tell stays dirty), and is released when
+// its layer is the common one: that of the clean triangles of the component, or, where there are
+// none, the layer with most untouched triangles (tie: the one that holds the lowest triangle
+// index). "Connected" would not be enough: two tetrahedra, one inside the other, may share an edge
+// (case L9_shared_edge_two_layers).
+//
+// `seen` is scratch by mesh triangle, 0 for those of the component. Costs the triangles in doubt;
+// O(component) for each piece without a clean triangle, and once for the common layer where there
+// is such a piece. Returns how many winding numbers it took.
+std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
+                             std::span<const std::int32_t> in_doubt,
+                             std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& clean);
+
+// The same without history: all triangles of the component are in doubt.
+std::uint64_t mark_clean_by_layers(const TouchedSurface& at_instant, std::size_t c,
+                                   std::vector<std::uint8_t>& seen,
+                                   std::vector<std::uint8_t>& clean);
 
 }  // namespace assay::detector

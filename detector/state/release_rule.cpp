@@ -4,6 +4,7 @@
 
 #include "detector/search/feature_contacts.h"
 #include "detector/state/layers.h"
+#include "detector/state/static_touches.h"
 #include "detector/state/winding.h"
 #include "detector/view/view_test.h"
 
@@ -79,23 +80,76 @@ bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& 
   std::vector<std::uint8_t> seen(work.surface.all().triangles.size(), 0);
   for (const auto c : components) {
     if (work.stop && work.stop()) return false;
-    mark_clean_by_layers(work.surface, at(c), work.x_t0, touched, seen, work.clean, arithmetic_);
+    mark_clean_by_layers({work.surface, work.x_t0, touched, arithmetic_}, at(c), seen, work.clean);
+  }
+  return true;
+}
+
+// By L5 where it applies; else, and where it is not all that may be asked, by layers.
+bool ReleaseRule::release_without_history(StepWork& work,
+                                          const std::vector<std::int32_t>& components) const {
+  std::vector<std::int32_t> to_verify;
+  for (const auto c : components) {
+    if (!released_at_start(work, at(c))) {
+      to_verify.push_back(c);
+      continue;
+    }
+    for (const auto t : work.own_triangles(at(c))) work.clean[at(t)] = 1;
+  }
+  return release_ == Release::view || to_verify.empty() || verify_start(work, to_verify);
+}
+
+bool ReleaseRule::release(StepWork& work, const std::vector<std::int32_t>& components) const {
+  std::vector<std::vector<std::int32_t>> in_doubt(components.size());
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    for (const auto t : work.own_triangles(at(components[i]))) {
+      if (!work.clean[at(t)]) in_doubt[i].push_back(t);
+    }
+    work.counts.release.in_doubt += in_doubt[i].size();
+  }
+  if (release_ == Release::view || !work.known->met_is_complete) {
+    if (!release_without_history(work, components)) return false;
+  } else {
+    std::vector<std::uint8_t> touched(work.surface.mesh.triangles.size(), 0), seen(touched);
+    if (!add_lasting_contacts(work, touched)) return false;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      const auto c = at(components[i]);
+      if (!add_ghost_touches(work, c, in_doubt[i], touched)) return false;
+      if (work.stop && work.stop()) return false;
+      work.counts.release.winding_numbers += release_pieces(
+          {work.surface, work.x_t0, touched, arithmetic_}, c, in_doubt[i], seen, work.clean);
+    }
+  }
+  for (const auto& triangles : in_doubt) {
+    const auto released = std::count_if(triangles.begin(), triangles.end(),
+                                        [&](std::int32_t t) { return work.clean[at(t)] != 0; });
+    if (release_ == Release::model && at(static_cast<std::int32_t>(released)) < triangles.size()) {
+      for (const auto t : triangles) work.clean[at(t)] = 0;
+      continue;
+    }
+    work.counts.release.released += static_cast<std::uint64_t>(released);
   }
   return true;
 }
 
 void ReleaseRule::settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-                         std::vector<std::uint8_t>& clean) const {
+                         StepState& state) const {
   const Topology& mesh = work.surface.mesh;
+  auto& clean = state.clean;
+  clean.resize(mesh.triangles.size());
   std::transform(work.clean.begin(), work.clean.end(), work.touched.begin(), clean.begin(),
                  [](std::uint8_t was_clean, std::uint8_t touched) -> std::uint8_t {
                    return was_clean != 0 && touched == 0;
                  });
-  if (!complete && !pairs.empty()) std::fill(clean.begin(), clean.end(), 0);
+  state.met.clear();
+  state.met_is_complete = complete || pairs.empty();
+  if (!state.met_is_complete) std::fill(clean.begin(), clean.end(), 0);
   for (const auto& [pair, time, feature] : pairs) {
     const bool own =
         mesh.component_of_triangle[at(pair.a)] == mesh.component_of_triangle[at(pair.b)];
-    if (own) clean[at(pair.a)] = clean[at(pair.b)] = 0;
+    if (!own) continue;
+    clean[at(pair.a)] = clean[at(pair.b)] = 0;
+    state.met.push_back(pair);
   }
 }
 

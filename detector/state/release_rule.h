@@ -1,4 +1,12 @@
 // What is clean, as a stage of the detector: by view (L5), by layers (L9), from step to step (L8).
+//
+// Dirty at the start of a step that goes on from a committed one is exactly what was dirty at the
+// start of that one, or touched by a ghost or in contact with its own component during it (after a
+// collision found by K alone: everything), less what is released at the instant between the two: of
+// each component the triangles that touch nothing of S there and have its common layer. The common
+// layer is that of the triangles that are not in doubt; where there are none, the layer that most
+// untouched triangles of the component have (tie: the one that holds the lowest). L5 is a quicker
+// way to the same: where all of S is positive with winding number 1, S is embedded with one layer.
 #pragma once
 
 #include "detector/step_work.h"
@@ -8,7 +16,8 @@ namespace assay::detector {
 class ReleaseRule {
  public:
   // bounded: what doubles cannot tell is not released.
-  explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact) : arithmetic_(arithmetic) {}
+  explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact, Release release = Release::pieces)
+      : arithmetic_(arithmetic), release_(release) {}
   virtual ~ReleaseRule() = default;
 
   // L8: whether the state of the last commit serves a step that starts at x_t0.
@@ -27,13 +36,25 @@ class ReleaseRule {
   // layers by piece; writes work.clean of their triangles. False when stopped.
   virtual bool verify_start(StepWork& work, const std::vector<std::int32_t>& components) const;
 
-  // L8: work.clean of the step's start becomes that of its end. `pairs`: the contacts found;
-  // `complete`: all there are (else nothing is known after a collision).
+  // L9 at t=0 of a step that goes on from work.known, for the components listed: some of their
+  // triangles are dirty by L8, and work.clean says which are not; those released are added to it.
+  // False when stopped. Costs what is in doubt (static_touches.h, layers.h).
+  virtual bool release(StepWork& work, const std::vector<std::int32_t>& components) const;
+
+  // L8: work.clean of the step's start becomes that of its end, with the contacts behind it.
+  // `pairs`: the contacts found; `complete`: all there are (else nothing is known after a
+  // collision).
   virtual void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-                      std::vector<std::uint8_t>& clean) const;
+                      StepState& state) const;
+
+ protected:
+  Arithmetic arithmetic() const { return arithmetic_; }
 
  private:
+  bool release_without_history(StepWork& work, const std::vector<std::int32_t>& components) const;
+
   Arithmetic arithmetic_;
+  Release release_;
 };
 
 }  // namespace assay::detector

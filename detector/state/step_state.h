@@ -11,8 +11,14 @@
 namespace assay::detector {
 
 struct StepState {
-  Positions positions;              // at which the rest holds, in every bit
-  std::vector<std::uint8_t> clean;  // by triangle
+  Positions positions;  // at which the rest holds, in every bit
+  // By triangle, by L8 alone: clean when the step began, in no contact with its own component and
+  // touched by no ghost. The next step releases (L9), when it is not free without.
+  std::vector<std::uint8_t> clean;
+  // The pairs of one component in contact during the step, and whether that is all there were
+  // (after a collision found by K alone it is not).
+  std::vector<TrianglePair> met;
+  bool met_is_complete = true;
   // By component: its view primitive at these positions, when that is known to have winding number
   // 1 there. It keeps it while all triangles stay positive, so L5 need not count again.
   std::vector<std::optional<std::array<Point, 2>>> inside;

@@ -28,6 +28,7 @@ std::vector<Fault> pair_faults();
 std::vector<Fault> elementary_faults();
 std::vector<Fault> start_faults();
 std::vector<Fault> state_faults();
+std::vector<Fault> release_faults();
 std::vector<Fault> boundary_faults();
 std::vector<Fault> ghost_faults();
 

@@ -50,7 +50,7 @@ struct StartHalfChecked : ReleaseRule {
       if (ghosts) {
         work.boundary.sweep(still, work.ghosts(c), work.stop, touched, work.counts.ghosts);
       }
-      detector::mark_clean_by_layers(work.surface, c, work.x_t0, touched, seen, work.clean);
+      detector::mark_clean_by_layers({work.surface, work.x_t0, touched}, c, seen, work.clean);
       if (layers == Layers::by_piece) continue;
       const auto own = work.own_triangles(c);
       const bool some =

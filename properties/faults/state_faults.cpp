@@ -9,9 +9,8 @@ namespace {
 using detector::PairContact;
 using detector::ReleaseRule;
 using detector::Stages;
+using detector::StepState;
 using detector::StepWork;
-
-using Flags = std::vector<std::uint8_t>;
 
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -19,56 +18,57 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 // has seen less.
 struct DirtyNotCarried : ReleaseRule {
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              Flags& clean) const override {
+              StepState& state) const override {
     StepWork forgetful = work;
     forgetful.clean.assign(work.clean.size(), 1);
-    ReleaseRule::settle(forgetful, pairs, complete, clean);
+    ReleaseRule::settle(forgetful, pairs, complete, state);
   }
 };
 
 struct ViolatedNotCarried : ReleaseRule {
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              Flags& clean) const override {
+              StepState& state) const override {
     StepWork forgetful = work;
     forgetful.touched.assign(work.touched.size(), 0);
-    ReleaseRule::settle(forgetful, pairs, complete, clean);
+    ReleaseRule::settle(forgetful, pairs, complete, state);
   }
 };
 
 struct ReleasedOnNoContact : ReleaseRule {
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              Flags& clean) const override {
-    ReleaseRule::settle(work, pairs, complete, clean);
-    if (pairs.empty()) std::fill(clean.begin(), clean.end(), 1);
+              StepState& state) const override {
+    ReleaseRule::settle(work, pairs, complete, state);
+    if (pairs.empty()) std::fill(state.clean.begin(), state.clean.end(), 1);
   }
 };
 
 struct ContactsNotCarried : ReleaseRule {
   void settle(const StepWork& work, const std::vector<PairContact>&, bool,
-              Flags& clean) const override {
-    ReleaseRule::settle(work, {}, true, clean);
+              StepState& state) const override {
+    ReleaseRule::settle(work, {}, true, state);
   }
 };
 
 struct OneSideDirty : ReleaseRule {
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool,
-              Flags& clean) const override {
-    ReleaseRule::settle(work, {}, true, clean);
-    for (const auto& contact : pairs) clean[at(contact.pair.a)] = 0;
+              StepState& state) const override {
+    ReleaseRule::settle(work, {}, true, state);
+    for (const auto& contact : pairs) {
+      state.clean[at(contact.pair.a)] = 0;
+      state.met.push_back(contact.pair);
+    }
   }
 };
 
 struct FirstPairsAreAll : ReleaseRule {
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool,
-              Flags& clean) const override {
-    ReleaseRule::settle(work, pairs, true, clean);
+              StepState& state) const override {
+    ReleaseRule::settle(work, pairs, true, state);
   }
 };
 
 struct KeptElsewhere : ReleaseRule {
-  bool still_holds(const detector::StepState&, const detector::PositionsView&) const override {
-    return true;
-  }
+  bool still_holds(const StepState&, const detector::PositionsView&) const override { return true; }
 };
 
 constexpr detector::Options first_pairs = {detector::Culling::view_point, detector::Start::verified,

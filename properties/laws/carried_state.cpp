@@ -40,6 +40,57 @@ TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags&
   return clean;
 }
 
+bool has_account(CaseFacts& facts, std::size_t s) {
+  if (facts.options().arithmetic != detector::Arithmetic::exact) return false;
+  if (facts.options().release != detector::Release::pieces) return false;
+  if (facts.options().ghost_test != detector::GhostTest::exact) return false;
+  if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return false;
+  const auto p = facts.known_from(s);
+  return !p || has_account(facts, *p);
+}
+
+TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s) {
+  TriangleFlags flags = account_of_dirty(facts, s);
+  const bool incomplete = facts.options().pairs != detector::Pairs::all &&
+                          facts.judgement(s).answer == detector::Answer::collision;
+  for (std::size_t t = 0; t < flags.size(); ++t) {
+    flags[t] |= incomplete | facts.own_contacts(s)[t] | facts.touched(s)[t];
+  }
+  return flags;
+}
+
+TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s) {
+  const std::size_t count = facts.surface().mesh.triangles.size();
+  const auto component = [&](std::size_t t) {
+    return static_cast<std::size_t>(facts.component_of(static_cast<std::int32_t>(t)));
+  };
+  TriangleFlags dirty(count, 0);
+  const auto p = facts.known_from(s);
+  if (!p) {
+    for (std::size_t t = 0; t < count; ++t) {
+      dirty[t] = facts.options().start == detector::Start::unknown
+                     ? !facts.is_free_by_view(s, component(t))
+                     : !facts.layers_at_start(s).clean[t];
+    }
+    return dirty;
+  }
+  const TriangleFlags in_doubt = in_doubt_after(facts, *p);
+  const auto& layers = facts.layers_at_start(s);
+  OptionalLayers common(facts.surface().mesh.components.size());
+  for (std::size_t t = 0; t < count; ++t) {
+    auto& layer = common[component(t)];
+    if (!layer && !in_doubt[t]) layer = layers.layer[t];
+  }
+  for (std::size_t t = 0; t < count; ++t) {
+    if (!in_doubt[t]) continue;
+    const auto& layer = common[component(t)];
+    const bool released =
+        !layers.touched[t] && (layer ? layer == layers.layer[t] : layers.clean[t] != 0);
+    dirty[t] = !released;
+  }
+  return dirty;
+}
+
 TriangleFlags dirty_triangles(const CaseFacts& facts, std::size_t s) {
   TriangleFlags dirty;
   for (const auto doubts : facts.result(s).doubts) {

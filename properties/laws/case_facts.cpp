@@ -154,6 +154,15 @@ std::optional<int> CaseFacts::winding_at_start(std::size_t s, std::size_t compon
   return winding[component] = field.at(results_[s].primitives[component].q0.t0);
 }
 
+bool CaseFacts::is_free_by_view(std::size_t s, std::size_t component) {
+  const auto& triangles = surface_.all().components[component].triangles;
+  const auto& of_step = signs(s);
+  return std::all_of(
+             triangles.begin(), triangles.end(),
+             [&](std::int32_t t) { return of_step[at(t)] == detector::ViewSign::positive; }) &&
+         winding_at_start(s, component) == 1;
+}
+
 const oracle::LayerState& CaseFacts::layers_of(const Positions& all) {
   for (const auto& [places, layers] : layers_) {
     if (same_places(places, all)) return *layers;

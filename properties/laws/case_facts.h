@@ -62,6 +62,8 @@ class CaseFacts {
   const std::vector<std::uint8_t>& touched(std::size_t s);      // L11, by ghosts of the component
   const oracle::Candidates& candidates(std::size_t s);          // K
   std::optional<int> winding_at_start(std::size_t s, std::size_t component);  // of q0, in S
+  // L5 over the step: all of the component and its ghosts positive, winding number 1 at t=0.
+  bool is_free_by_view(std::size_t s, std::size_t component);
   const oracle::LayerState& layers_at_start(std::size_t s);
   const oracle::LayerState& layers_at_end(std::size_t s);
   // 1: in contact with another triangle of its component. REQUIRES is_judged(s).

@@ -63,6 +63,19 @@ Observation clean_and_untouched_stays_clean(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
+Observation dirty_is_the_oracles_account(CaseFacts& facts, std::size_t s) {
+  const auto p = facts.known_from(s);
+  if (!p || !has_account(facts, s) || !any(in_doubt_after(facts, *p))) return not_met();
+  const auto account = account_of_dirty(facts, s);
+  const auto dirty = dirty_triangles(facts, s);
+  for (std::size_t t = 0; t < dirty.size(); ++t) {
+    if (dirty[t] == account[t]) continue;
+    return fmt::format("triangle {} is {}, by the oracle {}", t, dirty[t] ? "dirty" : "clean",
+                       account[t] ? "dirty" : "clean");
+  }
+  return holds();
+}
+
 Observation new_start_is_the_oracles_layers(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || facts.known_from(s) || facts.options().start != Start::verified) {
     return not_met();
@@ -124,6 +137,11 @@ constexpr Law all[] = {
      "What is clean at the start, in no contact with its own component and touched by no ghost, is "
      "untouched and of one layer at the end, and starts the next step as clean.",
      "pair set, triangles touched by ghosts, layers", each_step<clean_and_untouched_stays_clean>},
+    {"L9_DirtyIsTheOraclesAccount", "L9",
+     "What a step that continues from a committed one starts with as dirty is exactly what was "
+     "dirty, touched by a ghost or in contact with its own component until then, and is not "
+     "untouched and of the common layer of its component now.",
+     "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>},
     {"L9_NewStartIsTheOraclesLayers", "L9",
      "At a new start that is verified, dirty is what touches something of S or is not of the "
      "common layer of its component.",

@@ -33,8 +33,8 @@ struct TravelsAsBytes<Contract> : std::true_type {};
 
 template <class Wire>
 void fields(Wire& wire, detector::Options& options) {
-  auto& [culling, start, pairs, arithmetic] = options;
-  wire(culling, start, pairs, arithmetic);
+  auto& [culling, start, pairs, arithmetic, release, ghost_test] = options;
+  wire(culling, start, pairs, arithmetic, release, ghost_test);
 }
 
 template <class Wire>

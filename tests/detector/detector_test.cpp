@@ -146,7 +146,10 @@ TEST(Detector, PairsFirstHasTheFirstTime) {
   const auto result = first.step(octahedron_positions(2), pushed());
   EXPECT_EQ(result.first, all.first);
   EXPECT_LE(result.pairs.size(), all.pairs.size());
-  EXPECT_EQ(first.evaluate(pushed(), pushed()).dirty, 8u) << "nothing is known after it (L8)";
+  const auto next = first.evaluate(pushed(), pushed());
+  EXPECT_EQ(next.counts.release.in_doubt, 8u) << "nothing is known after it (L8)";
+  const auto anew = make(octahedron(), octahedron_positions(2)).evaluate(pushed(), pushed());
+  EXPECT_EQ(next.dirty, anew.dirty) << "and so what a new start finds is released (L9)";
 }
 
 TEST(Detector, WrongNumberOfPrimitivesIsRefused) {

@@ -151,10 +151,14 @@ class NotedRelease : public ReleaseRule {
     trace_.note("layers");
     return ReleaseRule::verify_start(work, components);
   }
+  bool release(StepWork& work, const std::vector<std::int32_t>& components) const override {
+    trace_.note("release");
+    return ReleaseRule::release(work, components);
+  }
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              std::vector<std::uint8_t>& clean) const override {
+              StepState& state) const override {
     trace_.note("settle");
-    ReleaseRule::settle(work, pairs, complete, clean);
+    ReleaseRule::settle(work, pairs, complete, state);
   }
 
  private:

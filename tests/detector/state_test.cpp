@@ -70,8 +70,8 @@ TEST(Layers, L9_PiecesNotConnectionDecide) {
   const Surface surface = make_surface(t, 6);
   ASSERT_EQ(surface.mesh.components.size(), 1u);
   ASSERT_TRUE(surface.is_closed());
-  std::vector<std::uint8_t> clean(8, 2), seen(8, 0);
-  mark_clean_by_layers(surface, 0, x, std::vector<std::uint8_t>(8, 0), seen, clean);
+  std::vector<std::uint8_t> clean(8, 2), seen(8, 0), untouched(8, 0);
+  mark_clean_by_layers({surface, x, untouched}, 0, seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 1, 1, 0, 0, 0, 0}))
       << "as many triangles in each layer: the one with triangle 0 is common";
 }
@@ -80,7 +80,7 @@ TEST(Layers, L9_TouchedTrianglesStayDirty) {
   const Surface surface = make_surface(octahedron(), 6);
   std::vector<std::uint8_t> touched(8, 0), clean(8, 0), seen(8, 0);
   touched[2] = 1;
-  mark_clean_by_layers(surface, 0, octahedron_positions(1), touched, seen, clean);
+  mark_clean_by_layers({surface, octahedron_positions(1), touched}, 0, seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 1, 1, 1}));
 }
 
@@ -143,11 +143,15 @@ TEST(Release, L8_ContactsAndTouchesMakeDirty) {
   work.touched.assign(8, 0);
   work.touched[3] = 1;
   const std::vector<PairContact> pairs = {{{0, 6}, {}, {}}};
-  std::vector<std::uint8_t> clean(8);
-  ReleaseRule().settle(work, pairs, true, clean);
-  EXPECT_EQ(clean, (std::vector<std::uint8_t>{0, 1, 1, 0, 1, 1, 0, 0}));
-  ReleaseRule().settle(work, pairs, false, clean);
-  EXPECT_EQ(std::count(clean.begin(), clean.end(), 1), 0) << "an incomplete set vouches for none";
+  StepState state;
+  ReleaseRule().settle(work, pairs, true, state);
+  EXPECT_EQ(state.clean, (std::vector<std::uint8_t>{0, 1, 1, 0, 1, 1, 0, 0}));
+  EXPECT_EQ(state.met, (std::vector<TrianglePair>{{0, 6}}));
+  EXPECT_TRUE(state.met_is_complete);
+  ReleaseRule().settle(work, pairs, false, state);
+  EXPECT_FALSE(state.met_is_complete);
+  EXPECT_EQ(std::count(state.clean.begin(), state.clean.end(), 1), 0)
+      << "an incomplete set vouches for none";
 }
 
 }  // namespace

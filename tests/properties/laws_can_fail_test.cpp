@@ -131,6 +131,7 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
       {"L8_CarriedCleanIsClean", {no_doubts}},
       {"L8_WhatIsNotCleanStaysDirty", {no_doubts}},
       {"L8_CleanAndUntouchedStaysClean", {no_doubts}},
+      {"L9_DirtyIsTheOraclesAccount", {all_dirty}},
       {"L9_NewStartIsTheOraclesLayers", {no_doubts}},
       {"L9_AllPositiveAtTheStartReleases", {all_dirty}},
       {"L10_PairsOfTwoComponentsNeedNoSigns", {no_pairs}},

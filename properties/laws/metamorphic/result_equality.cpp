@@ -41,6 +41,11 @@ bool same_counts(const detector::StepCounts& a, const detector::StepCounts& b) {
                       c.view.exact,
                       c.ghosts.pairs,
                       c.ghosts.elementary_tests,
+                      c.release.in_doubt,
+                      c.release.released,
+                      c.release.pairs,
+                      c.release.elementary_tests,
+                      c.release.winding_numbers,
                       c.closure_rounds,
                       c.winding_numbers,
                       c.free_components};

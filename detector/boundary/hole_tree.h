@@ -1,0 +1,52 @@
+// One small tree a hole: the ghosts of its fan, as they move.
+//
+// The fan's own order, along the loop, is the order of the leaves, so nothing is sorted or built:
+// node n has the children 2n+1 and 2n+2, the last nodes are the leaves.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "detector/boundary/surface.h"
+#include "detector/search/moving_box.h"
+
+namespace assay::detector {
+
+class HoleTree {
+ public:
+  // ghosts: of one loop, in its order, at least one; corners are rows of the views. Boxes compare
+  // with others of the same rounding. 50 ns a ghost.
+  HoleTree(const Topology& all, std::span<const std::int32_t> ghosts, const Rounding& rounding,
+           const PositionsView& x_t0, const PositionsView& x_t1);
+
+  static constexpr std::size_t root = 0;
+  bool is_leaf(std::size_t node) const { return node + 1 >= ghosts_.size(); }
+  std::size_t child(std::size_t node) const { return 2 * node + 1; }  // the other is the next
+  std::int32_t first_ghost() const { return ghosts_.front(); }
+  std::int32_t ghost(std::size_t leaf) const { return ghosts_[leaf + 1 - ghosts_.size()]; }
+  const MovingBox& box(std::size_t node) const { return boxes_[node]; }
+
+  // Ghosts whose box is not apart from `box`, until `visit` returns true; whether it did.
+  template <class Visit>
+  bool any_near(const MovingBox& box, Visit visit) const {
+    return any_near(root, box, visit);
+  }
+
+ private:
+  template <class Visit>
+  bool any_near(std::size_t node, const MovingBox& box, Visit& visit) const {
+    if (apart(boxes_[node], box)) return false;
+    if (is_leaf(node)) return visit(ghost(node));
+    return any_near(child(node), box, visit) || any_near(child(node) + 1, box, visit);
+  }
+
+  std::span<const std::int32_t> ghosts_;
+  std::vector<MovingBox> boxes_;
+};
+
+// A tree for each hole of the ghosts of a component.
+std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
+                                      const Rounding& rounding, const PositionsView& x_t0,
+                                      const PositionsView& x_t1);
+
+}  // namespace assay::detector

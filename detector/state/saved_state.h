@@ -1,0 +1,24 @@
+// What a detector carries from step to step, as a value that can be copied and kept.
+#pragma once
+
+#include "detector/boundary/apex.h"
+#include "detector/options.h"
+#include "detector/state/step_state.h"
+#include "detector/view/view_anchor.h"
+
+namespace assay::detector {
+
+struct SavedState {
+  std::uint64_t mesh = 0;  // digest of the triangles and the number of vertices
+  Culling culling = Culling::view_point;
+  std::optional<StepState> committed;  // nothing: the next step is a new start
+  // Chosen from the positions that the detector was made from. An apex must not jump between steps
+  // (cases D7, D9), so these belong to the state.
+  std::vector<ApexRule> apex_rules;
+  std::vector<ViewAnchor> anchors;
+};
+
+// The same for the same triangles in the same order. O(M).
+std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
+
+}  // namespace assay::detector

@@ -1,0 +1,59 @@
+#include "detector/state/static_touches.h"
+
+#include "detector/boundary/hole_tree.h"
+
+namespace assay::detector {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+constexpr std::size_t tests_between_stops = 256;
+
+}  // namespace
+
+bool add_lasting_contacts(StepWork& work, std::vector<std::uint8_t>& touched) {
+  const auto& triangles = work.surface.mesh.triangles;
+  const FacePairTest faces(work.x_t0, work.x_t0, work.elementary, true);
+  GhostCounts counts;
+  std::size_t tests = 0;
+  for (const auto& [a, b] : work.known->met) {
+    if (touched[at(a)] && touched[at(b)]) continue;
+    if (tests++ % tests_between_stops == 0 && work.stop && work.stop()) return false;
+    if (faces.meet(triangles[at(a)], triangles[at(b)], counts)) touched[at(a)] = touched[at(b)] = 1;
+  }
+  work.counts.release.pairs += tests;
+  work.counts.release.elementary_tests += counts.elementary_tests;
+  return true;
+}
+
+bool add_ghost_touches(StepWork& work, std::size_t c, std::span<const std::int32_t> in_doubt,
+                       std::vector<std::uint8_t>& touched) {
+  const Topology& all = work.surface.all();
+  if (work.ghosts(c).empty()) return true;
+  const Rounding rounding(work.x_t0, work.x_t0);
+  const auto holes = make_hole_trees(all, work.ghosts(c), rounding, work.x_t0, work.x_t0);
+  const FacePairTest faces(work.x_t0, work.x_t0, work.elementary, true);
+  GhostCounts counts;
+  std::size_t triangles = 0;
+  for (const auto t : in_doubt) {
+    if (touched[at(t)]) continue;
+    if (triangles++ % tests_between_stops == 0 && work.stop && work.stop()) return false;
+    const auto& corners = all.triangles[at(t)];
+    const auto corner = [&](std::size_t i) { return rounding(work.x_t0, work.x_t0, corners[i]); };
+    const MovingBox box = box_of(corner(0), corner(1), corner(2));
+    const auto meets = [&](std::int32_t ghost) {
+      ++counts.pairs;
+      return faces.meet(all.triangles[at(ghost)], corners, counts);
+    };
+    for (const auto& hole : holes) {
+      if (!hole.any_near(box, meets)) continue;
+      touched[at(t)] = 1;
+      break;
+    }
+  }
+  work.counts.release.pairs += counts.pairs;
+  work.counts.release.elementary_tests += counts.elementary_tests;
+  return true;
+}
+
+}  // namespace assay::detector

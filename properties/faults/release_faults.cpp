@@ -1,0 +1,140 @@
+// Wrong releases within a sequence: triangles that were dirty and are taken for clean too soon
+// (L9).
+#include <algorithm>
+
+#include "detector/state/layers.h"
+#include "detector/state/static_touches.h"
+#include "properties/faults/planting.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::ReleaseRule;
+using detector::Stages;
+using detector::StepWork;
+
+using Flags = std::vector<std::uint8_t>;
+using Components = std::vector<std::int32_t>;
+using Triangles = std::vector<std::int32_t>;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+enum class Contacts { tested, ignored };
+enum class Ghosts { tested, ignored };
+enum class Layers { of_pieces, by_connection, across_touched, not_looked_at };
+
+// The release, put together again with parts of it missing or changed.
+template <Contacts contacts, Ghosts ghosts, Layers layers>
+struct ReleaseHalfChecked : ReleaseRule {
+  bool release(StepWork& work, const Components& components) const override {
+    Flags touched(work.clean.size(), 0), seen(touched);
+    if (contacts == Contacts::tested) detector::add_lasting_contacts(work, touched);
+    for (const auto component : components) {
+      const std::size_t c = at(component);
+      Triangles in_doubt;
+      for (const auto t : work.own_triangles(c)) {
+        if (!work.clean[at(t)]) in_doubt.push_back(t);
+      }
+      if (ghosts == Ghosts::tested) detector::add_ghost_touches(work, c, in_doubt, touched);
+      switch (layers) {
+        case Layers::of_pieces:
+          detector::release_pieces({work.surface, work.x_t0, touched}, c, in_doubt, seen,
+                                   work.clean);
+          break;
+        case Layers::across_touched:
+          release_across_touched(work, c, in_doubt, touched);
+          break;
+        case Layers::by_connection:
+          release_connected(work, in_doubt, touched);
+          break;
+        case Layers::not_looked_at:
+          for (const auto t : in_doubt) work.clean[at(t)] = !touched[at(t)];
+      }
+    }
+    return true;
+  }
+
+ private:
+  // Pieces go on through what is touched, and that alone stays dirty.
+  static void release_across_touched(StepWork& work, std::size_t c, const Triangles& in_doubt,
+                                     const Flags& touched) {
+    const Flags nothing(touched.size(), 0);
+    Flags seen(nothing);
+    detector::release_pieces({work.surface, work.x_t0, nothing}, c, in_doubt, seen, work.clean);
+    for (const auto t : in_doubt) work.clean[at(t)] &= !touched[at(t)];
+  }
+
+  // A clean neighbour at any edge will do, however many triangles meet there.
+  static void release_connected(StepWork& work, const Triangles& in_doubt, const Flags& touched) {
+    const auto& mesh = work.surface.mesh;
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (const auto t : in_doubt) {
+        if (work.clean[at(t)] || touched[at(t)]) continue;
+        for (const auto edge : mesh.triangle_edges[at(t)]) {
+          const auto around = mesh.edge_triangles.row(edge);
+          work.clean[at(t)] |= std::any_of(around.begin(), around.end(),
+                                           [&](auto s) { return work.clean[at(s)] != 0; });
+        }
+        grows |= work.clean[at(t)] != 0;
+      }
+    }
+  }
+};
+
+// A clean neighbour serves also what a ghost or the mesh touches; pieces end there all the same.
+struct ReleasedWhileTouched : ReleaseRule {
+  bool release(StepWork& work, const Components& components) const override {
+    if (!ReleaseRule::release(work, components)) return false;
+    const auto& mesh = work.surface.mesh;
+    const Flags released = work.clean;
+    for (const auto component : components) {
+      for (const auto t : work.own_triangles(at(component))) {
+        for (const auto edge : mesh.triangle_edges[at(t)]) {
+          for (const auto s : mesh.edge_triangles.row(edge)) work.clean[at(t)] |= released[at(s)];
+        }
+      }
+    }
+    return true;
+  }
+};
+
+template <class Release>
+Fault row(std::string_view name, std::string_view about, std::string_view curated, int vertices) {
+  return {name,    about,    "L9",      FaultStatus::planted,           "", with_points,
+          curated, vertices, "release", with<&Stages::release, Release>};
+}
+
+}  // namespace
+
+std::vector<Fault> release_faults() {
+  using C = Contacts;
+  using G = Ghosts;
+  using L = Layers;
+  return {
+      row<ReleaseHalfChecked<C::tested, G::ignored, L::of_pieces>>(
+          "release/blind-to-ghosts", "released without looking at the ghosts",
+          "D8_release_arm_sequence", 22),
+      row<ReleaseHalfChecked<C::ignored, G::tested, L::of_pieces>>(
+          "release/blind-to-contacts", "released although still in contact with the mesh",
+          "F_contacts_carried", 5),
+      row<ReleaseHalfChecked<C::tested, G::tested, L::by_connection>>(
+          "release/released-when-connected",
+          "a clean neighbour is enough, also at an edge of four triangles",
+          "F_released_by_connection", 6),
+      row<ReleaseHalfChecked<C::tested, G::tested, L::across_touched>>(
+          "release/linked-across-touched", "pieces go on through triangles that touch something",
+          "D8_release_arm_sequence", 22),
+      row<ReleaseHalfChecked<C::tested, G::tested, L::not_looked_at>>(
+          "release/layers-not-checked", "what touches nothing is released, whatever its layer",
+          "D8_release_arm_sequence", 22),
+      {"release/released-while-touched",
+       "what still touches something is released beside a clean neighbour", "L9", FaultStatus::open,
+       "where it meets the mesh in (V+,V+) alone, so far a dirty triangle next to it did too: none "
+       "of "
+       "60,000 changes of D8's second step shows it",
+       with_points, "", 0, "release", with<&Stages::release, ReleasedWhileTouched>},
+  };
+}
+
+}  // namespace assay::properties
