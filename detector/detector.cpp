@@ -58,14 +58,14 @@ Expected<Detector> Detector::assemble(const TrianglesView& triangles,
   if (views && surface.is_closed())
     anchors = place_anchors(surface, {}, options.culling, positions);
   BoundingVolumeTree tree(surface.mesh, positions);
-  std::vector<ApexRule> apex_rules;
+  std::vector<ApexRule> rules;
   if (views && !surface.is_closed()) {
-    apex_rules = stages.boundary->choose_apexes(surface, tree, positions, *stages.elementary);
-    anchors = place_anchors(surface, apex_rules, options.culling, positions);
+    rules = stages.boundary->choose_apexes(surface, tree, positions, *stages.elementary);
+    anchors = place_anchors(surface, rules, options.culling, positions);
   }
   SearchMemory search(surface.mesh, tree);
-  StepContext context{options,           std::move(stages),  std::move(surface),    std::move(tree),
-                      std::move(search), std::move(anchors), std::move(apex_rules), 0};
+  StepContext context{options,           std::move(stages),  std::move(surface), std::move(tree),
+                      std::move(search), std::move(anchors), std::move(rules),   0};
   if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
   return Detector(std::unique_ptr<Parts>(new Parts{std::move(context), {}, {}}));
 }
