@@ -1,29 +1,42 @@
-// Algorithm 3 of the thesis with what THEORY adds to it (its closed part is Algorithm 1). The steps
-// stand in this order below; each is a stage.
+// Algorithm 3 of the thesis, self-collision detection with the view-based approach; without what it
+// does about holes it is Algorithm 1. The excerpts state most steps in words (3.6, 4.3, 4.4) and
+// print no listing: (r) marks a line reconstructed, + a line that THEORY adds or puts in its place.
+// On the right, who does it here; a step runs through these functions in this order.
 //
-//   apexes of the ghost fans, for an unclosed mesh                 BoundaryHandler (L11)
-//   view test of every component and its ghosts from its primitive ViewClassifier (L1, L2)
-//   component all positive and winding number 1: free, clean       ReleaseRule (L5)
-//   all components free and only one of them: done, no tree is touched
-//   state at the start: last commit, or static contacts and layers ReleaseRule (L8, L9)
-//   ghosts against the mesh, hole by hole: violated                BoundaryHandler (L11)
-//   mark the triangles that changed                                Marking
-//   traverse (V+,V-), (U,V0), (U,Vv) and pairs of two components   PairRule, PairSearch (L3, L10)
-//   elementary tests, each feature pair once                       ElementaryTest
-//   closure: (U,H) until H is stable                               PairRule (L7)
-//   what is clean at the end                                       ReleaseRule (L8)
+//   in preprocessing                                             Detector::assemble
+//     (r) build a BVH of the mesh
+//         for each hole, ghost triangles over it
+//     +     a fan over each boundary loop, its apex above it     BoundaryHandler (L11, L12)
+//         compute a view primitive inside the object
+//     +     anywhere, and one for each component                 make_view_anchor (L10)
+//   in each step
+//     (r) move the ghosts and the view primitive                 place_apexes, place_primitives
+//         divide all triangles into V+, V- and V0 by view tests  classify_components (L1, L2)
+//     +     ghosts are seen too
+//         if all triangles are in V+: self-collision free
+//     +     a component, with its ghosts, and winding number 1   ReleaseRule (L5)
+//     +     ends the step if there is one component alone
+//     +   what is clean at the start: last commit, or layers     find_start (L8, L9)
+//         hole by hole: pairs of the BVH and the ghosts,
+//           elementary tests; what is in contact goes into Vv    sweep_ghosts (L11)
+//     (r) refit the boxes of the BVH                             PairSearch
+//         mark the triangles whose type has changed: the vBVHs   Marking
+//         traverse (V+,V-), (U,V0) and (U,Vv), passing over
+//           nodes with a single child                            PairRule, PairSearch (L3)
+//     +     and the pairs of two components                      (L10)
+//     (r) elementary tests of the pairs found                    ElementaryTest
+//     +   closure: (U,H) until H is stable                       PairRule (L7)
+//         free: Vv is released
+//     +     Vv is what is not known to be clean                  ReleaseRule (L8)
 #include "detector/step.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "detector/mesh/mesh_checks.h"
+#include "detector/state/clean_triangles.h"
+#include "detector/step_input.h"
+#include "detector/step_outcome.h"
 #include "detector/stopwatch.h"
 
 namespace assay::detector {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class Step {
  public:
@@ -54,24 +67,15 @@ class Step {
     result_.answer = !completed              ? Answer::undecided
                      : result_.pairs.empty() ? Answer::free
                                              : Answer::collision;
-    if (completed) next = state_at_end(mesh_x_t1);  // whole or not at all, should memory fail
-    set_first_time();
+    if (completed)
+      next = state_at_end(work_, *context_.stages.release, result_.pairs, is_complete(),
+                          mesh_x_t1);  // whole or not at all, should memory fail
+    result_.first = least_time(result_.pairs);
     hand_over();
     return std::move(result_);
   }
 
  private:
-  // Nothing is before the least lo, and each hi below 1 is one by which there is a contact. Of
-  // unique enclosures this is the least.
-  void set_first_time() {
-    if (result_.pairs.empty()) return;
-    result_.first = result_.pairs.front().time;
-    for (const auto& [pair, time, feature] : result_.pairs) {
-      result_.first.lo = std::min(result_.first.lo, time.lo);
-      result_.first.hi = std::min(result_.first.hi, time.hi);
-    }
-  }
-
   void place_primitives(const PositionsView& x_t0, const PositionsView& x_t1,
                         std::span<const ViewPrimitive> given) {
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
@@ -90,7 +94,7 @@ class Step {
       if (!find_start()) return false;
       const bool all_free = work_.all_free();
       if (!all_free && !sweep_ghosts()) return false;
-      count_sets();
+      count_sets(work_, result_);
       if (all_free && mesh_.components.size() == 1) return true;
     }
     return search();
@@ -108,35 +112,9 @@ class Step {
     }
   }
 
-  // work_.clean at t=0 for all triangles.
   bool find_start() {
     Stopwatch watch(result_.times.start);
-    if (work_.all_free()) {
-      std::fill(work_.clean.begin(), work_.clean.end(), 1);
-      return true;
-    }
-    const ReleaseRule& release = *context_.stages.release;
-    std::vector<std::int32_t> to_verify;
-    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      bool all_clean = work_.free[c] != 0;
-      if (!all_clean && work_.known) {
-        all_clean = true;
-        for (const auto t : work_.own_triangles(c)) {
-          work_.clean[at(t)] = work_.known->clean[at(t)];
-          all_clean &= work_.clean[at(t)] != 0;
-        }
-        if (!all_clean) all_clean = release.released_at_start(work_, c);
-      } else if (!all_clean && context_.options.start == Start::clean) {
-        all_clean = true;
-      } else if (!all_clean && context_.options.start == Start::verified) {
-        all_clean = release.released_at_start(work_, c);
-        if (!all_clean) to_verify.push_back(static_cast<std::int32_t>(c));
-      }
-      if (all_clean) {
-        for (const auto t : work_.own_triangles(c)) work_.clean[at(t)] = 1;
-      }
-    }
-    return to_verify.empty() || release.verify_start(work_, to_verify);
+    return find_clean_at_start(work_, *context_.stages.release, context_.options.start);
   }
 
   bool sweep_ghosts() {
@@ -155,42 +133,9 @@ class Step {
     return true;
   }
 
-  void count_sets() {
-    const std::size_t count = mesh_.triangles.size();
-    result_.doubts.assign(count, 0);
-    if (work_.all_free()) {  // and so clean, and touched by no ghost
-      result_.view_positive = count;
-      return;
-    }
-    for (std::size_t t = 0; t < count; ++t) {
-      const bool dirty = !work_.clean[t], violated = work_.touched[t] != 0;
-      result_.doubts[t] =
-          static_cast<std::uint8_t>((violated ? doubt::violated : 0) | (dirty ? doubt::dirty : 0));
-      result_.dirty += dirty;
-      result_.violated += violated;
-      if (dirty || violated) {
-        ++result_.against_all;
-      } else if (work_.signs[t] == ViewSign::positive) {
-        ++result_.view_positive;
-      } else if (work_.signs[t] == ViewSign::negative) {
-        ++result_.view_negative;
-      } else {
-        ++result_.view_zero;
-      }
-    }
-  }
-
-  TriangleType type_of(std::size_t t) const {
-    if (!work_.clean[t]) return TriangleType::dirty;
-    if (work_.touched[t]) return TriangleType::violated;
-    return work_.signs[t] == ViewSign::positive   ? TriangleType::positive
-           : work_.signs[t] == ViewSign::negative ? TriangleType::negative
-                                                  : TriangleType::zero;
-  }
-
   bool search() {
     std::vector<TriangleType> types(mesh_.triangles.size());
-    for (std::size_t t = 0; t < types.size(); ++t) types[t] = type_of(t);
+    for (std::size_t t = 0; t < types.size(); ++t) types[t] = type_of(work_, t);
     StepTimes& times = result_.times;
     const Stages& stages = context_.stages;
     const SearchStages search_stages{*stages.pair_rule, *stages.marking, *stages.pair_search,
@@ -222,17 +167,9 @@ class Step {
     return completed;
   }
 
-  StepState state_at_end(const PositionsView& mesh_x_t1) const {
-    StepState state;
-    state.keep(mesh_x_t1);
-    state.clean.resize(mesh_.triangles.size());
-    state.inside.resize(mesh_.components.size());
-    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      if (work_.free[c]) state.inside[c] = {work_.primitives[c].q0.t1, work_.primitives[c].q1.t1};
-    }
-    const bool complete = !context_.uses_views() || context_.options.pairs == Pairs::all;
-    context_.stages.release->settle(work_, result_.pairs, complete, state.clean);
-    return state;
+  // Whether the pairs found are all there are.
+  bool is_complete() const {
+    return !context_.uses_views() || context_.options.pairs == Pairs::all;
   }
 
   void hand_over() {
@@ -247,43 +184,13 @@ class Step {
   StepResult result_;
 };
 
-StepResult refused(Problem problem) {
-  StepResult result;
-  result.answer = Answer::error;
-  result.problem = std::move(problem);
-  return result;
-}
-
-std::optional<Problem> check_input(const StepContext& context, const PositionsView& x_t0,
-                                   const PositionsView& x_t1,
-                                   std::span<const ViewPrimitive> primitives) {
-  for (const auto* x : {&x_t0, &x_t1}) {
-    if (auto problem = check_positions(*x, context.surface.first_apex)) return problem;
-  }
-  const auto components = context.surface.mesh.components.size();
-  if (primitives.size() > 1 && primitives.size() != components) {
-    return Problem{InputError::wrong_primitive_count,
-                   std::to_string(primitives.size()) + " view primitives for " +
-                       std::to_string(components) + " components"};
-  }
-  for (const auto& primitive : primitives) {
-    for (const auto* point :
-         {&primitive.q0.t0, &primitive.q0.t1, &primitive.q1.t0, &primitive.q1.t1}) {
-      if (!std::all_of(point->begin(), point->end(), [](double c) { return std::isfinite(c); })) {
-        return Problem{InputError::non_finite_coordinate, "a view primitive is not finite"};
-      }
-    }
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
                          const PositionsView& x_t0, const PositionsView& x_t1,
                          std::span<const ViewPrimitive> primitives, const StopFunction& stop,
                          std::optional<StepState>& next) {
-  if (auto problem = check_input(context, x_t0, x_t1, primitives))
+  if (auto problem = check_step_input(context.surface, x_t0, x_t1, primitives))
     return refused(std::move(*problem));
   const StepState* state =
       known && context.stages.release->still_holds(*known, x_t0) ? &*known : nullptr;

@@ -1,0 +1,54 @@
+#include "detector/state/clean_triangles.h"
+
+#include <algorithm>
+
+namespace assay::detector {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start) {
+  if (work.all_free()) {
+    std::fill(work.clean.begin(), work.clean.end(), 1);
+    return true;
+  }
+  std::vector<std::int32_t> to_verify;
+  for (std::size_t c = 0; c < work.free.size(); ++c) {
+    bool all_clean = work.free[c] != 0;
+    if (!all_clean && work.known) {
+      all_clean = true;
+      for (const auto t : work.own_triangles(c)) {
+        work.clean[at(t)] = work.known->clean[at(t)];
+        all_clean &= work.clean[at(t)] != 0;
+      }
+      if (!all_clean) all_clean = release.released_at_start(work, c);
+    } else if (!all_clean && start == Start::clean) {
+      all_clean = true;
+    } else if (!all_clean && start == Start::verified) {
+      all_clean = release.released_at_start(work, c);
+      if (!all_clean) to_verify.push_back(static_cast<std::int32_t>(c));
+    }
+    if (all_clean) {
+      for (const auto t : work.own_triangles(c)) work.clean[at(t)] = 1;
+    }
+  }
+  return to_verify.empty() || release.verify_start(work, to_verify);
+}
+
+StepState state_at_end(const StepWork& work, const ReleaseRule& release,
+                       const std::vector<PairContact>& pairs, bool complete,
+                       const PositionsView& mesh_x_t1) {
+  StepState state;
+  state.keep(mesh_x_t1);
+  state.clean.resize(work.surface.mesh.triangles.size());
+  state.inside.resize(work.surface.mesh.components.size());
+  for (std::size_t c = 0; c < state.inside.size(); ++c) {
+    if (work.free[c]) state.inside[c] = {work.primitives[c].q0.t1, work.primitives[c].q1.t1};
+  }
+  release.settle(work, pairs, complete, state.clean);
+  return state;
+}
+
+}  // namespace assay::detector

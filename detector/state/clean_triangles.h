@@ -1,0 +1,19 @@
+// Which triangles are clean where a step starts, and where it ends.
+#pragma once
+
+#include "detector/state/release_rule.h"
+
+namespace assay::detector {
+
+// Sets work.clean of all triangles at t=0, by component: free over the step (L5), else the state of
+// the last commit (L8), else what `start` says. A component not known to be clean is looked at from
+// its view primitive (L5), at a new start by layers too (L9). False when stopped.
+bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start);
+
+// `complete`: the pairs are all that are in contact in the step (L8). With all components free it
+// costs the copy of the positions.
+StepState state_at_end(const StepWork& work, const ReleaseRule& release,
+                       const std::vector<PairContact>& pairs, bool complete,
+                       const PositionsView& mesh_x_t1);
+
+}  // namespace assay::detector

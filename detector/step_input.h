@@ -1,0 +1,20 @@
+// What a step is asked with: checks, and the answer to what fails them.
+#pragma once
+
+#include <span>
+
+#include "detector/boundary/surface.h"
+#include "detector/options.h"
+
+namespace assay::detector {
+
+// wrong_frame_size, non_finite_coordinate, wrong_primitive_count (neither none, nor one, nor one
+// for each component).
+std::optional<Problem> check_step_input(const Surface& surface, const PositionsView& x_t0,
+                                        const PositionsView& x_t1,
+                                        std::span<const ViewPrimitive> primitives);
+
+// Answer::error with its reason.
+StepResult refused(Problem problem);
+
+}  // namespace assay::detector
