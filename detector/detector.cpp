@@ -48,6 +48,7 @@ Expected<Detector> Detector::assemble(const TrianglesView& triangles,
   Surface surface = stages.boundary->close_up(triangles, positions.rows());
   BoundingVolumeTree tree(surface.mesh, positions);
   SearchMemory search(surface.mesh, tree);
+  search.kept = stages.pair_search->prepare(surface.mesh, tree);
   StepContext context{
       options, std::move(stages), std::move(surface), std::move(tree), std::move(search), {}, {}};
   if (context.uses_views()) {

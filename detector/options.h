@@ -17,10 +17,11 @@
 namespace assay::detector {
 
 enum class Culling : std::uint8_t {
-  view_point,  // each closed component seen from a point
-  view_line,   // each closed component seen from a segment
-  bvh,         // the tree alone
-  none,        // every pair, no boxes: for small meshes and for comparison
+  view_point,   // each closed component seen from a point
+  view_line,    // each closed component seen from a segment
+  normal_cone,  // the tree, less patches with a normal cone and a simple contour [VMT94]
+  bvh,          // the tree alone
+  none,         // every pair, no boxes: for small meshes and for comparison
 };
 
 enum class Start : std::uint8_t {
@@ -70,8 +71,8 @@ struct StepResult {
   TimeEnclosure first;
   std::vector<PairContact> pairs;  // ascending by pair, each with its first time
 
-  // Sizes of V+, V-, V0 without Vv, and of Vv: disjoint, together all triangles. With culling bvh
-  // and none there are no view sets and all are 0.
+  // Sizes of V+, V-, V0 without Vv, and of Vv: disjoint, together all triangles. With culling
+  // normal_cone, bvh and none there are no view sets and all are 0.
   std::size_t view_positive = 0, view_negative = 0, view_zero = 0;
   std::size_t against_all = 0;  // Vv: violated, dirty, or both
   std::size_t violated = 0;     // touched by a ghost during the step

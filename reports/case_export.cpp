@@ -44,7 +44,7 @@ std::string view_text(const corpus::Case& c, std::size_t step, const detector::O
 
 std::string test_text(const corpus::Case& c, const detector::Options& options,
                       const std::vector<oracle::StepJudgement>& truth) {
-  const char* const cullings[] = {"view_point", "view_line", "bvh", "none"};
+  const char* const cullings[] = {"view_point", "view_line", "normal_cone", "bvh", "none"};
   const char* const starts[] = {"verified", "clean", "unknown"};
   const char* const arithmetics[] = {"exact", "bounded", "double_precision", "single_precision"};
   const bool exact = options.arithmetic == detector::Arithmetic::exact;

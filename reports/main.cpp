@@ -105,7 +105,7 @@ void add_check(CLI::App& app, reports::CheckRequest& request) {
       ->required();
   auto* plugin = verb->add_option("--detector", request.plugin_library,
                                   "Judge this plug-in (.so) by its claims, not the built-in");
-  add_choice(verb, "--culling", request.culling, "view-point, view-line, bvh, none",
+  add_choice(verb, "--culling", request.culling, "view-point, view-line, normal-cone, bvh, none",
              properties::culling_named, "How the detector culls (default view-point)");
   add_choice(verb, "--start", request.start, "verified, clean, unknown", properties::start_named,
              "What is known of the first frame (default verified)");

@@ -30,8 +30,9 @@ TEST_P(Curated, Holds) {
   ASSERT_FALSE(c.value().expected.steps.empty()) << "a case without facts checks nothing";
   const auto report = check_case(c.value());
   EXPECT_EQ(report.outcome, Outcome::holds) << lines(report);
-  for (const auto culling : {detector::Culling::view_point, detector::Culling::view_line,
-                             detector::Culling::bvh, detector::Culling::none}) {
+  for (const auto culling :
+       {detector::Culling::view_point, detector::Culling::view_line, detector::Culling::normal_cone,
+        detector::Culling::bvh, detector::Culling::none}) {
     const auto other = check_case(c.value(), culling);
     EXPECT_EQ(other.outcome, Outcome::holds) << name_of(culling) << ":\n" << lines(other);
   }
