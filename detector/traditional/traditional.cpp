@@ -25,16 +25,16 @@
 //         if both are leaves: elementary tests
 //         else pair-test their children with each other
 //
-// What the classical form gets wrong, each a planted fault:
+// What the classical form gets wrong (each a planted fault, but for the last):
 // - Normals and contours are looked at when the step is over. A triangle that turns over and back,
 //   or an end of the sheet that passes through another in between, is not seen.
 // - The contour test is left out, as dear and almost never needed. A ramp that winds around an axis
-//   has a normal cone, that of the axis, and meets itself after one turn.
-// - Adjacent is taken for: has a vertex in common. Two patches that hang together at a vertex alone
-//   may lie one over the other.
+//   has a normal cone, about that axis, and may meet itself after one turn.
+// - Patches count as adjacent that have a vertex in common. They may lie one over the other.
 // - N.V >= 0 is taken for N.V > 0. Triangles seen edge-on may hide others.
-// - The boundary is taken for the contour where an edge has more than two triangles. Here such an
-//   edge is on the contour when its triangles do not cancel, and L13 counts with that.
+// - Edges of one triangle are taken for the contour. An edge with three triangles is on it too:
+// here
+//   it is wherever its triangles do not cancel, and L13 counts with that.
 #include "detector/traditional/traditional.h"
 
 namespace assay::detector {
