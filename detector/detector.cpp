@@ -16,10 +16,13 @@ void place_anchors(StepContext& context, const PositionsView& positions) {
     apexes.push_back({apex, apex});
   }
   const Positions x = with_apexes(positions, apexes, false);
-  const bool line = context.options.culling == Culling::view_line;
+  const Culling culling = context.options.culling;
   for (const auto& component : surface.all().components) {
-    context.anchors.push_back(make_view_anchor(line ? ViewKind::line : ViewKind::point,
-                                               surface.all(), component, surface.first_apex, x));
+    context.anchors.push_back(
+        culling == Culling::view_auto
+            ? choose_view_anchor(surface.all(), component, surface.first_apex, x)
+            : make_view_anchor(culling == Culling::view_line ? ViewKind::line : ViewKind::point,
+                               surface.all(), component, surface.first_apex, x));
   }
 }
 
@@ -50,11 +53,13 @@ Expected<Detector> Detector::assemble(const TrianglesView& triangles,
   SearchMemory search(surface.mesh, tree);
   search.kept = stages.pair_search->prepare(surface.mesh, tree);
   StepContext context{
-      options, std::move(stages), std::move(surface), std::move(tree), std::move(search), {}, {}};
-  if (context.uses_views()) {
+      options, std::move(stages), std::move(surface), std::move(tree), std::move(search), {}, {},
+      {}};
+  if (uses_views(options.culling)) {
     context.apex_rules = context.stages.boundary->choose_apexes(
         context.surface, context.tree, positions, *context.stages.elementary);
     place_anchors(context, positions);
+    context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
   }
   return Detector(std::unique_ptr<Parts>(new Parts{std::move(context), {}, {}}));
 }

@@ -17,12 +17,19 @@
 namespace assay::detector {
 
 enum class Culling : std::uint8_t {
+  view_auto,    // a point or a segment, whichever sees more; bvh where that does not pay
   view_point,   // each closed component seen from a point
   view_line,    // each closed component seen from a segment
   normal_cone,  // the tree, less patches with a normal cone and a simple contour [VMT94]
   bvh,          // the tree alone
   none,         // every pair, no boxes: for small meshes and for comparison
 };
+
+// Whether steps may be seen from view primitives.
+constexpr bool uses_views(Culling culling) {
+  return culling == Culling::view_auto || culling == Culling::view_point ||
+         culling == Culling::view_line;
+}
 
 enum class Start : std::uint8_t {
   verified,  // at the first step: static contacts and layers by piece (L9); L5 where it applies
@@ -36,7 +43,7 @@ enum class Pairs : std::uint8_t {
 };
 
 struct Options {
-  Culling culling = Culling::view_point;
+  Culling culling = Culling::view_auto;
   Start start = Start::verified;
   Pairs pairs = Pairs::all;
   Arithmetic arithmetic = Arithmetic::exact;
@@ -71,14 +78,15 @@ struct StepResult {
   TimeEnclosure first;
   std::vector<PairContact> pairs;  // ascending by pair, each with its first time
 
-  // Sizes of V+, V-, V0 without Vv, and of Vv: disjoint, together all triangles. With culling
-  // normal_cone, bvh and none there are no view sets and all are 0.
+  // Sizes of V+, V-, V0 without Vv, and of Vv: disjoint, together all triangles. A step without
+  // views (culling normal_cone, bvh and none, and view-auto where it falls back to bvh) has no view
+  // sets: all are 0; doubts, signs, primitives and apexes are empty.
   std::size_t view_positive = 0, view_negative = 0, view_zero = 0;
   std::size_t against_all = 0;  // Vv: violated, dirty, or both
   std::size_t violated = 0;     // touched by a ghost during the step
   std::size_t dirty = 0;        // carry doubt into this step
 
-  // With view culling, by triangle of the mesh: doubt::violated, doubt::dirty.
+  // By triangle of the mesh: doubt::violated, doubt::dirty.
   std::vector<std::uint8_t> doubts;
   // Sign over the step of each triangle of the mesh, then of each ghost.
   std::vector<ViewSign> signs;

@@ -6,11 +6,11 @@ namespace assay::detector {
 
 Stages standard_stages(const Options& options) {
   const Culling culling = options.culling;
-  const bool uses_views = culling == Culling::view_point || culling == Culling::view_line;
   Stages stages;
   stages.classifier = std::make_shared<ViewClassifier>(options.arithmetic);
   stages.boundary = std::make_shared<BoundaryHandler>();
-  stages.pair_rule = uses_views ? std::make_shared<PairRule>() : std::make_shared<EveryPair>();
+  stages.pair_rule =
+      uses_views(culling) ? std::make_shared<PairRule>() : std::make_shared<EveryPair>();
   stages.marking = std::make_shared<Marking>();
   if (culling == Culling::none) {
     stages.pair_search = std::make_shared<ExhaustiveSearch>();

@@ -30,6 +30,8 @@
 //     +     Vv is what is not known to be clean                  ReleaseRule (L8)
 #include "detector/step.h"
 
+#include <algorithm>
+
 #include "detector/state/clean_triangles.h"
 #include "detector/step_input.h"
 #include "detector/step_outcome.h"
@@ -41,9 +43,10 @@ namespace {
 class Step {
  public:
   Step(StepContext& context, const StepState* known, const PositionsView& x_t0,
-       const PositionsView& x_t1, const StopFunction& stop)
+       const PositionsView& x_t1, ViewAuto& view_auto, const StopFunction& stop)
       : context_(context),
         mesh_(context.surface.mesh),
+        auto_(view_auto),
         work_{context.surface,
               context.tree,
               *context.stages.boundary,
@@ -57,12 +60,13 @@ class Step {
               {},
               {},
               {},
+              {},
               {}} {}
 
   // primitives: none, one, or one for each component.
   StepResult run(const PositionsView& mesh_x_t0, const PositionsView& mesh_x_t1,
                  std::span<const ViewPrimitive> primitives, std::optional<StepState>& next) {
-    if (context_.uses_views()) place_primitives(mesh_x_t0, mesh_x_t1, primitives);
+    if (looks()) place_primitives(mesh_x_t0, mesh_x_t1, primitives);
     const bool completed = run_stages();
     result_.answer = !completed              ? Answer::undecided
                      : result_.pairs.empty() ? Answer::free
@@ -70,16 +74,26 @@ class Step {
     if (completed)
       next = state_at_end(work_, *context_.stages.release, result_.pairs, is_complete(),
                           mesh_x_t1);  // whole or not at all, should memory fail
+    if (next) next->choice = auto_.after(work_.counts, primitives.empty());
     result_.first = least_time(result_.pairs);
     hand_over();
     return std::move(result_);
   }
 
  private:
+  bool is_auto() const { return context_.options.culling == Culling::view_auto; }
+  bool looks() const {
+    return uses_views(context_.options.culling) && !(is_auto() && !auto_.looks());
+  }
+
   void place_primitives(const PositionsView& x_t0, const PositionsView& x_t1,
                         std::span<const ViewPrimitive> given) {
+    std::vector<ViewAnchor> none;
+    const auto& anchors = !given.empty() ? none
+                          : is_auto()    ? auto_.anchors(context_.anchors, work_.x_t0)
+                                         : context_.anchors;
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      work_.primitives.push_back(given.empty()       ? place_view(context_.anchors[c], x_t0, x_t1)
+      work_.primitives.push_back(given.empty()       ? place_view(anchors[c], x_t0, x_t1)
                                  : given.size() == 1 ? given[0]
                                                      : given[c]);
     }
@@ -89,15 +103,30 @@ class Step {
     work_.clean.assign(mesh_.triangles.size(), 0);
     work_.touched.assign(mesh_.triangles.size(), 0);
     work_.free.assign(mesh_.components.size(), 0);
-    if (context_.uses_views()) {
-      classify_components();
+    if (looks()) classify_components();
+    if (is_auto() && !work_.all_free() && !(work_.has_views() && auto_.promises(work_))) {
+      drop_views();
+      take_clean_at_start(work_, context_.options.start);
+    }
+    if (work_.has_views()) {
       if (!find_start()) return false;
+      if (is_auto() && !work_.all_free() && !auto_.pays(work_)) drop_views();
+    }
+    if (work_.has_views()) {
       const bool all_free = work_.all_free();
       if (!all_free && !sweep_ghosts()) return false;
       count_sets(work_, result_);
       if (all_free && mesh_.components.size() == 1) return true;
     }
     return search();
+  }
+
+  // The rest of the step is that of culling bvh.
+  void drop_views() {
+    work_.signs.clear();
+    work_.primitives.clear();
+    std::fill(work_.free.begin(), work_.free.end(), 0);
+    work_.counts.free_components = 0;
   }
 
   void classify_components() {
@@ -122,7 +151,7 @@ class Step {
     Stopwatch watch(result_.times.ghosts);
     work_.tree.refit(mesh_, work_.x_t0, work_.x_t1);
     const GhostSweep sweep{work_.surface, work_.tree,       work_.x_t0,
-                           work_.x_t1,    work_.elementary, !work_.known};
+                           work_.x_t1,    work_.elementary, !is_all_known(work_)};
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
       if (work_.free[c]) continue;
       if (!work_.boundary.sweep(sweep, work_.ghosts(c), work_.stop, work_.touched,
@@ -155,7 +184,8 @@ class Step {
     // The tests are made as candidates come up.
     times.narrow_phase = candidates.contacts().test_time();
     times.broad_phase -= times.narrow_phase;
-    if (completed && context_.uses_views() && context_.options.pairs == Pairs::all) {
+    const auto candidates_of_k = candidates.search_counts().candidate_pairs;
+    if (completed && work_.has_views() && context_.options.pairs == Pairs::all) {
       Stopwatch watch(times.closure);
       completed = candidates.close();
     }
@@ -164,13 +194,12 @@ class Step {
     work_.counts.marking = candidates.marking_counts();
     work_.counts.narrow = candidates.contacts().counts();
     work_.counts.closure_rounds = candidates.closure_rounds();
+    if (is_auto() && work_.has_views()) auto_.weigh(work_.counts, candidates_of_k);
     return completed;
   }
 
   // Whether the pairs found are all there are.
-  bool is_complete() const {
-    return !context_.uses_views() || context_.options.pairs == Pairs::all;
-  }
+  bool is_complete() const { return !work_.has_views() || context_.options.pairs == Pairs::all; }
 
   void hand_over() {
     result_.signs = std::move(work_.signs);
@@ -180,6 +209,7 @@ class Step {
 
   StepContext& context_;
   const Topology& mesh_;
+  ViewAuto& auto_;
   StepWork work_;
   StepResult result_;
 };
@@ -194,19 +224,23 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
     return refused(std::move(*problem));
   const StepState* state =
       known && context.stages.release->still_holds(*known, x_t0) ? &*known : nullptr;
+  const Culling culling = context.options.culling;
+  ViewAuto view_auto(context.surface, context.adjacent_pairs, known ? known->choice : ViewChoice{});
+  const bool may_look = uses_views(culling) && (culling != Culling::view_auto || view_auto.looks());
   double total = 0;
   StepResult result;
   {
     Stopwatch watch(total);
-    if (context.surface.is_closed() || !context.uses_views()) {
-      result = Step(context, state, x_t0, x_t1, stop).run(x_t0, x_t1, primitives, next);
+    if (context.surface.is_closed() || !may_look) {
+      result = Step(context, state, x_t0, x_t1, view_auto, stop).run(x_t0, x_t1, primitives, next);
     } else {
       auto apexes =
           context.stages.boundary->place_apexes(context.surface, context.apex_rules, x_t0, x_t1);
       const Positions all_t0 = with_apexes(x_t0, apexes, false);
       const Positions all_t1 = with_apexes(x_t1, apexes, true);
-      result = Step(context, state, all_t0, all_t1, stop).run(x_t0, x_t1, primitives, next);
-      result.apexes = std::move(apexes);
+      result =
+          Step(context, state, all_t0, all_t1, view_auto, stop).run(x_t0, x_t1, primitives, next);
+      if (!result.primitives.empty()) result.apexes = std::move(apexes);
     }
   }
   result.times.total = total;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "detector/stages.h"
-#include "detector/view/view_anchor.h"
+#include "detector/view_auto.h"
 
 namespace assay::detector {
 
@@ -15,10 +15,7 @@ struct StepContext {
   SearchMemory search;               // the marks of that tree
   std::vector<ViewAnchor> anchors;   // one for each component
   std::vector<ApexRule> apex_rules;  // one for each loop
-
-  bool uses_views() const {
-    return options.culling == Culling::view_point || options.culling == Culling::view_line;
-  }
+  std::uint64_t adjacent_pairs = 0;  // of view-auto, see view_auto.h
 };
 
 // Answers the step from `known`, the state of the last commit if any. `next` is set to the state

@@ -6,6 +6,8 @@ namespace assay::detector {
 
 TriangleType type_of(const StepWork& work, std::size_t t) {
   if (!work.clean[t]) return TriangleType::dirty;
+  // Against everything; but what is clean pierces nothing of its own component.
+  if (!work.has_views()) return TriangleType::violated;
   if (work.touched[t]) return TriangleType::violated;
   return work.signs[t] == ViewSign::positive   ? TriangleType::positive
          : work.signs[t] == ViewSign::negative ? TriangleType::negative

@@ -20,10 +20,14 @@ struct StepWork {
 
   std::vector<ViewPrimitive> primitives;  // by component
   std::vector<ViewSign> signs;            // by triangle of the surface
+  std::vector<std::uint8_t> lost;         // by component: clean says nothing of it, at t=0
   std::vector<std::uint8_t> free;         // by component: by L5, over the whole step
   std::vector<std::uint8_t> clean;        // by triangle of the mesh, at t=0
   std::vector<std::uint8_t> touched;      // by triangle of the mesh: by a ghost, in the step
   StepCounts counts;
+
+  // Whether nothing but K and its closure is tested. Else every pair is.
+  bool has_views() const { return !signs.empty(); }
 
   bool all_free() const {
     return std::all_of(free.begin(), free.end(), [](std::uint8_t is_free) { return is_free != 0; });

@@ -15,6 +15,7 @@ using detector::Culling;
 using detector::ViewSign;
 
 std::optional<Culling> culling_named(std::string_view word) {
+  if (word == "view-auto") return Culling::view_auto;
   if (word == "view-point") return Culling::view_point;
   if (word == "view-line") return Culling::view_line;
   if (word == "normal-cone") return Culling::normal_cone;
@@ -60,6 +61,8 @@ const char* name_of(Arithmetic arithmetic) {
 
 const char* name_of(Culling culling) {
   switch (culling) {
+    case Culling::view_auto:
+      return "view-auto";
     case Culling::view_point:
       return "view-point";
     case Culling::view_line:
@@ -137,8 +140,7 @@ class CaseChecker {
     const auto& x_t1 = case_.frames[static_cast<std::size_t>(script.to)];
     const auto view = corpus::view_of_step(case_, s);
     std::vector<detector::ViewPrimitive> given;
-    const bool uses_views =
-        options_.culling == Culling::view_point || options_.culling == Culling::view_line;
+    const bool uses_views = detector::uses_views(options_.culling);
     if (view && uses_views) {
       given.push_back(*view);
       // A segment serves as a point by its first end.
@@ -181,6 +183,8 @@ class CaseChecker {
   // The detector's own signs against the oracle, at the primitives that it used.
   void check_signs(const std::string& where, std::size_t s, const detector::StepResult& result) {
     if (result.answer == Answer::error) return;
+    // A step of view-auto that fell back has none.
+    if (options_.culling == Culling::view_auto && result.signs.empty()) return;
     auto made = detector::Detector::create(case_.triangles, case_.frames.front(), options_);
     const auto& mesh = made.value().topology();
     for (std::size_t c = 0; c < mesh.components.size(); ++c) {

@@ -34,9 +34,7 @@ std::string point_text(const detector::Point& p) {
 
 std::string view_text(const corpus::Case& c, std::size_t step, const detector::Options& options) {
   auto view = corpus::view_of_step(c, step);
-  const bool uses_views = options.culling == detector::Culling::view_point ||
-                          options.culling == detector::Culling::view_line;
-  if (!view || !uses_views) return "{}";
+  if (!view || !uses_views(options.culling)) return "{}";
   if (options.culling == detector::Culling::view_point) view->q1 = view->q0;
   return fmt::format("{{{{{{{}, {}}}, {{{}, {}}}}}}}", point_text(view->q0.t0),
                      point_text(view->q0.t1), point_text(view->q1.t0), point_text(view->q1.t1));

@@ -109,10 +109,6 @@ corpus::Expected<Row> run_scene_row(std::string_view name, Culling culling, int 
   return row;
 }
 
-bool uses_views(Culling culling) {
-  return culling == Culling::view_point || culling == Culling::view_line;
-}
-
 void print_header() {
   fmt::print("{:<18} {:<11} {:>6} {:>6} {:>11} {:>7} {:>6} {:>12} {:>10} {:>8}\n", "input",
              "culling", "cases", "steps", "collisions", "pairs", "V+ %", "detector ms", "oracle ms",
@@ -171,8 +167,8 @@ int run_certify(const CertifyRequest& request) {
     rows.push_back(std::move(row.value()));
     return std::nullopt;
   };
-  for (const auto culling :
-       {Culling::view_point, Culling::view_line, Culling::normal_cone, Culling::bvh}) {
+  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
+                             Culling::normal_cone, Culling::bvh}) {
     if (auto problem = take(run_corpus(culling, request.jobs))) return refuse(*problem);
     for (const auto& scene : corpus::scenes()) {
       if (auto problem = take(run_scene_row(scene.name, culling, request.jobs)))

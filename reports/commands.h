@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "detector/options.h"
@@ -13,7 +14,7 @@ namespace assay::reports {
 
 struct CheckRequest {
   std::vector<std::string> files;            // frames of one mesh, or one case file
-  std::optional<detector::Culling> culling;  // default: the case's own, or view-point
+  std::optional<detector::Culling> culling;  // default: the case's own, or view-auto
   std::optional<detector::Start> start;
   std::optional<detector::Pairs> pairs;
   std::optional<detector::Arithmetic> arithmetic;
@@ -94,6 +95,14 @@ struct ShrinkRequest {
   std::string detector;
 };
 int run_shrink(const ShrinkRequest& request);
+
+struct BenchRequest {
+  std::string suite;                // is_bench_suite
+  std::string data;                 // folder of the public data
+  std::string json_file, svg_file;  // empty: none
+};
+bool is_bench_suite(std::string_view name);
+int run_bench(const BenchRequest& request);
 
 // what: scenes, laws, faults, campaigns, failures (of the run stored in `folder`).
 int run_list(const std::string& what, const std::string& folder);

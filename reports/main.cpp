@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <sstream>
@@ -105,8 +106,9 @@ void add_check(CLI::App& app, reports::CheckRequest& request) {
       ->required();
   auto* plugin = verb->add_option("--detector", request.plugin_library,
                                   "Judge this plug-in (.so) by its claims, not the built-in");
-  add_choice(verb, "--culling", request.culling, "view-point, view-line, normal-cone, bvh, none",
-             properties::culling_named, "How the detector culls (default view-point)");
+  add_choice(verb, "--culling", request.culling,
+             "view-auto, view-point, view-line, normal-cone, bvh, none", properties::culling_named,
+             "How the detector culls (default view-auto)");
   add_choice(verb, "--start", request.start, "verified, clean, unknown", properties::start_named,
              "What is known of the first frame (default verified)");
   add_choice(verb, "--pairs", request.pairs, "all, first", properties::pairs_named,
@@ -253,6 +255,21 @@ void add_shrink(CLI::App& app, reports::ShrinkRequest& request) {
   verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
 }
 
+void add_bench(CLI::App& app, reports::BenchRequest& request) {
+  const char* data = std::getenv("ASSAY_DATA");
+  request.data = data && *data ? data : "../shared/data";
+  auto* verb = app.add_subcommand("bench", "Speeds and memory beside what is wanted");
+  verb->add_option("--suite", request.suite, "What to measure")
+      ->check(one_of("elementary, view, growth, claims", reports::is_bench_suite))
+      ->required();
+  verb->add_option("--data", request.data,
+                   "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
+                   "what is not there say so");
+  verb->add_option("--json", request.json_file, "Write all figures here (assay-bench/1)");
+  verb->add_option("--svg", request.svg_file,
+                   "Draw the break-even scatter of suite claims here (SVG)");
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Assay certifies continuous self-collision detectors for deforming triangle meshes.");
@@ -267,6 +284,7 @@ int run(int argc, char** argv) {
   reports::RunCommandRequest campaign;
   reports::ReplayRequest replay;
   reports::ShrinkRequest shrink;
+  reports::BenchRequest bench;
   std::string listed = "scenes", listed_folder;
   check.jobs = certify.jobs = self_test.jobs = campaign.jobs =
       static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -277,6 +295,7 @@ int run(int argc, char** argv) {
   add_run(app, campaign);
   add_replay(app, replay);
   add_shrink(app, shrink);
+  add_bench(app, bench);
   auto* list = app.add_subcommand("list", "List scenes, laws, faults, campaigns, or failures");
   list->add_option("what", listed, "scenes, laws, faults, campaigns, failures")
       ->check(CLI::IsMember({"scenes", "laws", "faults", "campaigns", "failures"}));
@@ -310,6 +329,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("run")) return reports::run_campaign(campaign);
   if (app.got_subcommand("self-test")) return reports::run_self_test(self_test);
   if (app.got_subcommand("replay")) return reports::run_replay(replay);
+  if (app.got_subcommand("bench")) return reports::run_bench(bench);
   if (app.got_subcommand("shrink")) return reports::run_shrink(shrink);
   return reports::run_list(listed, listed_folder);
 }

@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 
 assay_packages="g++ cmake ninja-build ccache libcgal-dev libgmp-dev libmpfr-dev libmpfi-dev
-  libeigen3-dev libboost-dev libgtest-dev librapidcheck-dev libbenchmark-dev libcli11-dev libfmt-dev
+  libeigen3-dev libboost-dev libgtest-dev librapidcheck-dev libcli11-dev libfmt-dev
   nlohmann-json3-dev libsqlite3-dev zlib1g-dev"
 
 # ensure_packages YES EXTRA...: installs what is missing of assay_packages and EXTRA, or says what

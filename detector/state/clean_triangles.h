@@ -10,6 +10,13 @@ namespace assay::detector {
 // its view primitive (L5), at a new start by layers too (L9). False when stopped.
 bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start);
 
+// Whether the last commit tells of every component.
+bool is_all_known(const StepWork& work);
+
+// find_clean_at_start where the step has no views: what is known already, and nothing is looked at.
+// Of a component that nothing is known of all triangles are dirty, and it is lost.
+void take_clean_at_start(StepWork& work, Start start);
+
 // `complete`: the pairs are all that are in contact in the step (L8). With all components free it
 // costs the copy of the positions.
 StepState state_at_end(const StepWork& work, const ReleaseRule& release,

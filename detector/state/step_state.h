@@ -6,6 +6,7 @@
 
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
+#include "detector/view/view_choice.h"
 
 namespace assay::detector {
 
@@ -15,6 +16,12 @@ struct StepState {
   // By component: its view primitive at these positions, when that is known to have winding number
   // 1 there. It keeps it while all triangles stay positive, so L5 need not count again.
   std::vector<std::optional<std::array<Point, 2>>> inside;
+
+  // By component: nothing is known of its triangles, all count as dirty. A step without views
+  // leaves this behind where it did not sweep the ghosts (L8 asks for that).
+  std::vector<std::uint8_t> lost;
+  // From evaluation to evaluation this stays as it was committed.
+  ViewChoice choice;
 
   void keep(const PositionsView& x);
   bool holds_at(const PositionsView& x) const;

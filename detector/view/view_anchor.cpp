@@ -11,8 +11,8 @@ namespace {
 class AnchorChoice {
  public:
   AnchorChoice(const Topology& mesh, const Component& component, Eigen::Index vertex_count,
-               const PositionsView& x)
-      : mesh_(mesh), component_(component), x_(x), planes_(mesh, component, x) {
+               const PositionsView& x, std::size_t most_planes)
+      : mesh_(mesh), component_(component), x_(x), planes_(mesh, component, x, most_planes) {
     own_ = static_cast<std::size_t>(
         std::lower_bound(component.vertices.begin(), component.vertices.end(), vertex_count) -
         component.vertices.begin());
@@ -20,12 +20,29 @@ class AnchorChoice {
 
   ViewAnchor run(ViewKind kind) {
     const auto points = search_points(planes_);
-    if (kind == ViewKind::point) {
-      return choose<ScoredPoint>(points, [&](const ScoredPoint& s) {
-        ViewAnchor anchor{ViewKind::point, {weights(s.q), {}}};
-        return std::pair(planes_.score(placed(anchor, 0)), std::move(anchor));
-      });
-    }
+    return kind == ViewKind::point ? best_point(points) : best_line(points);
+  }
+
+  ViewAnchor run() {
+    const auto points = search_points(planes_);
+    ViewAnchor point = best_point(points);
+    const auto score_of_point = score_as_line(point);
+    if (score_of_point == perfect()) return point;
+    ViewAnchor line = best_line(points);
+    const auto score_of_line = score_as_line(line);
+    const bool is_worth_its_test = score_of_line - score_of_point >= perfect() / 16;
+    return score_of_line == perfect() || is_worth_its_test ? line : point;
+  }
+
+ private:
+  ViewAnchor best_point(const std::vector<ScoredPoint>& points) const {
+    return choose<ScoredPoint>(points, [&](const ScoredPoint& s) {
+      ViewAnchor anchor{ViewKind::point, {weights(s.q), {}}};
+      return std::pair(planes_.score(placed(anchor, 0)), std::move(anchor));
+    });
+  }
+
+  ViewAnchor best_line(const std::vector<ScoredPoint>& points) const {
     const auto lines = search_lines(planes_, points);
     return choose<ScoredLine>(lines, [&](const ScoredLine& s) {
       ViewAnchor anchor{ViewKind::line, {weights(s.q0), weights(s.q1)}};
@@ -33,7 +50,17 @@ class AnchorChoice {
     });
   }
 
- private:
+  // Scores of points and of lines are comparable when both are scored as lines.
+  std::int64_t score_as_line(const ViewAnchor& anchor) const {
+    const int last = anchor.kind == ViewKind::line ? 1 : 0;
+    return planes_.score(placed(anchor, 0), placed(anchor, last));
+  }
+
+  std::int64_t perfect() const {
+    return (ViewPlanes::for_positive + ViewPlanes::for_margin) *
+           static_cast<std::int64_t>(planes_.size());
+  }
+
   AffineWeights weights(const Point& q) const {
     return affine_weights(std::span(component_.vertices).first(own_), planes_.points().first(own_),
                           q);
@@ -85,7 +112,15 @@ class AnchorChoice {
 
 ViewAnchor make_view_anchor(ViewKind kind, const Topology& mesh, const Component& component,
                             Eigen::Index vertex_count, const PositionsView& x) {
-  return AnchorChoice(mesh, component, vertex_count, x).run(kind);
+  return AnchorChoice(mesh, component, vertex_count, x, ViewPlanes::most_planes).run(kind);
+}
+
+ViewAnchor choose_view_anchor(const Topology& mesh, const Component& component,
+                              Eigen::Index vertex_count, const PositionsView& x, Effort effort) {
+  const std::size_t most = effort == Effort::thorough
+                               ? ViewPlanes::most_planes
+                               : std::clamp<std::size_t>(component.triangles.size() / 8, 64, 1000);
+  return AnchorChoice(mesh, component, vertex_count, x, most).run();
 }
 
 ViewPrimitive place_view(const ViewAnchor& anchor, const PositionsView& x_t0,

@@ -16,7 +16,8 @@ Point cross(const Point& a, const Point& b) {
 
 }  // namespace
 
-ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const PositionsView& x) {
+ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const PositionsView& x,
+                       std::size_t most) {
   Point lo = point_of(x, component.vertices[0]), hi = lo;
   for (const auto v : component.vertices) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -31,7 +32,7 @@ ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const P
   }
   points_.reserve(component.vertices.size());
   for (const auto v : component.vertices) points_.push_back(to_unit(point_of(x, v)));
-  const std::size_t count = std::min(component.triangles.size(), most_planes);
+  const std::size_t count = std::min(component.triangles.size(), most);
   for (std::size_t i = 0; i < count; ++i) {
     const auto t = component.triangles[i * component.triangles.size() / count];
     std::array<Point, 3> p;

@@ -10,12 +10,13 @@
 namespace assay::detector {
 
 // A component brought to size 1 around the origin, and its triangles' planes, one array a
-// coordinate: a score reads all of one array. At most `most_planes` triangles, evenly chosen.
+// coordinate: a score reads all of one array. At most `most` triangles, evenly chosen.
 class ViewPlanes {
  public:
   static constexpr std::size_t most_planes = 20'000;
 
-  ViewPlanes(const Topology& mesh, const Component& component, const PositionsView& x);
+  ViewPlanes(const Topology& mesh, const Component& component, const PositionsView& x,
+             std::size_t most = most_planes);
 
   // Points by place in component.vertices, coordinates in [-1,1].
   std::span<const Point> points() const { return points_; }

@@ -11,8 +11,7 @@ namespace assay::properties {
 namespace {
 
 bool has_view_sets(const Configuration& configuration) {
-  return configuration.options.culling == detector::Culling::view_point ||
-         configuration.options.culling == detector::Culling::view_line;
+  return detector::uses_views(configuration.options.culling);
 }
 
 void count_blocks(const CaseRun& run, std::span<const oracle::StepJudgement> truth,

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "properties/campaign/case_tally.h"
+#include "properties/campaign/clean_starts.h"
 #include "properties/case_check.h"
 #include "properties/generators/families.h"
 #include "properties/worker/worker_process.h"
@@ -84,6 +85,8 @@ class Trials {
  private:
   // Every 16th trial is run twice, for the claim `deterministic`.
   static constexpr std::uint64_t repeat_every = 16;
+  // Of the cases with a clean start every second one is given as such to the built-in detector.
+  static constexpr std::uint64_t vouch_every = 2;
   static constexpr std::uint64_t meshes_kept = 3;  // of a signature
 
   void work() {
@@ -117,9 +120,14 @@ class Trials {
   }
 
   void judge(const PlannedTrial& planned, WorkerProcess& worker) {
-    const auto& configurations = request_.detector.configurations;
     const GeneratedCase made = make_case(*planned.family, id_of(planned));
+    const bool vouched =
+        request_.detector.built_in && planned.index % vouch_every == 1 && starts_clean(made.c);
+    const auto configurations = vouched ? with_clean_start(request_.detector.configurations)
+                                        : request_.detector.configurations;
     TrialRecord record;
+    if (request_.detector.built_in)
+      ++record.counts[vouched ? "tag:start:clean" : "tag:start:verified"];
     record.id = made.c.id;
     record.family = planned.family->name;
     record.index = planned.index;
@@ -165,16 +173,18 @@ class Trials {
           request_.plan.laws_every > 0 && planned.index % request_.plan.laws_every == 0;
       CaseTally tally = tally_case(made, configurations, runs, truth, with_laws);
       add(record.counts, tally.counts);
-      for (const auto& broken : tally.broken) failures.push_back(broken_law(made.c, broken));
+      for (const auto& broken : tally.broken)
+        failures.push_back(broken_law(made.c, broken, configurations));
     }
     keep(record, failures);
   }
 
-  StoredFailure broken_law(const corpus::Case& c, const BrokenLaw& broken) const {
+  static StoredFailure broken_law(const corpus::Case& c, const BrokenLaw& broken,
+                                  std::span<const Configuration> configurations) {
     corpus::Case failing = c;
     failing.about = fmt::format("breaks {}; {}", broken.law, broken.what);
     failing.source = fmt::format("campaign case {}, {}", c.id, broken.configuration);
-    for (const auto& configuration : request_.detector.configurations) {
+    for (const auto& configuration : configurations) {
       if (configuration.name == broken.configuration)
         failing.options = options_text(configuration.options);
     }

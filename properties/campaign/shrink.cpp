@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "properties/campaign/case_tally.h"
+#include "properties/campaign/clean_starts.h"
 
 namespace assay::properties {
 
@@ -15,6 +16,9 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
   return [&](const corpus::Case& c) -> std::optional<Finding> {
     const auto seen = contracted(c, detector.contract);
     if (!seen) return std::nullopt;
+    // What the caller vouches for wrongly is no fault of the detector.
+    const bool vouched = configuration.options.start == detector::Start::clean;
+    if (detector.built_in && vouched && !starts_clean(c)) return std::nullopt;
     const auto run = worker.run(c, {&configuration, 1});
     if (run[0].end == RunEnd::not_run) throw std::runtime_error(run[0].what);
     const auto verdict = judge_trial(*seen, judge_case(*seen), run[0], configuration, detector);
@@ -48,6 +52,15 @@ std::string configuration_name(const StoredFailure& failure) {
   return failure.configuration.substr(0, failure.configuration.find(law_in_configuration));
 }
 
+// As they were put to this case.
+std::vector<Configuration> configurations_of(const corpus::Case& failing,
+                                             const DetectorUnderTest& detector) {
+  const auto start = failing.options.find("start");
+  const bool vouched =
+      detector.built_in && start != failing.options.end() && start->second == "clean";
+  return vouched ? with_clean_start(detector.configurations) : detector.configurations;
+}
+
 // A failure that was shrunk in part goes before the others of its signature.
 void order_for_shrinking(std::vector<StoredFailure>& failures) {
   std::stable_partition(failures.begin(), failures.end(),
@@ -68,12 +81,14 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     if (left.count() <= 0) return;
     if (failure.flaky || !met.insert(failure.signature).second || store.note(done_note(failure)))
       continue;
-    const auto configuration =
-        std::find_if(request.detector.configurations.begin(), request.detector.configurations.end(),
-                     [&](const Configuration& c) { return c.name == configuration_name(failure); });
     const auto& begin = failure.smallest.empty() ? failure.mesh : failure.smallest;
     const auto failing = corpus::parse_case(begin, failure.id);
-    if (configuration == request.detector.configurations.end() || !failing) continue;
+    if (!failing) continue;
+    const auto configurations = configurations_of(failing.value(), request.detector);
+    const auto configuration =
+        std::find_if(configurations.begin(), configurations.end(),
+                     [&](const Configuration& c) { return c.name == configuration_name(failure); });
+    if (configuration == configurations.end()) continue;
     if (progress) progress(failure.signature);
     const ReduceLimits bounded{std::min(limits.seconds, left.count()), limits.calls};
     const OnBetter keep = [&](const corpus::Case& better) {

@@ -37,7 +37,7 @@ namespace {
 std::vector<detector::ViewPrimitive> given_view(const corpus::Case& c, std::size_t step,
                                                 Culling culling) {
   auto view = corpus::view_of_step(c, step);
-  if (!view || (culling != Culling::view_point && culling != Culling::view_line)) return {};
+  if (!view || !uses_views(culling)) return {};
   // A segment serves as a point by its first end.
   if (culling == Culling::view_point) view->q1 = view->q0;
   return {*view};

@@ -56,7 +56,7 @@ TEST(Detector, BadFramesAreErrorsAndLeaveTheState) {
 }
 
 TEST(Detector, L5_BreathingIsFreeWithoutAnyBoxTest) {
-  for (const auto culling : {Culling::view_point, Culling::view_line}) {
+  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line}) {
     Detector detector = make(octahedron(), octahedron_positions(1), culling);
     std::uint64_t windings = 0;
     for (int step = 0; step < 5; ++step) {
@@ -82,8 +82,8 @@ TEST(Detector, AllCullingsFindTheSamePairs) {
   const auto reference = make(octahedron(), octahedron_positions(2), Culling::none)
                              .evaluate(octahedron_positions(2), pushed());
   ASSERT_EQ(reference.answer, Answer::collision);
-  for (const auto culling :
-       {Culling::view_point, Culling::view_line, Culling::normal_cone, Culling::bvh}) {
+  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
+                             Culling::normal_cone, Culling::bvh}) {
     const auto result = make(octahedron(), octahedron_positions(2), culling)
                             .evaluate(octahedron_positions(2), pushed());
     EXPECT_EQ(result.first, reference.first);
@@ -186,7 +186,7 @@ TEST(Detector, GreatestCoordinatesAreAnswered) {
   }
   x.row(sides) << std::numeric_limits<double>::max(), 1, -1;
   x.row(sides + 1) << std::numeric_limits<double>::max(), 2, 100;
-  for (const auto culling : {Culling::view_point, Culling::view_line}) {
+  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line}) {
     EXPECT_NE(make(t, x, culling).evaluate(x, x).answer, Answer::error);
   }
 }

@@ -101,7 +101,7 @@ struct Still {
   Still(const Triangles& triangles, const Positions& at)
       : x(at), surface(make_surface(triangles, at.rows())), tree(surface.mesh, x) {}
   StepWork work() {
-    return {surface, tree, boundary, elementary, stop, x, x, nullptr, {}, {}, {}, {}, {}, {}};
+    return {surface, tree, boundary, elementary, stop, x, x, nullptr, {}, {}, {}, {}, {}, {}, {}};
   }
   Positions x;
   Surface surface;

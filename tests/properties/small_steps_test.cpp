@@ -29,6 +29,8 @@ struct Variant {
   enum { own, point, line } primitive;
 };
 constexpr Variant variants[] = {
+    {"view-auto, own primitive", Culling::view_auto, Variant::own},
+    {"view-auto, given line", Culling::view_auto, Variant::line},
     {"view-point, own point", Culling::view_point, Variant::own},
     {"view-point, given point", Culling::view_point, Variant::point},
     {"view-line, own line", Culling::view_line, Variant::own},
@@ -83,9 +85,9 @@ void check(const SmallStep& step, Tally& tally) {
         << diff.late.size() << " late, " << diff.early.size() << " early";
     const auto first = run(step, variant, detector::Pairs::first);
     ASSERT_EQ(compare(first, judgement, detector::Pairs::first).outcome, Outcome::holds);
-    const bool has_views =
+    const bool must_have_views =
         variant.culling == Culling::view_point || variant.culling == Culling::view_line;
-    if (has_views) {
+    if (must_have_views || !all.signs.empty()) {
       ASSERT_EQ(all.view_positive + all.view_negative + all.view_zero + all.against_all,
                 step.triangles.rows());
       check_signs(step, all, tally);

@@ -1,0 +1,150 @@
+#include "detector/view_auto.h"
+
+#include <algorithm>
+
+namespace assay::detector {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// A pair inside V+ or inside V- is left out. Near pairs have equal signs more often than far ones,
+// so of a component's pairs at least about (p^2 + n^2) / m^2 are saved.
+double saved_share(const StepWork& work, bool all_clean) {
+  double saved = 0, count = 0;
+  for (std::size_t c = 0; c < work.primitives.size(); ++c) {
+    std::size_t positive = 0, negative = 0;
+    for (const auto t : work.own_triangles(c)) {
+      if (!all_clean && !work.clean[at(t)]) continue;
+      positive += work.signs[at(t)] == ViewSign::positive;
+      negative += work.signs[at(t)] == ViewSign::negative;
+    }
+    const auto p = static_cast<double>(positive), n = static_cast<double>(negative),
+               m = static_cast<double>(work.own_triangles(c).size());
+    saved += (p * p + n * n) / m;
+    count += m;
+  }
+  return saved / count;
+}
+
+// A saved pair saves about a third of its cost (measured on meshes where V+ and V- lie upon each
+// other: the boxes above it are still tested), and view test, marking and closure cost 1 to 4 % of
+// a step.
+constexpr double least_share = 0.125;
+
+// Of the pairs of a ghost's box and a triangle's, each takes up to six elementary tests, and such a
+// test 1.5 times the cost of a candidate.
+constexpr double cost_of_ghost_test = 1.5, cost_of_ghost_pair = 9;
+
+// Whether more than `limit` triangles lie in the boxes of ghosts of components that are not free.
+bool has_more_ghost_pairs(const StepWork& work, double limit) {
+  SearchCounts counts;
+  double pairs = 0;
+  const auto count = [&](std::int32_t) { return ++pairs <= limit; };
+  for (std::size_t c = 0; c < work.primitives.size(); ++c) {
+    if (work.free[c]) continue;
+    for (const auto ghost : work.ghosts(c)) {
+      const auto box =
+          work.tree.box_of_triangle(work.surface.all().triangles[at(ghost)], work.x_t0, work.x_t1);
+      if (!search_box(work.tree, box, counts, count)) return true;
+    }
+  }
+  return false;
+}
+
+constexpr std::uint64_t longest_rest = 32;
+
+// A choice looks at an eighth of the triangles and costs at most half a step of culling bvh: made
+// every 16 steps or more it stays below 5 %.
+constexpr std::uint64_t first_age = 16, greatest_age = 4096;
+constexpr double loss_that_wears = 0.125, gain_that_counts = 0.0625;
+
+}  // namespace
+
+std::uint64_t adjacent_pairs(const Topology& mesh) {
+  const auto pairs_at = [](const Incidence& incidence, std::size_t count) {
+    std::uint64_t pairs = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint64_t n = incidence.row(static_cast<std::int32_t>(i)).size();
+      if (n > 1) pairs += n * (n - 1) / 2;
+    }
+    return pairs;
+  };
+  // Two triangles at an edge share both its vertices and were counted twice.
+  return pairs_at(mesh.vertex_triangles, mesh.vertex_triangles.starts.size() - 1) -
+         pairs_at(mesh.edge_triangles, mesh.edges.size());
+}
+
+const std::vector<ViewAnchor>& ViewAuto::anchors(const std::vector<ViewAnchor>& first,
+                                                 const PositionsView& x_t0) {
+  if (choice_.is_worn) {
+    auto chosen = std::make_shared<std::vector<ViewAnchor>>();
+    for (const auto& component : surface_.all().components) {
+      chosen->push_back(
+          choose_view_anchor(surface_.all(), component, surface_.first_apex, x_t0, Effort::quick));
+    }
+    choice_.anchors = std::move(chosen);
+    chose_ = true;
+  }
+  return choice_.anchors ? *choice_.anchors : first;
+}
+
+std::uint64_t ViewAuto::expected_candidates() const {
+  return std::max(adjacent_, choice_.candidates);
+}
+
+bool ViewAuto::promises(StepWork& work) {
+  share_of_signs_ = share_ = saved_share(work, true);
+  paid_ = share_ >= least_share;
+  if (!paid_ || surface_.is_closed()) return paid_;
+  work.tree.refit(surface_.mesh, work.x_t0, work.x_t1);
+  const double saved = share_ * static_cast<double>(expected_candidates());
+  paid_ = !has_more_ghost_pairs(work, saved / cost_of_ghost_pair);
+  return paid_;
+}
+
+bool ViewAuto::pays(const StepWork& work) {
+  share_ = saved_share(work, false);
+  paid_ = share_ >= least_share;
+  return paid_;
+}
+
+void ViewAuto::weigh(const StepCounts& counts, std::uint64_t candidates_of_k) {
+  const auto k = static_cast<double>(candidates_of_k);
+  const double all = share_ < 1 ? k / (1 - share_) : k;
+  const double saved = std::max(all, static_cast<double>(adjacent_)) - k;
+  const double closure = static_cast<double>(counts.search.candidate_pairs) - k;
+  const double sweep = cost_of_ghost_test * static_cast<double>(counts.ghosts.elementary_tests);
+  paid_ = closure + sweep <= saved;
+}
+
+ViewChoice ViewAuto::after(const StepCounts& counts, bool own) const {
+  ViewChoice next = choice_;
+  if (counts.search.candidate_pairs > 0) next.candidates = counts.search.candidate_pairs;
+  ++next.age;
+  if (!looks()) {
+    --next.rest;
+    return next;
+  }
+  if (paid_) {
+    next.next_rest = std::max<std::uint64_t>(next.next_rest / 2, 1);
+  } else {
+    next.rest = next.next_rest;
+    next.next_rest = std::min(2 * next.next_rest, longest_rest);
+  }
+  if (!own) return next;
+  if (chose_) {
+    const bool is_better = share_of_signs_ >= choice_.share_before + gain_that_counts;
+    next.least_age = is_better ? first_age : std::min(2 * choice_.least_age, greatest_age);
+    next.is_worn = false;
+    next.age = 0;
+    next.best_share = share_of_signs_;
+    return next;
+  }
+  next.best_share = std::max(next.best_share, share_of_signs_);
+  const bool has_worn = !paid_ || share_of_signs_ < next.best_share - loss_that_wears;
+  next.is_worn = has_worn && next.age >= next.least_age;
+  next.share_before = share_of_signs_;
+  return next;
+}
+
+}  // namespace assay::detector

@@ -1,0 +1,112 @@
+#include "reports/bench/bench_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "reports/commands.h"
+
+namespace assay::reports {
+
+using Json = nlohmann::ordered_json;
+
+RowOutcome BenchRow::outcome() const {
+  if (!measured) return RowOutcome::no_data;
+  if (!wanted) return RowOutcome::not_judged;
+  const double x = measured->value, bound = wanted->bound;
+  const bool holds = wanted->sense == Wanted::Sense::at_most    ? x <= bound
+                     : wanted->sense == Wanted::Sense::at_least ? x >= bound
+                                                                : x < bound;
+  return holds ? RowOutcome::holds : RowOutcome::fails;
+}
+
+void BenchReport::add(std::string what, std::string unit, Estimate measured,
+                      std::optional<Wanted> wanted, std::string note) {
+  rows.push_back({std::move(what), std::move(unit), std::move(measured), wanted, std::move(note)});
+}
+
+void BenchReport::add_no_data(std::string what, const std::string& missing) {
+  rows.push_back({std::move(what), {}, {}, {}, missing + " is not there"});
+}
+
+const char* name_of(RowOutcome outcome) {
+  switch (outcome) {
+    case RowOutcome::holds:
+      return "holds";
+    case RowOutcome::fails:
+      return "fails";
+    case RowOutcome::no_data:
+      return "no data";
+    case RowOutcome::not_judged:
+      break;
+  }
+  return "-";
+}
+
+std::string text_of(const Wanted& wanted) {
+  const char* sign = wanted.sense == Wanted::Sense::at_most    ? "<="
+                     : wanted.sense == Wanted::Sense::at_least ? ">="
+                                                               : "<";
+  return fmt::format("{} {:g}", sign, wanted.bound);
+}
+
+namespace {
+
+std::string measured_text(const BenchRow& row) {
+  if (!row.measured) return "-";
+  const auto& m = *row.measured;
+  std::string text = fmt::format("{:.4g}", m.value);
+  if (!row.unit.empty()) text += " " + row.unit;
+  if (m.lo < m.hi) text += fmt::format(" [{:.4g}, {:.4g}]", m.lo, m.hi);
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const BenchReport& report) {
+  std::size_t widest = 4, measured = 8;
+  for (const auto& row : report.rows) {
+    widest = std::max(widest, row.what.size());
+    measured = std::max(measured, measured_text(row).size());
+  }
+  std::string text = fmt::format("{:<{}}  {:<{}}  {:<10}  {}\n", "what", widest, "measured",
+                                 measured, "wanted", "outcome");
+  for (const auto& row : report.rows) {
+    text += fmt::format("{:<{}}  {:<{}}  {:<10}  {}{}\n", row.what, widest, measured_text(row),
+                        measured, row.wanted ? text_of(*row.wanted) : "-", name_of(row.outcome()),
+                        row.note.empty() ? "" : "  " + row.note);
+  }
+  for (const auto& line : report.wrong_answers) text += "WRONG ANSWER: " + line + "\n";
+  return text;
+}
+
+Json to_json(const BenchReport& report) {
+  Json rows = Json::array(), scatter = Json::array();
+  for (const auto& row : report.rows) {
+    Json measured, wanted;
+    if (row.measured) {
+      measured = {{"median", row.measured->value},
+                  {"interval", {row.measured->lo, row.measured->hi}},
+                  {"samples", row.measured->samples}};
+    }
+    if (row.wanted) wanted = text_of(*row.wanted);
+    rows.push_back({{"what", row.what},
+                    {"unit", row.unit},
+                    {"measured", measured},
+                    {"wanted", wanted},
+                    {"outcome", name_of(row.outcome())},
+                    {"note", row.note}});
+  }
+  for (const auto& p : report.scatter) {
+    scatter.push_back({{"scene", p.scene},
+                       {"culling", p.culling},
+                       {"view_positive_share", p.share},
+                       {"time_over_bvh", p.ratio}});
+  }
+  return {{"schema", "assay-bench/1"}, {"version", version_text()},
+          {"suite", report.suite},     {"rows", rows},
+          {"scatter", scatter},        {"wrong_answers", report.wrong_answers}};
+}
+
+}  // namespace assay::reports

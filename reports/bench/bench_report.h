@@ -1,0 +1,63 @@
+// What a suite of benches came to: rows, wrong answers, points of a scatter; as text and as JSON
+// (schema assay-bench/1, reports/README.md).
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/bench/estimate.h"
+
+namespace assay::reports {
+
+// What DESIGN's table asks for.
+struct Wanted {
+  enum class Sense : unsigned char { at_most, at_least, below } sense = Sense::at_most;
+  double bound = 0;
+};
+inline Wanted at_most(double bound) { return {Wanted::Sense::at_most, bound}; }
+inline Wanted at_least(double bound) { return {Wanted::Sense::at_least, bound}; }
+inline Wanted below(double bound) { return {Wanted::Sense::below, bound}; }
+
+enum class RowOutcome : unsigned char { holds, fails, not_judged, no_data };
+
+struct BenchRow {
+  std::string what;
+  std::string unit;                  // "ns", "times", "%", ...; may be empty
+  std::optional<Estimate> measured;  // none: no data
+  std::optional<Wanted> wanted;      // none: for information
+  std::string note;                  // may be empty
+
+  // By the median alone; the interval shows how far that carries.
+  RowOutcome outcome() const;
+};
+
+// A step of the break-even scatter.
+struct ScatterPoint {
+  std::string scene;
+  std::string culling;
+  double share = 0;  // of V+ among all triangles
+  double ratio = 0;  // time of the step over that of culling bvh
+};
+
+struct BenchReport {
+  std::string suite;
+  std::vector<BenchRow> rows;
+  // One line each. Times are noisy, answers are not: any of these fails the run.
+  std::vector<std::string> wrong_answers;
+  std::vector<ScatterPoint> scatter;
+
+  void add(std::string what, std::string unit, Estimate measured,
+           std::optional<Wanted> wanted = std::nullopt, std::string note = {});
+  // missing: the folder or file.
+  void add_no_data(std::string what, const std::string& missing);
+};
+
+const char* name_of(RowOutcome outcome);
+std::string text_of(const Wanted& wanted);
+// A table, a line a row.
+std::string text_of(const BenchReport& report);
+nlohmann::ordered_json to_json(const BenchReport& report);
+
+}  // namespace assay::reports

@@ -1,0 +1,36 @@
+// The parts of suite `claims`.
+#pragma once
+
+#include "corpus/mesh_reader.h"
+#include "reports/bench/suites.h"
+
+namespace assay::reports {
+
+// A step that starts clean.
+struct NamedStep {
+  std::string name;
+  corpus::Sequence step;  // two frames
+};
+
+// Box tests of bvh, of the vBVHs, and of the vBVHs that skip nodes with one child; what looking at
+// the children of a node costs beside a box test.
+void measure_search(const std::vector<NamedStep>& steps, const BenchSettings& settings,
+                    BenchReport& report);
+
+// Marking over a sequence: its share of a step, nodes touched for each triangle that changed.
+void measure_marking(const BenchSettings& settings, BenchReport& report);
+
+// Free steps touch no tree.
+void count_traversals_of_free_steps(const BenchSettings& settings, BenchReport& report);
+
+// The whole step: view cullings over bvh, exact over double. The limit in seconds and the ratios of
+// DESIGN are asked of rod-twist, which is the last of `steps` where it is there.
+void time_whole_steps(const std::vector<NamedStep>& steps, bool has_rod_twist,
+                      const BenchSettings& settings, BenchReport& report);
+
+// The scatter of time over bvh's against the share of V+, and the break-even share. rod_twist: may
+// be null.
+void measure_break_even(const NamedStep* rod_twist, const BenchSettings& settings,
+                        Progress& progress, BenchReport& report);
+
+}  // namespace assay::reports

@@ -1,0 +1,17 @@
+// Steps with contacts that mean the same at every mesh size.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "corpus/mesh_reader.h"
+
+namespace assay::reports {
+
+// Two frames of a scene around its first contact: the fastest vertex moves by the mean length of an
+// edge, the first contact is in the middle. A step between frames of the scene itself would be many
+// edges long on a fine mesh, and its pairs would grow faster than the mesh.
+// Nothing where the scene has no contact.
+std::optional<corpus::Sequence> step_at_first_contact(const std::string& scene, int triangles);
+
+}  // namespace assay::reports

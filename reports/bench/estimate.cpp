@@ -1,0 +1,75 @@
+#include "reports/bench/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace assay::reports {
+
+std::size_t rank_of_lower_end(std::size_t n) {
+  constexpr double risk = 0.05;
+  // term = P(B = k), below = P(B < k).
+  double term = std::pow(0.5, static_cast<double>(n)), below = 0;
+  std::size_t k = 0;
+  while (k < n / 2 && 2 * (below + term) <= risk) {
+    below += term;
+    term *= static_cast<double>(n - k) / static_cast<double>(k + 1);
+    ++k;
+  }
+  return std::max<std::size_t>(k, 1);
+}
+
+Estimate median_of(std::vector<double> samples) {
+  std::vector<double> sorted = samples;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t n = sorted.size(), k = rank_of_lower_end(n);
+  return {(sorted[(n - 1) / 2] + sorted[n / 2]) / 2, sorted[k - 1], sorted[n - k],
+          std::move(samples)};
+}
+
+Estimate exactly(double value) { return {value, value, value, {value}}; }
+
+Estimate ratio_of(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < a.size(); ++i) ratios.push_back(a[i] / b[i]);
+  return median_of(std::move(ratios));
+}
+
+Estimate scaled(Estimate estimate, double factor) {
+  for (double* x : {&estimate.value, &estimate.lo, &estimate.hi}) *x *= factor;
+  for (double& x : estimate.samples) x *= factor;
+  return estimate;
+}
+
+double quantile(std::vector<double> samples, double share) {
+  const auto n = static_cast<double>(samples.size());
+  const auto rank = static_cast<std::size_t>(std::clamp(std::ceil(share * n), 1.0, n));
+  const auto at = samples.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+  std::nth_element(samples.begin(), at, samples.end());
+  return *at;
+}
+
+Line fit_line(std::span<const double> x, std::span<const double> y) {
+  const auto n = static_cast<double>(x.size());
+  double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mean_x += x[i] / n;
+    mean_y += y[i] / n;
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += (x[i] - mean_x) * (x[i] - mean_x);
+    xy += (x[i] - mean_x) * (y[i] - mean_y);
+  }
+  const double slope = xy / xx;
+  return {mean_y - slope * mean_x, slope};
+}
+
+double growth_exponent(std::span<const double> sizes, std::span<const double> times) {
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    x.push_back(std::log(sizes[i]));
+    y.push_back(std::log(times[i]));
+  }
+  return fit_line(x, y).slope;
+}
+
+}  // namespace assay::reports

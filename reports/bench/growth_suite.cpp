@@ -1,0 +1,131 @@
+// Suite `growth`: DESIGN's last row of speeds, time and memory from a thousand to a million
+// triangles.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/bench/contact_step.h"
+#include "reports/bench/interleave.h"
+#include "reports/bench/peak_memory.h"
+#include "reports/bench/suites.h"
+#include "reports/bench/timed_step.h"
+
+namespace assay::reports {
+namespace {
+
+using namespace detector;
+
+constexpr int full_sizes[] = {1'000, 5'000, 25'000, 100'000, 400'000, 1'000'000};
+
+// Times of one kind of work by mesh size.
+struct Growth {
+  std::string what;
+  std::vector<double> sizes, ms;
+
+  void add(double triangles, const std::vector<double>& ns, const std::string& note,
+           BenchReport& report) {
+    const Estimate estimate = scaled(median_of(ns), 1e-6);
+    report.add(fmt::format("{}, {} triangles", what, triangles), "ms", estimate, {}, note);
+    sizes.push_back(triangles);
+    ms.push_back(estimate.value);
+  }
+
+  // Wanted: an exponent no larger than that of n log n over the same sizes.
+  void judge(BenchReport& report) const {
+    if (sizes.size() < 2) return;
+    std::vector<double> n_log_n;
+    for (const double n : sizes) n_log_n.push_back(n * std::log(n));
+    double least = 1e300, largest = 0;
+    for (std::size_t i = 0; i < ms.size(); ++i) {
+      least = std::min(least, ms[i] / n_log_n[i]);
+      largest = std::max(largest, ms[i] / n_log_n[i]);
+    }
+    report.add(what + ": exponent of growth", "", exactly(growth_exponent(sizes, ms)),
+               at_most(growth_exponent(sizes, n_log_n)),
+               fmt::format("wanted: that of n log n; time/(n log n) varies {:.2f} times",
+                           largest / least));
+  }
+};
+
+struct Growths {
+  Growth create{"preprocessing", {}, {}}, free{"free step", {}, {}},
+      contact{"step with contacts", {}, {}};
+};
+
+int repetitions(int triangles) {
+  constexpr int work = 2'000'000;
+  return std::clamp(work / triangles, 3, 15);
+}
+
+// Below this many triangles pages are too coarse a measure.
+constexpr int least_for_memory = 20'000;
+
+void measure_memory(const std::string& what, const corpus::Sequence& step, BenchReport& report) {
+  const auto bytes = peak_memory_of([&] {
+    auto made =
+        Detector::create(step.triangles, step.frames[0], bench_options(Culling::view_point));
+    const StepResult result = made.value().step(step.frames[0], step.frames[1]);
+    keep(result);
+  });
+  if (!bytes) {
+    report.add_no_data("memory, " + what, "/proc/self");
+    return;
+  }
+  const auto triangles = static_cast<double>(step.triangles.rows());
+  report.add(fmt::format("memory, {}, {} triangles", what, triangles), "bytes/triangle",
+             exactly(*bytes / triangles), at_most(400), "highest over preprocessing and a step");
+}
+
+void measure(int wanted_triangles, const BenchSettings& settings, Growths& growths,
+             BenchReport& report) {
+  const auto sphere = bench_scene("breathing-sphere", wanted_triangles, 11);
+  const std::span free_frames(sphere.frames.data(), 3);
+  const auto triangles = static_cast<double>(sphere.triangles.rows());
+  const int rounds = settings.rounds(repetitions(wanted_triangles));
+  const Options options = bench_options(Culling::view_point);
+  TimedStep free("free step", sphere.triangles, free_frames, options, report);
+  auto samples = interleave(
+      rounds,
+      {[&] { return free.time(); },
+       [&] {
+         return ns_of([&] { keep(Detector::create(sphere.triangles, sphere.frames[0], options)); });
+       }});
+  growths.free.add(triangles, samples[0], free.result().counts.free_components ? "" : "NOT free",
+                   report);
+  growths.create.add(triangles, samples[1], "a sphere", report);
+  const bool measures_memory = wanted_triangles >= least_for_memory;
+  if (measures_memory) measure_memory("free step", sphere, report);
+
+  const auto dented = step_at_first_contact("dented-sphere", wanted_triangles);
+  if (!dented) return;
+  TimedStep contact("step with contacts", dented->triangles, dented->frames, options, report);
+  samples = interleave(rounds, {[&] { return contact.time(); }});
+  growths.contact.add(static_cast<double>(dented->triangles.rows()), samples[0],
+                      fmt::format("{} pairs, V+ {:.1f} %", contact.result().pairs.size(),
+                                  100 * contact.positive_share()),
+                      report);
+  if (measures_memory) measure_memory("step with contacts", *dented, report);
+}
+
+}  // namespace
+
+BenchReport growth_suite(const BenchSettings& settings, Progress& progress) {
+  BenchReport report;
+  report.suite = "growth";
+  Growths growths;
+  int last = 0;
+  for (const int size : full_sizes) {
+    const int triangles = settings.triangles(size);
+    if (triangles == last) continue;
+    last = triangles;
+    progress.phase(fmt::format("{} triangles", triangles));
+    measure(triangles, settings, growths, report);
+  }
+  for (const Growth* growth : {&growths.create, &growths.free, &growths.contact}) {
+    growth->judge(report);
+  }
+  return report;
+}
+
+}  // namespace assay::reports

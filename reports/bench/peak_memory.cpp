@@ -1,0 +1,71 @@
+#include "reports/bench/peak_memory.h"
+
+#include <malloc.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+
+namespace assay::reports {
+namespace {
+
+// A line such as "VmHWM:     1234 kB" of /proc/self/status, in bytes.
+std::optional<double> status_bytes(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word) {
+    double kilobytes = 0;
+    if (word == name && status >> kilobytes) return 1024 * kilobytes;
+  }
+  return std::nullopt;
+}
+
+// In the child: the highest resident memory is what it is now, from here on.
+bool forget_peak() {
+  std::ofstream file("/proc/self/clear_refs");
+  constexpr const char* reset_peak = "5";
+  file << reset_peak << std::flush;
+  return static_cast<bool>(file);
+}
+
+double measured_in_child(const std::function<void()>& work) {
+  constexpr double unknown = -1;
+  if (!forget_peak()) return unknown;
+  const auto before = status_bytes("VmRSS:"), file_before = status_bytes("RssFile:");
+  work();
+  const auto peak = status_bytes("VmHWM:"), file_after = status_bytes("RssFile:");
+  if (!before || !peak || !file_before || !file_after) return unknown;
+  // Pages of the program itself that the child touched for the first time: they are not of the
+  // work, and none goes away again in between.
+  const double of_the_program = *file_after - *file_before;
+  return *peak - *before - of_the_program;
+}
+
+}  // namespace
+
+std::optional<double> peak_memory_of(const std::function<void()>& work) {
+  int ends[2];
+  if (pipe(ends) != 0) return std::nullopt;
+  malloc_trim(0);
+  const pid_t child = fork();
+  if (child == 0) {
+    double bytes = -1;
+    try {
+      bytes = measured_in_child(work);
+    } catch (...) {  // the parent learns it from the exit code
+      _exit(1);
+    }
+    const bool told = write(ends[1], &bytes, sizeof bytes) == sizeof bytes;
+    _exit(told ? 0 : 1);
+  }
+  close(ends[1]);
+  double bytes = -1;
+  const bool heard = child > 0 && read(ends[0], &bytes, sizeof bytes) == sizeof bytes;
+  close(ends[0]);
+  int status = 0;
+  if (child > 0) waitpid(child, &status, 0);
+  return heard && bytes >= 0 ? std::optional(bytes) : std::nullopt;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,36 @@
+// The suites of `assay bench`. Each takes at most three minutes at its default size on one core.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "reports/bench/bench_report.h"
+#include "reports/progress.h"
+
+namespace assay::reports {
+
+struct BenchSettings {
+  std::string data;  // the folder of the public data; rows of what is not there say so
+  double scale = 1;  // of mesh sizes, query counts and rounds: tests take less
+
+  int triangles(int full) const;  // at least 320
+  int rounds(int full) const;     // at least 2
+  std::string file(const std::string& name) const { return data + "/" + name; }
+};
+
+// A file of the public data that is there and cannot be used; one line.
+struct UnusableData : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The elementary test: times by kind of query, against labels, in each arithmetic.
+BenchReport elementary_suite(const BenchSettings& settings, Progress& progress);
+// The view test against the writing of swept boxes; free steps; how tight the view sets are.
+BenchReport view_suite(const BenchSettings& settings, Progress& progress);
+// Time and memory from a thousand to a million triangles.
+BenchReport growth_suite(const BenchSettings& settings, Progress& progress);
+// What the thesis says of costs, the whole step against culling bvh, the break-even share of V+.
+BenchReport claims_suite(const BenchSettings& settings, Progress& progress);
+
+}  // namespace assay::reports
