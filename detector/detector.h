@@ -36,7 +36,10 @@ class Detector {
   Detector& operator=(Detector&&) noexcept;
   ~Detector();
 
-  // primitives: none (the detector's own), one for all components, or one for each component.
+  // primitives: none (the detector's own), one for all components, or one for each component, in
+  // the order of topology().components; points or lines, fixed or moving, another one in each step
+  // if so wished. Errors: wrong_primitive_count, non_finite_coordinate. With view-auto they serve
+  // in the steps that use views.
   // `stop` ends long work with the answer undecided.
   StepResult evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
                       std::span<const ViewPrimitive> primitives = {},

@@ -16,6 +16,7 @@
 //         if all triangles are in V+: self-collision free
 //     +     a component, with its ghosts, and winding number 1   ReleaseRule (L5)
 //     +     ends the step if there is one component alone
+//     +   no views where they do not pay: every pair is tested   ViewAuto
 //     +   what is clean at the start: last commit, or layers     find_start (L8, L9)
 //         hole by hole: pairs of the BVH and the ghosts,
 //           elementary tests; what is in contact goes into Vv    sweep_ghosts (L11)
@@ -54,14 +55,7 @@ class Step {
               stop,
               x_t0,
               x_t1,
-              known,
-              {},
-              {},
-              {},
-              {},
-              {},
-              {},
-              {}} {}
+              known} {}
 
   // primitives: none, one, or one for each component.
   StepResult run(const PositionsView& mesh_x_t0, const PositionsView& mesh_x_t1,
@@ -88,14 +82,16 @@ class Step {
 
   void place_primitives(const PositionsView& x_t0, const PositionsView& x_t1,
                         std::span<const ViewPrimitive> given) {
-    std::vector<ViewAnchor> none;
-    const auto& anchors = !given.empty() ? none
-                          : is_auto()    ? auto_.anchors(context_.anchors, work_.x_t0)
-                                         : context_.anchors;
-    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      work_.primitives.push_back(given.empty()       ? place_view(anchors[c], x_t0, x_t1)
-                                 : given.size() == 1 ? given[0]
-                                                     : given[c]);
+    if (given.empty()) {
+      const auto& first = context_.anchors;
+      const auto& anchors = is_auto() ? auto_.anchors(first, work_.x_t0) : first;
+      for (const auto& anchor : anchors) {
+        work_.primitives.push_back(place_view(anchor, x_t0, x_t1));
+      }
+    } else if (given.size() == 1) {
+      work_.primitives.assign(mesh_.components.size(), given[0]);
+    } else {
+      work_.primitives.assign(given.begin(), given.end());
     }
   }
 
@@ -121,7 +117,7 @@ class Step {
     return search();
   }
 
-  // The rest of the step is that of culling bvh.
+  // What is left of the step is that of culling bvh.
   void drop_views() {
     work_.signs.clear();
     work_.primitives.clear();

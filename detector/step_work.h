@@ -18,13 +18,13 @@ struct StepWork {
   PositionsView x_t0, x_t1;  // rows: vertices of the mesh, then apexes
   const StepState* known;    // the state of the last commit, where the step starts there; or null
 
-  std::vector<ViewPrimitive> primitives;  // by component
-  std::vector<ViewSign> signs;            // by triangle of the surface
-  std::vector<std::uint8_t> lost;         // by component: clean says nothing of it, at t=0
-  std::vector<std::uint8_t> free;         // by component: by L5, over the whole step
-  std::vector<std::uint8_t> clean;        // by triangle of the mesh, at t=0
-  std::vector<std::uint8_t> touched;      // by triangle of the mesh: by a ghost, in the step
-  StepCounts counts;
+  std::vector<ViewPrimitive> primitives = {};  // by component
+  std::vector<ViewSign> signs = {};            // by triangle of the surface
+  std::vector<std::uint8_t> lost = {};         // by component: clean says nothing of it, at t=0
+  std::vector<std::uint8_t> free = {};         // by component: by L5, over the whole step
+  std::vector<std::uint8_t> clean = {};        // by triangle of the mesh, at t=0
+  std::vector<std::uint8_t> touched = {};      // by triangle of the mesh: by a ghost, in the step
+  StepCounts counts = {};
 
   // Whether nothing but K and its closure is tested. Else every pair is.
   bool has_views() const { return !signs.empty(); }

@@ -100,9 +100,7 @@ TEST(Winding, CollapsedTrianglesDoNotCount) {
 struct Still {
   Still(const Triangles& triangles, const Positions& at)
       : x(at), surface(make_surface(triangles, at.rows())), tree(surface.mesh, x) {}
-  StepWork work() {
-    return {surface, tree, boundary, elementary, stop, x, x, nullptr, {}, {}, {}, {}, {}, {}, {}};
-  }
+  StepWork work() { return {surface, tree, boundary, elementary, stop, x, x, nullptr}; }
   Positions x;
   Surface surface;
   BoundingVolumeTree tree;

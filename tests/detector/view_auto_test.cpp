@@ -5,76 +5,28 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "detector/detector.h"
 #include "tests/detector/points.h"
+#include "tests/detector/revolved.h"
 
 namespace assay::detector {
 namespace {
 
 using tests::octahedron;
 using tests::octahedron_positions;
+using tests::revolved;
+using tests::sides;
+using tests::sphere;
+using tests::sphere_rings;
+using tests::tube_rings;
+using tests::wavy_tube;
 
 Detector make(const Triangles& t, const Positions& x, Culling culling = Culling::view_auto,
               Start start = Start::clean) {
   auto made = Detector::create(t, x, {culling, start});
   EXPECT_TRUE(made.has_value());
   return std::move(made.value());
-}
-
-// A closed surface of revolution: rings of eight vertices, then the two poles.
-constexpr std::int32_t sides = 8;
-Triangles revolved(std::int32_t rings) {
-  Triangles t(2 * sides * rings, 3);
-  Eigen::Index row = 0;
-  for (std::int32_t i = 0; i < sides; ++i) {
-    const std::int32_t j = (i + 1) % sides, last = (rings - 1) * sides;
-    for (std::int32_t at = 0; at < last; at += sides) {
-      t.row(row++) << at + i, at + j, at + sides + j;
-      t.row(row++) << at + i, at + sides + j, at + sides + i;
-    }
-    t.row(row++) << j, i, rings * sides;
-    t.row(row++) << last + i, last + j, rings * sides + 1;
-  }
-  return t;
-}
-
-struct Ring {
-  double z, r;
-};
-Positions revolved(const std::vector<Ring>& rings, double end_below, double end_above) {
-  const auto n = static_cast<Eigen::Index>(rings.size());
-  Positions x(n * sides + 2, 3);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const auto [z, r] = rings[static_cast<std::size_t>(k)];
-    for (int i = 0; i < sides; ++i) {
-      const double angle = 2 * std::numbers::pi * i / sides;
-      x.row(k * sides + i) << r * std::cos(angle), r * std::sin(angle), z;
-    }
-  }
-  x.row(n * sides) << 0, 0, end_below;
-  x.row(n * sides + 1) << 0, 0, end_above;
-  return x;
-}
-
-// Its waists hide most of it from every point.
-constexpr std::int32_t tube_rings = 40;
-Positions wavy_tube() {
-  std::vector<Ring> rings;
-  for (int k = 0; k < tube_rings; ++k) rings.push_back({1. * k, k % 4 < 2 ? 3. : 1.});
-  return revolved(rings, -1, tube_rings);
-}
-
-constexpr std::int32_t sphere_rings = 9;
-Positions sphere(double radius) {
-  std::vector<Ring> rings;
-  for (int k = 1; k <= sphere_rings; ++k) {
-    const double angle = std::numbers::pi * k / (sphere_rings + 1);
-    rings.push_back({-radius * std::cos(angle), radius * std::sin(angle)});
-  }
-  return revolved(rings, -radius, radius);
 }
 
 // The apex of the octahedron is pulled out through its side.

@@ -27,7 +27,7 @@ using test::plugin;
 using test::small_case;
 
 const std::vector<Configuration> four = {
-    {"view-point", {}},
+    {"view-point", {detector::Culling::view_point}},
     {"view-line", {detector::Culling::view_line}},
     {"normal-cone", {detector::Culling::normal_cone}},
     {"bvh", {detector::Culling::bvh}},

@@ -105,8 +105,9 @@ std::string compare_step(CaseFacts& facts, std::size_t s, const StepResult& base
 void check_change(CaseFacts& facts, LawTally& tally, MakeChange make) {
   const auto base = pinned_run(facts);
   const auto change = base ? make(facts, *base) : std::nullopt;
-  auto player =
-      change ? PinnedPlayer::make(change->run, facts.options(), facts.stages_of()) : std::nullopt;
+  auto player = change
+                    ? PinnedPlayer::make(change->run, options_with_views(facts), facts.stages_of())
+                    : std::nullopt;
   if (!player) return;
   const auto results = player->play();
   for (std::size_t s = 0; s < facts.steps(); ++s) {
@@ -120,8 +121,8 @@ void check_change_on_a_grid(CaseFacts& facts, LawTally& tally, MakeChange make) 
   const PinnedRun base = on_a_grid(std::move(*run));
   const auto change = make(facts, base);
   if (!change) return;
-  auto player = PinnedPlayer::make(base, facts.options(), facts.stages_of());
-  auto other = PinnedPlayer::make(change->run, facts.options(), facts.stages_of());
+  auto player = PinnedPlayer::make(base, options_with_views(facts), facts.stages_of());
+  auto other = PinnedPlayer::make(change->run, options_with_views(facts), facts.stages_of());
   if (!player || !other) return;
   const auto before = player->play(), after = other->play();
   for (std::size_t s = 0; s < facts.steps(); ++s) {

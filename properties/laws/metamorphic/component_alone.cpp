@@ -70,7 +70,7 @@ void check_component_alone(CaseFacts& facts, LawTally& tally) {
   Random random(facts.source().id);
   const auto component = static_cast<std::size_t>(random.below(static_cast<int>(components)));
   const PinnedRun alone = taken_out(facts, *run, component);
-  auto player = PinnedPlayer::make(alone, facts.options(), facts.stages_of());
+  auto player = PinnedPlayer::make(alone, options_with_views(facts), facts.stages_of());
   if (!player) return;
   const auto results = player->play();
   for (std::size_t s = 0; s < facts.steps(); ++s) {

@@ -77,6 +77,14 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
   std::shared_ptr<const BoundaryHandler> otherwise_;
 };
 
+detector::Options options_with_views(const CaseFacts& facts) {
+  auto options = facts.options();
+  if (options.culling == detector::Culling::view_auto) {
+    options.culling = detector::Culling::view_line;
+  }
+  return options;
+}
+
 std::optional<PinnedRun> pinned_run(const CaseFacts& facts) {
   if (!facts.stages_of()) return std::nullopt;
   PinnedRun run{

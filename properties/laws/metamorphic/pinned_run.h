@@ -27,6 +27,11 @@ struct PinnedRun {
 // The run that gave the results; nothing where a step has no views, or no detector can be made.
 std::optional<PinnedRun> pinned_run(const CaseFacts& facts);
 
+// The options of the case, for a run of another mesh. Whether view-auto uses its views is a matter
+// of cost and decided for the mesh as a whole; in a pinned run every step had them. So that the
+// other run has them too its culling is view-line, which sees from the pinned points as well.
+detector::Options options_with_views(const CaseFacts& facts);
+
 class PinnedPlayer {
  public:
   // Nothing where the holes of the mesh are others than those of the run (a boundary through

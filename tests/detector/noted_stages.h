@@ -1,0 +1,180 @@
+// Stages that do what the standard ones do and note their calls.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "detector/stages.h"
+
+namespace assay::detector::tests_of_steps {
+
+using Notes = std::vector<std::string>;
+
+// Calls of one stage in a row are one phase.
+class Trace {
+ public:
+  void note(const char* phase) {
+    if (notes_.empty() || notes_.back() != phase) notes_.emplace_back(phase);
+  }
+  Notes taken() { return std::exchange(notes_, {}); }
+
+ private:
+  Notes notes_;
+};
+
+class NotedClassifier : public ViewClassifier {
+ public:
+  explicit NotedClassifier(Trace& trace) : trace_(trace) {}
+  void classify(const Topology& surface, const Component& component, const PositionsView& x_t0,
+                const PositionsView& x_t1, const ViewPrimitive& primitive,
+                std::vector<ViewSign>& signs, ViewCounts& counts) const override {
+    trace_.note("view test");
+    ViewClassifier::classify(surface, component, x_t0, x_t1, primitive, signs, counts);
+  }
+
+ private:
+  Trace& trace_;
+};
+
+class NotedBoundary : public BoundaryHandler {
+ public:
+  explicit NotedBoundary(Trace& trace) : trace_(trace) {}
+  std::vector<MovingPoint> place_apexes(const Surface& surface, const std::vector<ApexRule>& rules,
+                                        const PositionsView& x_t0,
+                                        const PositionsView& x_t1) const override {
+    trace_.note("apexes");
+    return BoundaryHandler::place_apexes(surface, rules, x_t0, x_t1);
+  }
+  bool sweep(const GhostSweep& sweep, std::span<const std::int32_t> ghosts,
+             const StopFunction& stop, std::vector<std::uint8_t>& touched,
+             GhostCounts& counts) const override {
+    trace_.note("ghosts");
+    return BoundaryHandler::sweep(sweep, ghosts, stop, touched, counts);
+  }
+
+ private:
+  Trace& trace_;
+};
+
+template <class Rule>
+class NotedRule : public Rule {
+ public:
+  explicit NotedRule(Trace& trace) : trace_(trace) {}
+  PairTables candidates() const override {
+    trace_.note("K");  // asked once more by the closure: what has been tested
+    return Rule::candidates();
+  }
+  PairTables closure() const override {
+    trace_.note("H");
+    return Rule::closure();
+  }
+  bool joins_closure(const TrianglePair& contact, std::int32_t t) const override {
+    trace_.note("join");
+    return Rule::joins_closure(contact, t);
+  }
+
+ private:
+  Trace& trace_;
+};
+
+class NotedMarking : public Marking {
+ public:
+  explicit NotedMarking(Trace& trace) : trace_(trace) {}
+
+ protected:
+  void mark(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
+            MarkingCounts& counts) const override {
+    trace_.note("mark");
+    Marking::mark(leaf, flags, tree, marks, counts);
+  }
+  void clear(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
+             MarkingCounts& counts) const override {
+    trace_.note("clear");
+    Marking::clear(leaf, flags, tree, marks, counts);
+  }
+
+ private:
+  Trace& trace_;
+};
+
+class NotedSearch : public TreeSearch {
+ public:
+  explicit NotedSearch(Trace& trace) : trace_(trace) {}
+  void fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1) const override {
+    trace_.note("fit");
+    TreeSearch::fit(tree, mesh, x_t0, x_t1);
+  }
+  bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
+    trace_.note("search");
+    return TreeSearch::search(input, counts, sink);
+  }
+
+ private:
+  Trace& trace_;
+};
+
+class NotedTest : public ElementaryTest {
+ public:
+  explicit NotedTest(Trace& trace) : trace_(trace) {}
+  ContactResult test(const FourPoints& query, Want want) const override {
+    trace_.note("test");
+    return ElementaryTest::test(query, want);
+  }
+  bool pierces(const Point& e0, const Point& e1, const std::array<Point, 3>& face) const override {
+    trace_.note("test");
+    return ElementaryTest::pierces(e0, e1, face);
+  }
+
+ private:
+  Trace& trace_;
+};
+
+class NotedRelease : public ReleaseRule {
+ public:
+  explicit NotedRelease(Trace& trace) : trace_(trace) {}
+  bool still_holds(const StepState& state, const PositionsView& x_t0) const override {
+    trace_.note("known?");
+    return ReleaseRule::still_holds(state, x_t0);
+  }
+  bool is_free(StepWork& work, std::size_t component) const override {
+    trace_.note("free?");
+    return ReleaseRule::is_free(work, component);
+  }
+  bool released_at_start(const StepWork& work, std::size_t component) const override {
+    trace_.note("released?");
+    return ReleaseRule::released_at_start(work, component);
+  }
+  bool verify_start(StepWork& work, const std::vector<std::int32_t>& components) const override {
+    trace_.note("layers");
+    return ReleaseRule::verify_start(work, components);
+  }
+  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
+              std::vector<std::uint8_t>& clean) const override {
+    trace_.note("settle");
+    ReleaseRule::settle(work, pairs, complete, clean);
+  }
+
+ private:
+  Trace& trace_;
+};
+
+inline Stages noted_stages(const Options& options, Trace& trace) {
+  Stages stages = standard_stages(options);
+  stages.classifier = std::make_shared<NotedClassifier>(trace);
+  stages.boundary = std::make_shared<NotedBoundary>(trace);
+  if (options.culling == Culling::bvh) {
+    stages.pair_rule = std::make_shared<NotedRule<EveryPair>>(trace);
+  } else {
+    stages.pair_rule = std::make_shared<NotedRule<PairRule>>(trace);
+  }
+  stages.marking = std::make_shared<NotedMarking>(trace);
+  stages.pair_search = std::make_shared<NotedSearch>(trace);
+  stages.elementary = std::make_shared<NotedTest>(trace);
+  stages.release = std::make_shared<NotedRelease>(trace);
+  return stages;
+}
+
+}  // namespace assay::detector::tests_of_steps
