@@ -64,6 +64,7 @@ Expected<Detector> Detector::assemble(const TrianglesView& triangles,
     anchors = place_anchors(surface, rules, options.culling, positions);
   }
   SearchMemory search(surface.mesh, tree);
+  search.kept = stages.pair_search->prepare(surface.mesh, tree);
   StepContext context{options,           std::move(stages),  std::move(surface), std::move(tree),
                       std::move(search), std::move(anchors), std::move(rules),   0};
   if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);

@@ -17,11 +17,12 @@
 namespace assay::detector {
 
 enum class Culling : std::uint8_t {
-  view_auto,   // a point or a segment, whichever sees more; bvh where that does not pay
-  view_point,  // each closed component seen from a point
-  view_line,   // each closed component seen from a segment
-  bvh,         // the tree alone
-  none,        // every pair, no boxes: for small meshes and for comparison
+  view_auto,    // a point or a segment, whichever sees more; bvh where that does not pay
+  view_point,   // each closed component seen from a point
+  view_line,    // each closed component seen from a segment
+  normal_cone,  // the tree, less patches with a normal cone and a simple contour [VMT94]
+  bvh,          // the tree alone
+  none,         // every pair, no boxes: for small meshes and for comparison
 };
 
 // Whether steps may be seen from view primitives.
@@ -97,8 +98,8 @@ struct StepResult {
   std::vector<PairContact> pairs;  // ascending by pair, each with its first time
 
   // Sizes of V+, V-, V0 without Vv, and of Vv: disjoint, together all triangles. A step without
-  // views (culling bvh and none, and view-auto where it falls back to bvh) has no view sets: all
-  // are 0; doubts, signs, primitives and apexes are empty.
+  // views (culling normal_cone, bvh and none, and view-auto where it falls back to bvh) has no view
+  // sets: all are 0; doubts, signs, primitives and apexes are empty.
   std::size_t view_positive = 0, view_negative = 0, view_zero = 0;
   std::size_t against_all = 0;  // Vv: violated, dirty, or both
   std::size_t violated = 0;     // touched by a ghost during the step

@@ -1,5 +1,7 @@
 #include "detector/stages.h"
 
+#include "detector/traditional/traditional.h"
+
 namespace assay::detector {
 
 Stages standard_stages(const Options& options) {
@@ -12,6 +14,8 @@ Stages standard_stages(const Options& options) {
   stages.marking = std::make_shared<Marking>();
   if (culling == Culling::none) {
     stages.pair_search = std::make_shared<ExhaustiveSearch>();
+  } else if (culling == Culling::normal_cone) {
+    stages.pair_search = std::make_shared<NormalConeSearch>();
   } else {
     stages.pair_search = std::make_shared<TreeSearch>();
   }

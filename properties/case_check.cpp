@@ -18,6 +18,7 @@ std::optional<Culling> culling_named(std::string_view word) {
   if (word == "view-auto") return Culling::view_auto;
   if (word == "view-point") return Culling::view_point;
   if (word == "view-line") return Culling::view_line;
+  if (word == "normal-cone") return Culling::normal_cone;
   if (word == "bvh") return Culling::bvh;
   if (word == "none") return Culling::none;
   return std::nullopt;
@@ -66,6 +67,8 @@ const char* name_of(Culling culling) {
       return "view-point";
     case Culling::view_line:
       return "view-line";
+    case Culling::normal_cone:
+      return "normal-cone";
     case Culling::bvh:
       return "bvh";
     case Culling::none:

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "corpus/atomic_file.h"
+#include "properties/case_check.h"
 
 namespace assay::reports {
 namespace {
@@ -42,7 +45,8 @@ std::string view_text(const corpus::Case& c, std::size_t step, const detector::O
 
 std::string test_text(const corpus::Case& c, const detector::Options& options,
                       const std::vector<oracle::StepJudgement>& truth) {
-  const char* const cullings[] = {"view_point", "view_line", "bvh", "none"};
+  std::string culling = properties::name_of(options.culling);
+  std::replace(culling.begin(), culling.end(), '-', '_');
   const char* const starts[] = {"verified", "clean", "unknown"};
   const char* const arithmetics[] = {"exact", "bounded", "double_precision", "single_precision"};
   const bool exact = options.arithmetic == detector::Arithmetic::exact;
@@ -70,7 +74,7 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
       "{{Culling::{}, Start::{}, Pairs::{}, Arithmetic::{}}});\n  ASSERT_TRUE(made);\n  using "
       "Views = "
       "std::vector<ViewPrimitive>;\n",
-      cullings[static_cast<int>(options.culling)], starts[static_cast<int>(options.start)],
+      culling, starts[static_cast<int>(options.start)],
       options.pairs == detector::Pairs::all ? "all" : "first",
       arithmetics[static_cast<int>(options.arithmetic)]);
   const auto script = corpus::steps_of(c);

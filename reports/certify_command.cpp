@@ -167,8 +167,8 @@ int run_certify(const CertifyRequest& request) {
     rows.push_back(std::move(row.value()));
     return std::nullopt;
   };
-  for (const auto culling :
-       {Culling::view_auto, Culling::view_point, Culling::view_line, Culling::bvh}) {
+  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
+                             Culling::normal_cone, Culling::bvh}) {
     if (auto problem = take(run_corpus(culling, request.jobs))) return refuse(*problem);
     for (const auto& scene : corpus::scenes()) {
       if (auto problem = take(run_scene_row(scene.name, culling, request.jobs)))

@@ -76,6 +76,7 @@ Json step_json(const detector::StepResult& result, const oracle::StepJudgement* 
                {"dirty", result.dirty},
                {"free_components", result.counts.free_components},
                {"box_tests", result.counts.search.box_tests},
+               {"contour_tests", result.counts.search.contour_tests},
                {"child_counts", result.counts.search.child_counts},
                {"skipped", result.counts.search.skipped},
                {"marking",

@@ -106,8 +106,9 @@ void add_check(CLI::App& app, reports::CheckRequest& request) {
       ->required();
   auto* plugin = verb->add_option("--detector", request.plugin_library,
                                   "Judge this plug-in (.so) by its claims, not the built-in");
-  add_choice(verb, "--culling", request.culling, "view-auto, view-point, view-line, bvh, none",
-             properties::culling_named, "How the detector culls (default view-auto)");
+  add_choice(verb, "--culling", request.culling,
+             "view-auto, view-point, view-line, normal-cone, bvh, none", properties::culling_named,
+             "How the detector culls (default view-auto)");
   add_choice(verb, "--start", request.start, "verified, clean, unknown", properties::start_named,
              "What is known of the first frame (default verified)");
   add_choice(verb, "--pairs", request.pairs, "all, first", properties::pairs_named,

@@ -15,6 +15,8 @@ CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mes
       mesh_(mesh),
       tree_(tree),
       memory_(memory),
+      x_t0_(x_t0),
+      x_t1_(x_t1),
       stop_(stop),
       contacts_(mesh, x_t0, x_t1, stages.elementary, Want::first_time, memory.representatives,
                 memory.marks.types) {}
@@ -45,8 +47,8 @@ bool CandidateSearch::search(const PairTables& tables) {
         !same_component(a, b);
     return contacts_.add_candidate(a, b, may_pierce, stop_);
   };
-  return stages_.search.search({mesh_, tree_, memory_.marks, tables}, counts_, sink) &&
-         contacts_.run(stop_);
+  const SearchInput input{mesh_, tree_, memory_.marks, tables, memory_.kept.get(), &x_t0_, &x_t1_};
+  return stages_.search.search(input, counts_, sink) && contacts_.run(stop_);
 }
 
 bool CandidateSearch::collect() {

@@ -14,12 +14,14 @@ struct SearchStages {
   const ElementaryTest& elementary;
 };
 
-// What is kept from one search to the next: it depends on the types last marked alone.
+// What is kept from one search to the next: it depends on the types last marked alone, or on the
+// mesh.
 struct SearchMemory {
   SearchMemory(const Topology& mesh, const BoundingVolumeTree& tree)
       : marks(tree), representatives(mesh) {}
   Marks marks;
   Representatives representatives;
+  std::unique_ptr<KeptBySearch> kept;  // of PairSearch::prepare
 };
 
 class CandidateSearch {
@@ -54,6 +56,7 @@ class CandidateSearch {
   const Topology& mesh_;
   const BoundingVolumeTree& tree_;
   SearchMemory& memory_;
+  const PositionsView x_t0_, x_t1_;
   const StopFunction& stop_;
   FeatureContacts contacts_;
   SearchCounts counts_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "detector/search/marking.h"
 
@@ -9,9 +10,15 @@ namespace assay::detector {
 
 struct SearchCounts {
   std::uint64_t box_tests = 0;
-  std::uint64_t child_counts = 0;  // looks at how many children of a node may hold a partner
-  std::uint64_t skipped = 0;       // nodes with a single such child, left without a box test
+  std::uint64_t child_counts = 0;   // looks at how many children of a node may hold a partner
+  std::uint64_t skipped = 0;        // nodes with a single such child, left without a box test
+  std::uint64_t contour_tests = 0;  // of patches with a normal cone
   std::uint64_t candidate_pairs = 0;
+};
+
+// What a search makes once for a mesh and works in later; each detector has its own.
+struct KeptBySearch {
+  virtual ~KeptBySearch() = default;
 };
 
 // Takes a candidate pair (any order); false: stop the search.
@@ -22,12 +29,18 @@ struct SearchInput {
   const BoundingVolumeTree& tree;  // fitted to the step
   const Marks& marks;              // brought to its types
   const PairTables& tables;
+  KeptBySearch* kept = nullptr;  // of PairSearch::prepare
+  const PositionsView *x_t0 = nullptr, *x_t1 = nullptr;
 };
 
 // A stage of the detector; returns false when the sink stopped it.
 class PairSearch {
  public:
   virtual ~PairSearch() = default;
+  // In preprocessing; null where the tree is all that a search needs.
+  virtual std::unique_ptr<KeptBySearch> prepare(const Topology&, const BoundingVolumeTree&) const {
+    return nullptr;
+  }
   // Brings the tree to a step, before the searches of that step.
   virtual void fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
                    const PositionsView& x_t1) const {

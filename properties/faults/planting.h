@@ -20,11 +20,14 @@ inline constexpr detector::Options with_points = {detector::Culling::view_point,
                                                   detector::Start::verified, detector::Pairs::all};
 inline constexpr detector::Options with_lines = {detector::Culling::view_line,
                                                  detector::Start::verified, detector::Pairs::all};
+inline constexpr detector::Options with_cones = {detector::Culling::normal_cone,
+                                                 detector::Start::verified, detector::Pairs::all};
 
 // The modules, each with its rows of the registry.
 std::vector<Fault> view_point_faults();
 std::vector<Fault> view_line_faults();
 std::vector<Fault> pair_faults();
+std::vector<Fault> cone_faults();
 std::vector<Fault> elementary_faults();
 std::vector<Fault> start_faults();
 std::vector<Fault> state_faults();

@@ -17,6 +17,13 @@ struct NamedStep {
 void measure_search(const std::vector<NamedStep>& steps, const BenchSettings& settings,
                     BenchReport& report);
 
+// The traditional scheme beside bvh and view-point: box tests, candidates, time.
+void compare_with_traditional(const std::vector<NamedStep>& steps, const BenchSettings& settings,
+                              BenchReport& report);
+
+// What the thesis as printed misses and saves, together and deviation by deviation.
+void measure_as_printed(const BenchSettings& settings, BenchReport& report);
+
 // Marking over a sequence: its share of a step, nodes touched for each triangle that changed.
 void measure_marking(const BenchSettings& settings, BenchReport& report);
 

@@ -59,6 +59,10 @@ BenchReport claims_suite(const BenchSettings& settings, Progress& progress) {
   }
   progress.phase("box tests");
   measure_search(steps, settings, report);
+  progress.phase("traditional scheme");
+  compare_with_traditional(steps, settings, report);
+  progress.phase("thesis as printed");
+  measure_as_printed(settings, report);
   progress.phase("marking");
   measure_marking(settings, report);
   progress.phase("free steps");

@@ -207,7 +207,8 @@ TEST(Arithmetic, EachAnswersAStep) {
   through.row(4) *= -2;
   for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded,
                                 Arithmetic::double_precision, Arithmetic::single_precision}) {
-    for (const auto culling : {Culling::view_point, Culling::view_line, Culling::bvh}) {
+    for (const auto culling :
+         {Culling::view_point, Culling::view_line, Culling::normal_cone, Culling::bvh}) {
       auto made =
           Detector::create(octahedron(), x, {culling, Start::verified, Pairs::all, arithmetic});
       EXPECT_EQ(made.value().evaluate(x, squeezed).answer, Answer::free);

@@ -82,8 +82,8 @@ TEST(Detector, AllCullingsFindTheSamePairs) {
   const auto reference = make(octahedron(), octahedron_positions(2), Culling::none)
                              .evaluate(octahedron_positions(2), pushed());
   ASSERT_EQ(reference.answer, Answer::collision);
-  for (const auto culling :
-       {Culling::view_auto, Culling::view_point, Culling::view_line, Culling::bvh}) {
+  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
+                             Culling::normal_cone, Culling::bvh}) {
     const auto result = make(octahedron(), octahedron_positions(2), culling)
                             .evaluate(octahedron_positions(2), pushed());
     EXPECT_EQ(result.first, reference.first);
@@ -167,7 +167,7 @@ TEST(Detector, PositionsMayHaveAnyRowStride) {
   wide_t1.leftCols<3>() = pushed();
   const auto expected =
       make(octahedron(), octahedron_positions(2)).evaluate(octahedron_positions(2), pushed());
-  for (const auto culling : {Culling::view_point, Culling::bvh}) {
+  for (const auto culling : {Culling::view_point, Culling::normal_cone, Culling::bvh}) {
     const auto result = make(octahedron(), octahedron_positions(2), culling)
                             .evaluate(wide_t0.leftCols<3>(), wide_t1.leftCols<3>());
     EXPECT_EQ(result.answer, Answer::collision);

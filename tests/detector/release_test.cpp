@@ -20,7 +20,14 @@ Positions tip_at(double s) {
   return x;
 }
 
-Detector make(const Options& options = {}) {
+// view-auto tests so small a mesh without views.
+Options with_points() {
+  Options options;
+  options.culling = Culling::view_point;
+  return options;
+}
+
+Detector make(const Options& options = with_points()) {
   return std::move(Detector::create(with_hole(), octahedron_positions(2), options).value());
 }
 
@@ -67,14 +74,14 @@ TEST(Release, L9_OutThroughTheHoleAndBackIsUndone) {
 
 TEST(Release, TheCoarseFormsReleaseNoMore) {
   const Positions in = octahedron_positions(2), out = tip_at(1.5);
-  Options model, view, boxes;
+  Options model = with_points(), view = model, boxes = model;
   model.release = Release::model;
   view.release = Release::view;
   boxes.ghost_test = GhostTest::boxes;
   for (const auto& options : {model, view, boxes}) {
     Detector fine = make(), coarse = make(options);
+    const Positions* from = &in;
     for (const auto* x : {&in, &out, &out, &in, &in}) {
-      static const Positions* from = &in;
       const auto a = fine.step(*from, *x), b = coarse.step(*from, *x);
       from = x;
       EXPECT_EQ(a.answer, b.answer);
@@ -111,12 +118,12 @@ TEST(SavedState, RestoredGivesTheSameBits) {
   const SavedState saved = detector.state();
   SavedState copy = saved;
   // Made from other positions: rules of apexes and views are in the state.
-  Detector other = std::move(Detector::create(with_hole(), tip_at(.25), Options()).value());
+  Detector other = std::move(Detector::create(with_hole(), tip_at(.25), with_points()).value());
   ASSERT_FALSE(other.restore(copy));
   Detector same = make();
   ASSERT_FALSE(same.restore(copy));
+  const Positions* from = &out;
   for (const auto* x : {&out, &in, &in}) {
-    static const Positions* from = &out;
     const auto expected = detector.step(*from, *x);
     EXPECT_EQ(other.evaluate(*from, *x).doubts, expected.doubts);
     EXPECT_EQ(other.step(*from, *x).signs, expected.signs);
@@ -129,7 +136,7 @@ TEST(SavedState, RestoredGivesTheSameBits) {
 
 TEST(SavedState, OfAnotherMeshOrCullingIsRefused) {
   const Positions x = octahedron_positions(2);
-  Detector closed = std::move(Detector::create(octahedron(), x, Options()).value());
+  Detector closed = std::move(Detector::create(octahedron(), x, with_points()).value());
   Detector open = make();
   open.step(x, tip_at(1.5));
   const auto problem = open.restore(closed.state());

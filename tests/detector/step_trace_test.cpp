@@ -68,7 +68,7 @@ TEST(StepTrace, L3L7_ClosedStepWithAContact) {
                    "join", "mark", "search", "clear", "settle"}));
   // From here on with doubt, and L5 asked whether it can be put away.
   EXPECT_EQ(traced.step(pushed(), octahedron_positions(2), Answer::collision),
-            (Notes{"known?", "view test", "free?", "released?", "fit", "mark", "clear", "K",
+            (Notes{"known?", "view test", "free?", "release", "test", "fit", "mark", "clear", "K",
                    "search", "test", "H", "K", "settle"}));
 }
 

@@ -121,7 +121,7 @@ TEST(ArithmeticSteps, BoundedKeepsItsClaimsOnSmallSteps) {
     const auto judgement = oracle::judge_step(step.x_t0, step.x_t1, step.triangles, {1, {}});
     pairs += judgement.pairs.size();
     for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
-                               Culling::bvh, Culling::none}) {
+                               Culling::normal_cone, Culling::bvh, Culling::none}) {
       for (const auto wanted : {detector::Pairs::all, detector::Pairs::first}) {
         const detector::Options options{culling, detector::Start::verified, wanted,
                                         Arithmetic::bounded};
@@ -154,8 +154,8 @@ TEST(ArithmeticSteps, CuratedCases) {
   for (const auto& file : files.value()) {
     const auto c = corpus::read_case(file);
     ASSERT_TRUE(c.has_value());
-    for (const auto culling :
-         {Culling::view_auto, Culling::view_point, Culling::view_line, Culling::bvh}) {
+    for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
+                               Culling::normal_cone, Culling::bvh}) {
       for (const auto arithmetic :
            {Arithmetic::bounded, Arithmetic::double_precision, Arithmetic::single_precision}) {
         const auto report = check_case(c.value(), culling, 1, arithmetic);

@@ -32,7 +32,7 @@ TEST_P(Curated, Holds) {
   EXPECT_EQ(report.outcome, Outcome::holds) << lines(report);
   for (const auto culling :
        {detector::Culling::view_auto, detector::Culling::view_point, detector::Culling::view_line,
-        detector::Culling::bvh, detector::Culling::none}) {
+        detector::Culling::normal_cone, detector::Culling::bvh, detector::Culling::none}) {
     const auto other = check_case(c.value(), culling);
     EXPECT_EQ(other.outcome, Outcome::holds) << name_of(culling) << ":\n" << lines(other);
   }

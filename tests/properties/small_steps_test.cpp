@@ -35,6 +35,7 @@ constexpr Variant variants[] = {
     {"view-point, given point", Culling::view_point, Variant::point},
     {"view-line, own line", Culling::view_line, Variant::own},
     {"view-line, given line", Culling::view_line, Variant::line},
+    {"normal-cone", Culling::normal_cone, Variant::own},
     {"bvh", Culling::bvh, Variant::own},
     {"none", Culling::none, Variant::own},
 };

@@ -142,7 +142,7 @@ TEST_F(BadInput, Options) {
   expect_refused("", "subcommand");
   expect_refused("frobnicate", "frobnicate");
   expect_refused("check " + good + " " + good + " --culling fast",
-                 "view-auto, view-point, view-line, bvh, none");
+                 "view-auto, view-point, view-line, normal-cone, bvh, none");
   expect_refused("check " + good + " " + good + " --start maybe", "maybe");
   expect_refused("check " + good + " " + good + " --pairs some", "some");
   expect_refused("check " + good + " " + good + " --jobs 0", "jobs");

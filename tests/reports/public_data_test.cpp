@@ -38,7 +38,7 @@ class PublicMeshes : public testing::Test {
 TEST_F(PublicMeshes, RodTwist) {
   const std::string frames = data + "/scalable-ccd/rod-twist/frames/3036.ply " + data +
                              "/scalable-ccd/rod-twist/frames/3037.ply";
-  for (const std::string culling : {"view-auto", "view-point", "view-line", "bvh"}) {
+  for (const std::string culling : {"view-auto", "view-point", "view-line", "normal-cone", "bvh"}) {
     const auto report = check(frames + " --culling " + culling);
     ASSERT_EQ(report["steps"].size(), 1u);
     EXPECT_EQ(report["steps"][0]["pairs"].size(), 13145u) << culling;

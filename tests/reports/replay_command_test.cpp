@@ -17,8 +17,8 @@ TEST(Replay, ByIdGoesThroughEveryConfiguration) {
   const auto outcome = run_assay(std::string("replay ") + some_id);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_EQ(outcome.out.find(some_id), 0u);
-  for (const std::string name : {"view-auto", "view-point", "view-line", "bvh", "none",
-                                 "view-point/first", "view-line/bounded"}) {
+  for (const std::string name : {"view-auto", "view-point", "view-line", "normal-cone", "bvh",
+                                 "none", "view-point/first", "view-line/bounded"}) {
     EXPECT_TRUE(contains(outcome.out, "\n" + name + ": holds\n")) << name << outcome.out;
   }
   EXPECT_TRUE(contains(outcome.out, "step 1 (frame 0 to 1, committed): oracle ")) << outcome.out;

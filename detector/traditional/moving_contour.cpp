@@ -1,0 +1,213 @@
+// The plane. With m the axis along which |d| is greatest and k, l the others in cyclic order, the
+// two coordinates of a point x are s (d_m x_k - d_k x_m) and d_m x_l - d_l x_m, s the sign of d_m:
+// both are 0 along d, and the map turns no orientation around. A coordinate is computed with one
+// rounding, its products are exact; rounding keeps order, so what is strictly ordered as computed
+// is so in truth, and what is ordered in one sense at t=0 and t=1 is so throughout: points are
+// linear in t.
+//
+// Turns and cosines of differences of coordinates, with u = 2^-53 and M_u, M_v the largest sizes of
+// a difference along the two axes, in truth at most d_m M_k + |d_k| M_m of the differences in
+// space:
+//   difference  those in space are off by u M; times 1 or 2 exact; their sum rounded: 2u M_u
+//   turn        x_u y_v - x_v y_u: each product off by 2u + 2u (entries) + u (rounding) = 5u M_u
+//   M_v;
+//               their difference, at most 2 M_u M_v, rounded: 12u M_u M_v; the middle coefficient,
+//               half of a sum of at most 4 M_u M_v: 12u + 2u = 14u M_u M_v
+//   cosine      x_u y_u + x_v y_v: with D = M_u^2 + M_v^2 likewise 5u D + u D = 6u D, middle 7u D
+//   halving     half of a sum of at most 4 M_u M_v, rounded, at two levels: 4u M_u M_v a halving
+// 16u at depth 0 and 4u more for each halving cover these with the rounding of the M.
+#include "detector/traditional/moving_contour.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace assay::detector {
+namespace {
+
+constexpr int max_depth = 3;
+constexpr double turn_units(int depth) { return 16 + 4 * depth; }
+
+Quadratic turn(const auto& x, const auto& y) {
+  const auto minor = [](const auto& p, const auto& q) { return p[0] * q[1] - p[1] * q[0]; };
+  return {minor(x.t0, y.t0), (minor(x.t0, y.t1) + minor(x.t1, y.t0)) / 2, minor(x.t1, y.t1)};
+}
+
+Quadratic cosine(const auto& x, const auto& y) {
+  const auto product = [](const auto& p, const auto& q) { return p[0] * q[0] + p[1] * q[1]; };
+  return {product(x.t0, y.t0), (product(x.t0, y.t1) + product(x.t1, y.t0)) / 2,
+          product(x.t1, y.t1)};
+}
+
+bool is_in_range(const std::array<double, 2>& magnitude) {
+  return in_range({magnitude[0], magnitude[1], 0});
+}
+
+// Of two edges: each pair is where the ends of the one lie seen from the other. When both of a pair
+// have the same strict sign the edges do not meet. At every time one of the pairs will do.
+struct Sides {
+  std::array<Quadratic, 2> of_a, of_b;
+};
+
+bool same_side(const std::array<Quadratic, 2>& ends, double bound) {
+  const int side = sure_sign(ends[0], bound);
+  return side != 0 && side == sure_sign(ends[1], bound);
+}
+
+bool are_apart(const Sides& sides, double scale, int depth) {
+  const double bound = turn_units(depth) * unit_roundoff * scale;
+  if (same_side(sides.of_a, bound) || same_side(sides.of_b, bound)) return true;
+  if (depth == max_depth) return false;
+  Sides left, right;
+  for (std::size_t i = 0; i < 2; ++i) {
+    halve(sides.of_a[i], left.of_a[i], right.of_a[i]);
+    halve(sides.of_b[i], left.of_b[i], right.of_b[i]);
+  }
+  return are_apart(left, scale, depth + 1) && are_apart(right, scale, depth + 1);
+}
+
+// Two edges at a vertex overlap only where they run in the same direction.
+bool is_open(const Quadratic& turned, const Quadratic& aligned, double turn_scale,
+             double aligned_scale, int depth) {
+  const double units = turn_units(depth) * unit_roundoff;
+  if (sure_sign(turned, units * turn_scale) != 0 || sure_sign(aligned, units * aligned_scale) < 0)
+    return true;
+  if (depth == max_depth) return false;
+  Quadratic turned_left, turned_right, aligned_left, aligned_right;
+  halve(turned, turned_left, turned_right);
+  halve(aligned, aligned_left, aligned_right);
+  return is_open(turned_left, aligned_left, turn_scale, aligned_scale, depth + 1) &&
+         is_open(turned_right, aligned_right, turn_scale, aligned_scale, depth + 1);
+}
+
+}  // namespace
+
+bool MovingContour::apart(const Box& a, const Box& b) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    if ((a.hi[k] < b.lo[k] && a.hi[k + 2] < b.lo[k + 2]) ||
+        (b.hi[k] < a.lo[k] && b.hi[k + 2] < a.lo[k + 2])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void MovingContour::make_boxes(const Chain& chain) {
+  const auto join = [](const Box& a, const Box& b) {
+    Box box;
+    for (std::size_t k = 0; k < 4; ++k) {
+      box.lo[k] = std::min(a.lo[k], b.lo[k]);
+      box.hi[k] = std::max(a.hi[k], b.hi[k]);
+    }
+    return box;
+  };
+  if (chain.count == 1) {
+    boxes_[chain.box] = join(points_[chain.first], points_[next(chain.first)]);
+    return;
+  }
+  const Chain a = chain.first_half(), b = chain.second_half();
+  make_boxes(a);
+  make_boxes(b);
+  boxes_[chain.box] = join(boxes_[a.box], boxes_[b.box]);
+}
+
+bool MovingContour::stays_simple(Contour contour, int direction_bit) {
+  contour_ = contour;
+  d_ = direction(direction_bit);
+  Eigen::Index m = 0;
+  for (Eigen::Index k = 1; k < 3; ++k) {
+    if (std::abs(d_[static_cast<std::size_t>(k)]) > std::abs(d_[static_cast<std::size_t>(m)]))
+      m = k;
+  }
+  axis_ = {(m + 1) % 3, (m + 2) % 3, m};
+  points_.resize(contour.size());
+  boxes_.resize(2 * contour.size());
+  const double weight = d_[static_cast<std::size_t>(m)];
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const auto v = contour[i];
+    const auto coordinate = [&](const PositionsView& x, std::size_t k) {
+      return weight * x(v, axis_[k]) - d_[static_cast<std::size_t>(axis_[k])] * x(v, m);
+    };
+    const std::array<double, 4> y = {coordinate(x_t0_, 0), coordinate(x_t0_, 1),
+                                     coordinate(x_t1_, 0), coordinate(x_t1_, 1)};
+    // Far out a difference may overflow, and an infinite one orders nothing that can be trusted.
+    if (!std::all_of(y.begin(), y.end(), [](double c) { return std::isfinite(c); })) return false;
+    points_[i] = {y, y};
+  }
+  const Chain all{0, contour.size(), 0};
+  make_boxes(all);
+  return is_simple(all);
+}
+
+bool MovingContour::is_simple(const Chain& chain) const {
+  if (chain.count == 1) return true;
+  return keeps_apart(chain.first_half(), chain.second_half()) && is_simple(chain.first_half()) &&
+         is_simple(chain.second_half());
+}
+
+bool MovingContour::keeps_apart(const Chain& a, const Chain& b) const {
+  if (apart(boxes_[a.box], boxes_[b.box])) return true;
+  if (a.count == 1 && b.count == 1) return edges_keep_apart(a.first, b.first);
+  return a.count > b.count ? keeps_apart(a.first_half(), b) && keeps_apart(a.second_half(), b)
+                           : keeps_apart(a, b.first_half()) && keeps_apart(a, b.second_half());
+}
+
+MovingContour::Flat MovingContour::flat(std::int32_t p, std::int32_t q,
+                                        std::array<double, 2>& magnitude) const {
+  const MovingVector e = difference(moving_point(x_t0_, x_t1_, p), moving_point(x_t0_, x_t1_, q));
+  const auto m = static_cast<std::size_t>(axis_[2]);
+  Flat out;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto k = static_cast<std::size_t>(axis_[i]);
+    out.t0[i] = d_[m] * e.t0[k] - d_[k] * e.t0[m];
+    out.t1[i] = d_[m] * e.t1[k] - d_[k] * e.t1[m];
+    const double along = std::max(std::abs(e.t0[k]), std::abs(e.t1[k]));
+    const double across = std::max(std::abs(e.t0[m]), std::abs(e.t1[m]));
+    magnitude[i] = std::max(magnitude[i], std::abs(d_[m]) * along + std::abs(d_[k]) * across);
+  }
+  return out;
+}
+
+bool MovingContour::edges_keep_apart(std::size_t i, std::size_t j) const {
+  if (next(i) == j) return corner_stays_open(j);
+  if (next(j) == i) return corner_stays_open(i);
+  const auto a0 = contour_[i], a1 = contour_[next(i)], b0 = contour_[j], b1 = contour_[next(j)];
+  std::array<double, 2> magnitude = {0, 0};
+  const Flat a = flat(a1, a0, magnitude), b = flat(b1, b0, magnitude);
+  const Flat b0_a0 = flat(b0, a0, magnitude), b1_a0 = flat(b1, a0, magnitude);
+  const Flat a1_b0 = flat(a1, b0, magnitude), a0_b0 = flat(a0, b0, magnitude);
+  if (!is_in_range(magnitude)) return false;
+  return are_apart({{turn(a, b0_a0), turn(a, b1_a0)}, {turn(b, a0_b0), turn(b, a1_b0)}},
+                   magnitude[0] * magnitude[1], 0);
+}
+
+bool MovingContour::corner_stays_open(std::size_t i) const {
+  const auto v = contour_[i], after = contour_[next(i)];
+  const auto before = contour_[i == 0 ? contour_.size() - 1 : i - 1];
+  std::array<double, 2> magnitude = {0, 0};
+  const Flat x = flat(before, v, magnitude), y = flat(after, v, magnitude);
+  if (!is_in_range(magnitude)) return false;
+  return is_open(turn(x, y), cosine(x, y), magnitude[0] * magnitude[1],
+                 magnitude[0] * magnitude[0] + magnitude[1] * magnitude[1], 0);
+}
+
+Vector MovingContour::area(Contour contour) const {
+  const auto middle = [&](std::int32_t v) {
+    Vector x;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      x[static_cast<std::size_t>(k)] = (0.5 * x_t0_(v, k) + 0.5 * x_t1_(v, k)) -
+                                       (0.5 * x_t0_(contour[0], k) + 0.5 * x_t1_(contour[0], k));
+    }
+    return x;
+  };
+  Vector area = {0, 0, 0};
+  Vector last = middle(contour[1]);
+  for (std::size_t i = 2; i < contour.size(); ++i) {
+    const Vector x = middle(contour[i]);
+    const Vector n = cross(last, x);
+    for (std::size_t k = 0; k < 3; ++k) area[k] += n[k];
+    last = x;
+  }
+  return area;
+}
+
+}  // namespace assay::detector

@@ -1,0 +1,118 @@
+#include "detector/traditional/patch_contours.h"
+
+#include <algorithm>
+
+namespace assay::detector {
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+using Boundary = std::vector<DirectedEdge>;  // ascending; one edge only in one direction
+
+Boundary boundary_of_triangle(const Topology& mesh, std::int32_t t) {
+  Boundary edges;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const auto u = mesh.triangles[at(t)][(corner + 1) % 3];
+    const auto v = mesh.triangles[at(t)][(corner + 2) % 3];
+    edges.push_back(2 * mesh.triangle_edges[at(t)][corner] + (u < v ? 0 : 1));
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+// Opposite edges cancel.
+Boundary joined(const Boundary& a, const Boundary& b) {
+  Boundary out;
+  out.reserve(a.size() + b.size());
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if ((a[i] ^ b[j]) == 1) {
+      ++i;
+      ++j;
+    } else {
+      out.push_back(a[i] <= b[j] ? a[i++] : b[j++]);
+    }
+  }
+  out.insert(out.end(), a.begin() + static_cast<std::ptrdiff_t>(i), a.end());
+  out.insert(out.end(), b.begin() + static_cast<std::ptrdiff_t>(j), b.end());
+  return out;
+}
+
+}  // namespace
+
+void ContourMaker::append(std::span<const DirectedEdge> boundary, std::vector<std::int32_t>& out) {
+  // As many edges enter a vertex as leave it, so it is enough to look at those that leave.
+  bool is_simple = !boundary.empty();
+  for (const auto e : boundary) {
+    is_simple = is_simple && next_[at(from(e))] == none;
+    next_[at(from(e))] = to(e);
+  }
+  if (is_simple) {
+    const auto begin = out.size();
+    const auto first = from(boundary[0]);
+    auto v = first;
+    do {
+      out.push_back(v);
+      v = next_[at(v)];
+    } while (v != first);
+    if (out.size() - begin != boundary.size()) out.resize(begin);  // more walks than one
+  }
+  for (const auto e : boundary) next_[at(from(e))] = none;
+}
+
+struct PatchContours::Builder {
+  PatchContours& contours;
+  const Topology& mesh;
+  const BoundingVolumeTree& tree;
+  ContourMaker& maker;
+
+  Boundary run(std::int32_t node) {
+    Boundary boundary = tree.is_leaf(node)
+                            ? boundary_of_triangle(mesh, tree.triangle(node))
+                            : joined(run(tree.child(node)), run(tree.child(node) + 1));
+    Range& range = contours.ranges_[at(node)];
+    range.begin = static_cast<std::uint32_t>(contours.vertices_.size());
+    maker.append(boundary, contours.vertices_);
+    range.count = static_cast<std::uint32_t>(contours.vertices_.size()) - range.begin;
+    return boundary;
+  }
+};
+
+PatchContours::PatchContours(const Topology& mesh, const BoundingVolumeTree& tree,
+                             ContourMaker& maker)
+    : ranges_(tree.node_count()) {
+  Builder{*this, mesh, tree, maker}.run(BoundingVolumeTree::root);
+  vertices_.shrink_to_fit();
+}
+
+// With c common vertices and s common edges in r runs, c >= s + r, and more where the contours also
+// touch at a vertex alone. So c = s + 1 and s > 0 say: one run, nothing beside it.
+Contour ContourUnion::join(Contour a, Contour b) {
+  joined_.clear();
+  for (std::size_t i = 0; i < a.size(); ++i) place_[at(a[i])] = static_cast<std::int32_t>(i);
+  std::size_t vertices = 0, edges = 0, run_end = 0;  // of b: the first vertex past the run
+  const auto follows = [&](std::size_t j) {          // the edge of b from j is one of a, backward
+    const auto p = place_[at(b[j])], q = place_[at(b[j + 1 == b.size() ? 0 : j + 1])];
+    return p != none && q != none && p == (at(q) + 1 == a.size() ? 0 : q + 1);
+  };
+  bool after_shared = follows(b.size() - 1);
+  for (std::size_t j = 0; j < b.size(); ++j) {
+    vertices += place_[at(b[j])] != none;
+    const bool shared = follows(j);
+    edges += shared;
+    if (after_shared && !shared) run_end = j;
+    after_shared = shared;
+  }
+  if (edges > 0 && vertices == edges + 1) {
+    // b from the run's end round to its start, then a onward from there to b's run_end.
+    for (std::size_t i = 0; i < b.size() - edges; ++i) {
+      joined_.push_back(b[(run_end + i) % b.size()]);
+    }
+    const auto start = at(place_[at(b[(run_end + b.size() - edges) % b.size()])]);
+    for (std::size_t i = 0; i < a.size() - edges; ++i) joined_.push_back(a[(start + i) % a.size()]);
+  }
+  for (const auto v : a) place_[at(v)] = none;
+  return joined_;
+}
+
+}  // namespace assay::detector

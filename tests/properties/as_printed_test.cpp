@@ -1,0 +1,56 @@
+// The thesis as printed misses, each deviation on its case; and how often, over random cases.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "properties/as_printed/deviations.h"
+#include "properties/as_printed/toll.h"
+#include "properties/faults/fault_run.h"
+
+namespace assay::properties {
+namespace {
+
+corpus::Case curated(std::string_view id) {
+  const auto path =
+      std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated" / (std::string(id) + ".json");
+  return corpus::read_case(path).value();
+}
+
+TEST(AsPrinted, EachDeviationMissesOnItsCase) {
+  ASSERT_EQ(deviations().size(), 5u);
+  for (const auto& deviation : deviations()) {
+    SCOPED_TRACE(deviation.name);
+    const Fault* fault = find_fault(deviation.fault);
+    ASSERT_NE(fault, nullptr);
+    const auto c = curated(fault->curated);
+    const auto judgements = judge_case(c);
+    const auto defect = [&](const detector::Stages& stages) {
+      return first_defect(run_case(c, as_printed_options, stages), judgements,
+                          as_printed_options.pairs);
+    };
+    EXPECT_FALSE(defect(detector::standard_stages(as_printed_options)));
+    EXPECT_TRUE(defect(stages_with(deviation)));
+    EXPECT_TRUE(defect(stages_as_printed()));
+  }
+}
+
+TEST(AsPrinted, TollOfRandomCases) {
+  constexpr std::uint64_t cases_of_family = 60;
+  const TollTable table = measure_toll("as-printed:1", cases_of_family);
+  std::printf("%s", text_of(table).c_str());
+  ASSERT_EQ(table.rows.size(), deviations().size() + 2);
+  const TollRow &right = table.rows.front(), &printed = table.rows.back();
+  EXPECT_EQ(right.silent + right.late + right.incomplete + right.pairs_missing, 0u);
+  EXPECT_GT(printed.silent, 0u);
+  EXPECT_GT(printed.pairs_missing, 0u);
+  EXPECT_LT(printed.candidates, right.candidates);
+  const TollTable again = measure_toll("as-printed:1", cases_of_family);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    EXPECT_EQ(table.rows[i].pairs_missing, again.rows[i].pairs_missing);
+    EXPECT_EQ(table.rows[i].candidates, again.rows[i].candidates);
+  }
+}
+
+}  // namespace
+}  // namespace assay::properties
