@@ -6,6 +6,7 @@ namespace {
 using detector::PairContact;
 using detector::PairRule;
 using detector::ReleaseRule;
+using detector::StepState;
 using detector::StepWork;
 
 enum Place : std::size_t { one_vertex, handled_when_not_free, reduced_u, corollary_4, released };
@@ -40,9 +41,11 @@ struct PrintedRelease : ReleaseRule {
   bool released_at_start(const StepWork& work, std::size_t component) const override {
     return by_view->released_at_start(work, component);
   }
+  // Nothing but a free step empties Vv.
+  bool release(StepWork&, const std::vector<std::int32_t>&) const override { return true; }
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              std::vector<std::uint8_t>& clean) const override {
-    when_free->settle(work, pairs, complete, clean);
+              StepState& state) const override {
+    when_free->settle(work, pairs, complete, state);
   }
 };
 
