@@ -29,7 +29,6 @@ using test::small_case;
 const std::vector<Configuration> four = {
     {"view-point", {detector::Culling::view_point}},
     {"view-line", {detector::Culling::view_line}},
-    {"normal-cone", {detector::Culling::normal_cone}},
     {"bvh", {detector::Culling::bvh}},
     {"first", {detector::Culling::view_point, detector::Start::verified, detector::Pairs::first}}};
 const std::vector<Configuration> one = {{"plug-in", {}}};
