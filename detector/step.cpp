@@ -99,7 +99,7 @@ class Step {
     work_.clean.assign(mesh_.triangles.size(), 0);
     work_.touched.assign(mesh_.triangles.size(), 0);
     work_.free.assign(mesh_.components.size(), 0);
-    if (looks()) classify_components();
+    if (looks() && (!is_auto() || auto_.glances(work_))) classify_components();
     if (is_auto() && !work_.all_free() && !(work_.has_views() && auto_.promises(work_))) {
       drop_views();
       take_clean_at_start(work_, context_.options.start);

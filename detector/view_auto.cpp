@@ -51,6 +51,9 @@ bool has_more_ghost_pairs(const StepWork& work, double limit) {
   return false;
 }
 
+// A glance costs about what 500 triangles cost the view test.
+constexpr std::size_t seen_at_a_glance = 64, worth_a_glance = 4'096;
+
 constexpr std::uint64_t longest_rest = 32;
 
 // A choice looks at an eighth of the triangles and costs at most half a step of culling bvh: made
@@ -90,6 +93,36 @@ const std::vector<ViewAnchor>& ViewAuto::anchors(const std::vector<ViewAnchor>& 
 
 std::uint64_t ViewAuto::expected_candidates() const {
   return std::max(adjacent_, choice_.candidates);
+}
+
+bool ViewAuto::glances(const StepWork& work) {
+  double saved = 0, count = 0;
+  ViewCounts unused;
+  for (std::size_t c = 0; c < work.primitives.size(); ++c) {
+    const auto own = work.own_triangles(c);
+    const auto m = static_cast<double>(own.size());
+    count += m;
+    if (own.size() < worth_a_glance) {
+      saved += m;
+      continue;
+    }
+    std::size_t positive = 0, negative = 0;
+    for (std::size_t i = 0; i < seen_at_a_glance; ++i) {
+      const auto& v = work.surface.mesh.triangles[at(own[i * own.size() / seen_at_a_glance])];
+      const MovingTriangle triangle = {moving_point(work.x_t0, work.x_t1, v[0]),
+                                       moving_point(work.x_t0, work.x_t1, v[1]),
+                                       moving_point(work.x_t0, work.x_t1, v[2])};
+      const ViewSign sign = view_sign(triangle, work.primitives[c], unused, Arithmetic::bounded);
+      positive += sign == ViewSign::positive;
+      negative += sign == ViewSign::negative;
+    }
+    const double p = static_cast<double>(positive) / seen_at_a_glance,
+                 n = static_cast<double>(negative) / seen_at_a_glance;
+    saved += m * (p * p + n * n);
+  }
+  paid_ = saved / count >= least_share;
+  if (!paid_) share_of_signs_ = share_ = saved / count;
+  return paid_;
 }
 
 bool ViewAuto::promises(StepWork& work) {

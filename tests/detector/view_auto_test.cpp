@@ -99,6 +99,29 @@ TEST(ViewAuto, L10_EveryComponentIsSeenFromWhatSuitsIt) {
   EXPECT_TRUE(result.primitives[1].is_point());
 }
 
+// A flat sheet seen along itself: integers would decide that no triangle has a sign.
+TEST(ViewAuto, ALargeSheetIsGlancedAtAndNoMore) {
+  constexpr int side = 49;  // 4,608 triangles
+  Triangles t(2 * (side - 1) * (side - 1), 3);
+  Positions x(side * side, 3);
+  for (int i = 0, k = 0; i < side; ++i) {
+    for (int j = 0; j < side; ++j) {
+      const int v = i * side + j;
+      x.row(v) << i, j, 0;
+      if (i + 1 == side || j + 1 == side) continue;
+      t.row(k++) << v, v + side, v + 1;
+      t.row(k++) << v + 1, v + side, v + side + 1;
+    }
+  }
+  Positions moved = x;
+  moved.col(2).array() += .25;
+  const auto result = make(t, x).step(x, moved);
+  EXPECT_FALSE(was_looked_at(result));
+  EXPECT_TRUE(has_no_views(result));
+  EXPECT_EQ(result.answer, Answer::free);
+  expect_same_contacts(result, make(t, x, Culling::bvh).step(x, moved));
+}
+
 // A sheet folded like an accordion. Of an unknown start nothing is clean, so views save nothing.
 TEST(ViewAuto, FallsBackWhereAllIsDirtyAndCostsWhatBvhCosts) {
   constexpr int columns = 24;
