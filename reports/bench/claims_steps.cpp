@@ -19,10 +19,12 @@ void compare(const NamedStep& named, bool is_rod_twist, int rounds, BenchReport&
   TimedStep bvh = timed(Culling::bvh, Arithmetic::exact);
   TimedStep point = timed(Culling::view_point, Arithmetic::exact);
   TimedStep line = timed(Culling::view_line, Arithmetic::exact);
+  TimedStep chosen = timed(Culling::view_auto, Arithmetic::exact);
   TimedStep in_doubles = timed(Culling::view_point, Arithmetic::double_precision);
   const auto samples =
       interleave(rounds, {[&] { return bvh.time(); }, [&] { return point.time(); },
-                          [&] { return line.time(); }, [&] { return in_doubles.time(); }});
+                          [&] { return line.time(); }, [&] { return chosen.time(); },
+                          [&] { return in_doubles.time(); }});
   const auto only_rods = [&](Wanted wanted) {
     return is_rod_twist ? std::optional(wanted) : std::nullopt;
   };
@@ -45,8 +47,9 @@ void compare(const NamedStep& named, bool is_rod_twist, int rounds, BenchReport&
   };
   with_views(point, samples[1], "view-point");
   with_views(line, samples[2], "view-line");
+  with_views(chosen, samples[3], "view-auto");
   report.add(fmt::format("exact over double, whole step, {}", name), "times",
-             ratio_of(samples[1], samples[3]), at_most(1.3),
+             ratio_of(samples[1], samples[4]), at_most(1.3),
              fmt::format("view-point; integers decide {} of {} tests",
                          point.result().counts.narrow.rungs.exact,
                          point.result().counts.narrow.elementary_tests));

@@ -104,6 +104,7 @@ std::string scatter_svg(const std::vector<ScatterPoint>& points) {
     auto found = std::find(scenes.begin(), scenes.end(), p.scene);
     if (found == scenes.end()) found = scenes.insert(scenes.end(), p.scene);
     const auto index = static_cast<std::size_t>(found - scenes.begin());
+    if (p.culling == "view-auto") continue;  // one of the other two, or bvh
     out += mark(x_of(p.share), ratio.y_of(p.ratio), p.culling == "view-point",
                 colours[index % colours.size()]);
   }
