@@ -32,8 +32,11 @@ double saved_share(const StepWork& work, bool all_clean) {
 constexpr double least_share = 0.125;
 
 // Of the pairs of a ghost's box and a triangle's, each takes up to six elementary tests, and such a
-// test 1.5 times the cost of a candidate.
-constexpr double cost_of_ghost_test = 1.5, cost_of_ghost_pair = 9;
+// test 1.5 times the cost of a candidate. A winding number looks at each triangle, for 20 ns.
+constexpr double cost_of_test = 1.5, cost_of_ghost_pair = 9, cost_of_crossing = 0.1;
+
+// Of the cost of a candidate, what is saved with one that is left out: see least_share.
+constexpr double worth_of_saved = 1.0 / 3;
 
 // Whether more than `limit` triangles lie in the boxes of ghosts of components that are not free.
 bool has_more_ghost_pairs(const StepWork& work, double limit) {
@@ -127,7 +130,8 @@ bool ViewAuto::glances(const StepWork& work) {
 
 bool ViewAuto::promises(StepWork& work) {
   share_of_signs_ = share_ = saved_share(work, true);
-  paid_ = share_ >= least_share;
+  const double hoped = worth_of_saved * share_ * static_cast<double>(expected_candidates());
+  paid_ = share_ >= least_share && choice_.overhead <= hoped;
   if (!paid_ || surface_.is_closed()) return paid_;
   work.tree.refit(surface_.mesh, work.x_t0, work.x_t1);
   const double saved = share_ * static_cast<double>(expected_candidates());
@@ -138,7 +142,17 @@ bool ViewAuto::promises(StepWork& work) {
 bool ViewAuto::pays(const StepWork& work) {
   share_ = saved_share(work, false);
   paid_ = share_ >= least_share;
+  if (!paid_) overhead_ = cost_beside_k(work.counts);
   return paid_;
+}
+
+// In candidates; the closure not included.
+double ViewAuto::cost_beside_k(const StepCounts& counts) const {
+  const double tests = static_cast<double>(counts.ghosts.elementary_tests) +
+                       static_cast<double>(counts.release.elementary_tests);
+  const double crossings = static_cast<double>(counts.release.winding_numbers) *
+                           static_cast<double>(surface_.all().triangles.size());
+  return cost_of_test * tests + cost_of_crossing * crossings;
 }
 
 void ViewAuto::weigh(const StepCounts& counts, std::uint64_t candidates_of_k) {
@@ -146,8 +160,8 @@ void ViewAuto::weigh(const StepCounts& counts, std::uint64_t candidates_of_k) {
   const double all = share_ < 1 ? k / (1 - share_) : k;
   const double saved = std::max(all, static_cast<double>(adjacent_)) - k;
   const double closure = static_cast<double>(counts.search.candidate_pairs) - k;
-  const double sweep = cost_of_ghost_test * static_cast<double>(counts.ghosts.elementary_tests);
-  paid_ = closure + sweep <= saved;
+  overhead_ = closure + cost_beside_k(counts);
+  paid_ = *overhead_ <= worth_of_saved * saved;
 }
 
 ViewChoice ViewAuto::after(const StepCounts& counts, bool own) const {
@@ -158,6 +172,7 @@ ViewChoice ViewAuto::after(const StepCounts& counts, bool own) const {
     --next.rest;
     return next;
   }
+  next.overhead = overhead_ ? *overhead_ : choice_.overhead / 2;
   if (paid_) {
     next.next_rest = std::max<std::uint64_t>(next.next_rest / 2, 1);
   } else {

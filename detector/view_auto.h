@@ -9,6 +9,8 @@
 // order, elementary tests, its share of the refit): 0.15 to 0.2 us.
 #pragma once
 
+#include <optional>
+
 #include "detector/step_work.h"
 #include "detector/view/view_choice.h"
 
@@ -36,13 +38,14 @@ class ViewAuto {
   const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
                                          const PositionsView& x_t0);
 
-  // Whether the signs leave out enough pairs, should all triangles be clean, and the ghosts are
-  // few enough to be swept. Refits the tree of an unclosed mesh.
+  // Whether the signs leave out enough pairs, should all triangles be clean, to be worth what else
+  // views took when last used, and the ghosts are few enough to be swept. Refits the tree of an
+  // unclosed mesh.
   bool promises(StepWork& work);
   // Whether enough is left once it is known what is clean.
   bool pays(const StepWork& work);
-  // What the sweep and the closure have cost is held against what was saved. `candidates_of_k`:
-  // those before the closure.
+  // What the release, the sweep and the closure have cost is held against what was saved.
+  // `candidates_of_k`: those before the closure.
   void weigh(const StepCounts& counts, std::uint64_t candidates_of_k);
 
   // For the steps that follow. own: the detector's own primitives were used, not the caller's.
@@ -50,6 +53,7 @@ class ViewAuto {
 
  private:
   std::uint64_t expected_candidates() const;
+  double cost_beside_k(const StepCounts& counts) const;
 
   const Surface& surface_;
   std::uint64_t adjacent_;
@@ -57,6 +61,7 @@ class ViewAuto {
   bool chose_ = false;
   double share_of_signs_ = 1, share_ = 1;  // a free step saves all
   bool paid_ = true;
+  std::optional<double> overhead_;  // of this step
 };
 
 }  // namespace assay::detector

@@ -20,6 +20,9 @@ struct ViewChoice {
   std::uint64_t rest = 0;        // steps to come without views
   std::uint64_t next_rest = 1;   // should the next look not pay
   std::uint64_t candidates = 0;  // of the last step that searched; 0: none has
+  // What views took beside the pairs of K (closure, sweep, release) when they were last used in a
+  // search, in candidates; halved by each look since.
+  double overhead = 0;
 };
 
 }  // namespace assay::detector
