@@ -6,6 +6,7 @@
 // no special cases.
 #include "detector/contact/contact_exact.h"
 
+#include "detector/contact/contact_fixed.h"
 #include "detector/exact/real_root.h"
 
 namespace assay::detector {
@@ -148,12 +149,30 @@ class ExactContact {
 
 }  // namespace
 
-std::optional<TimeEnclosure> exact_first_contact(const FourPoints& query) {
+std::optional<TimeEnclosure> general_first_contact(const FourPoints& query) {
   return ExactContact(query).first_contact();
 }
 
-TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi, double guess) {
+std::optional<TimeEnclosure> exact_first_contact(const FourPoints& query, Want want) {
+  const FixedResult result = fixed_contact(query, want);
+  switch (result.verdict) {
+    case FixedVerdict::no_contact:
+      return std::nullopt;
+    case FixedVerdict::contact:
+      return result.time;
+    case FixedVerdict::open:
+      break;
+  }
+  return general_first_contact(query);
+}
+
+TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double hi, double guess) {
   return enclose_single_root(ExactContact(query).coplanarity(), lo, hi, guess);
+}
+
+TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi, double guess) {
+  const auto time = fixed_bracketed_time(query, lo, hi, guess);
+  return time ? *time : general_bracketed_time(query, lo, hi, guess);
 }
 
 bool coplanar_throughout(const FourPoints& query) {

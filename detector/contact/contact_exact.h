@@ -8,13 +8,19 @@
 
 namespace assay::detector {
 
-// The first contact time, or nothing. Exact for all finite inputs. 6 to 50 us for coordinates of
-// similar magnitude; grows with the spread of their exponents, to tens of ms over all doubles.
-std::optional<TimeEnclosure> exact_first_contact(const FourPoints& query);
+// The first contact time, or nothing; where only yes or no is wanted any time stands for a contact.
+// Exact for all finite inputs. 0.2 to 1 us for coordinates of similar magnitude.
+std::optional<TimeEnclosure> exact_first_contact(const FourPoints& query,
+                                                 Want want = Want::first_time);
 
 // The time of a contact of which the filter knows that it is the only root of the coplanarity cubic
-// in (lo, hi), where the cubic changes sign. About 5 us.
+// in (lo, hi), where the cubic changes sign. 0.4 us for coordinates of similar magnitude.
 TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
+
+// The same in integers without bound alone: what the above fall back on. 5 to 50 us for coordinates
+// of similar magnitude; grows with the spread of their exponents, to ms over all doubles.
+std::optional<TimeEnclosure> general_first_contact(const FourPoints& query);
+TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
 // Whether the four points are coplanar at all times: the coplanarity cubic vanishes identically.
 bool coplanar_throughout(const FourPoints& query);

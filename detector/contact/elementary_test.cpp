@@ -30,7 +30,7 @@ ContactResult test_contact_past_axis(const FourPoints& query, Want want) {
               ContactRung::filter};
     }
   }
-  const auto time = exact_first_contact(query);
+  const auto time = exact_first_contact(query, want);
   const bool decided = filtered.verdict != FilterVerdict::unsure;
   return {time.has_value(), time.value_or(TimeEnclosure{}),
           decided ? ContactRung::filter : ContactRung::exact};

@@ -1,19 +1,14 @@
 #include "detector/exact/real_root.h"
 
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 
+#include "detector/exact/root_bracket.h"
 #include "detector/exact/sturm.h"
 
 namespace assay::detector {
 namespace {
-
-// Doubles in [0,1] in order are consecutive integers.
-std::uint64_t ordinal(double time) { return std::bit_cast<std::uint64_t>(time); }
-double from_ordinal(std::uint64_t n) { return std::bit_cast<double>(n); }
-bool adjacent(double lo, double hi) { return ordinal(hi) == ordinal(lo) + 1; }
 
 // The factor (t - time) to the power in which f has it, taken out; time must be a root.
 Polynomial deflate(const Polynomial& f, const Dyadic& time) {
@@ -184,35 +179,8 @@ int RealRoot::sign_of(const Polynomial& q) const {
 TimeEnclosure enclose_single_root(const Polynomial& f, double lo, double hi, double guess) {
   const int sign_lo = f.sign_at(Dyadic::of(lo));
   assert(sign_lo != 0 && f.sign_at(Dyadic::of(hi)) == -sign_lo);
-  // From the guess outward in growing strides of doubles until the root is between, then halve.
-  if (guess > lo && guess < hi) {
-    std::uint64_t stride = 1;
-    double from = guess;
-    const int sign = f.sign_at(Dyadic::of(from));
-    if (sign == 0) return {from, from};
-    const bool upward = sign == sign_lo;
-    while (true) {
-      (upward ? lo : hi) = from;
-      const std::uint64_t room = upward ? ordinal(hi) - ordinal(from) : ordinal(from) - ordinal(lo);
-      if (stride >= room) break;
-      const double next = from_ordinal(upward ? ordinal(from) + stride : ordinal(from) - stride);
-      const int sign_next = f.sign_at(Dyadic::of(next));
-      if (sign_next == 0) return {next, next};
-      if (sign_next != sign) {
-        (upward ? hi : lo) = next;
-        break;
-      }
-      from = next;
-      stride *= 8;
-    }
-  }
-  while (!adjacent(lo, hi)) {
-    const double middle = from_ordinal((ordinal(lo) + ordinal(hi)) / 2);
-    const int sign = f.sign_at(Dyadic::of(middle));
-    if (sign == 0) return {middle, middle};
-    (sign == sign_lo ? lo : hi) = middle;
-  }
-  return {lo, hi};
+  return bracket_root([&f](double time) { return f.sign_at(Dyadic::of(time)); }, sign_lo, lo, hi,
+                      guess);
 }
 
 bool has_root_in_unit_interval(const Polynomial& f) {

@@ -1,0 +1,86 @@
+// The time at which the coplanarity cubic changes sign, from its coefficients in integers of fixed
+// width.
+//
+// With B0..B3 of fixed_products.h the cubic is c0 + c1 t + c2 t^2 + c3 t^3, c0 = B0,
+// c1 = B1 - 3 B0, c2 = B2 - 2 B1 + 3 B0, c3 = B3 - B2 + B1 - B0. At t = m 2^-e <= 1, times 2^(3e),
+// each term is below 2^(3c + 11 + 3e) and so the sum below 2^(3c + 13 + 3e): with e <= 128 it fits
+// 3 W + 6 limbs, 192 W + 384 bits, as 3c <= 192 W - 24.
+#pragma once
+
+#include "detector/bernstein/bernstein.h"
+#include "detector/contact/contact_pieces.h"
+#include "detector/contact/fixed_products.h"
+#include "detector/exact/polynomial.h"
+#include "detector/exact/root_bracket.h"
+
+namespace assay::detector {
+
+template <std::size_t limbs>
+Integer integer_of(const FixedInteger<limbs>& value) {
+  const auto size = value.negative() ? -value : value;
+  Integer out = 0;
+  for (std::size_t i = limbs; i-- > 0;) out = (out << 64) + size.limb(i);
+  return value.negative() ? -out : out;
+}
+
+template <std::size_t W>
+class FixedRoot {
+ public:
+  // bits: of a coordinate; only scales guesses.
+  FixedRoot(const FixedCubic<FixedInteger<3 * W>>& b, int bits) : bits_(bits) {
+    const auto b0_3 = b[0] + b[0] + b[0];
+    const FixedCubic<FixedInteger<3 * W>> c = {b[0], b[1] - b0_3, b[2] - (b[1] + b[1]) + b0_3,
+                                               b[3] - b[2] + b[1] - b[0]};
+    for (std::size_t i = 0; i < 4; ++i) c_[i] = Value(c[i]);
+  }
+
+  // As bracket_root: one root in (lo, hi), the sign before it.
+  TimeEnclosure bracket(int sign_lo, double lo, double hi, double guess) const {
+    return bracket_root([this](double t) { return sign_at(t); }, sign_lo, lo, hi,
+                        sharpened(guess, lo, hi));
+  }
+
+  // Exact sign at a double in [0,1].
+  int sign_at(double time) const {
+    const Binary t = binary_of(time);
+    return -t.exponent <= most_exponent ? scaled_value_at(t).sign() : unbounded_sign_at(time);
+  }
+
+ private:
+  using Value = FixedInteger<3 * W + 6>;
+  static constexpr int most_exponent = 128;
+
+  Value scaled_value_at(const Binary& t) const {
+    const auto m = static_cast<std::uint64_t>(t.mantissa);
+    const auto shift = static_cast<unsigned>(-t.exponent);
+    Value value = c_[3];
+    for (unsigned i = 1; i <= 3; ++i) value = value.times(m) + c_[3 - i].shifted(i * shift);
+    return value;
+  }
+
+  // One Newton step with the exact value: a guess within the last place of a double, mostly.
+  double sharpened(double guess, double lo, double hi) const {
+    if (!(guess > lo && guess < hi)) return guess;
+    const Binary t = binary_of(guess);
+    if (-t.exponent > most_exponent) return guess;
+    const int scale = 3 * bits_;
+    const double value = scaled_value_at(t).approximate(scale - 3 * t.exponent);
+    const auto c = [&](std::size_t i) { return c_[i].approximate(scale); };
+    const double slope = (3 * c(3) * guess + 2 * c(2)) * guess + c(1);
+    const double next = guess - value / slope;
+    return next > lo && next < hi ? next : guess;
+  }
+
+  // Times so near 0 that they do not fit.
+  int unbounded_sign_at(double time) const {
+    Polynomial f;
+    const Polynomial t = Polynomial::linear(0, 1);
+    for (std::size_t i = 4; i-- > 0;) f = f * t + Polynomial::constant(integer_of(c_[i]));
+    return f.sign_at(Dyadic::of(time));
+  }
+
+  int bits_;
+  FixedCubic<Value> c_;
+};
+
+}  // namespace assay::detector
