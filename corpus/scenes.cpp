@@ -9,6 +9,7 @@
 
 #include "corpus/scenes/box_with_arm.h"
 #include "corpus/scenes/deformations.h"
+#include "corpus/scenes/passages.h"
 #include "corpus/scenes/shapes.h"
 #include "corpus/scenes/trigonometry.h"
 
@@ -107,7 +108,35 @@ Sequence folding_sheet(const SceneOptions& options) {
   return deform(sheet_shape(options.size), Extent{}, fold, options.frames);
 }
 
-constexpr std::array<SceneInfo, 10> infos = {{
+Sequence ball_in_tube(const SceneOptions& options) {
+  constexpr double radius = 0.2;
+  const Mesh tube = tube_shape(options.size / 2, false);
+  Mesh ball = sphere_shape(options.size / 2);
+  ball.positions *= radius;
+  const Mesh both = side_by_side(tube, ball, 0);
+  Sequence sequence{both.triangles, {}};
+  for (int f = 0; f < options.frames; ++f) {
+    const double s = options.frames > 1 ? static_cast<double>(f) / (options.frames - 1) : 0;
+    detector::Positions x = both.positions;
+    x.bottomRows(ball.positions.rows()).col(2).array() += ball_height(s);
+    sequence.frames.push_back(std::move(x));
+  }
+  return sequence;
+}
+
+Sequence inverted_sleeve(const SceneOptions& options) {
+  return deform(tube_shape(options.size, false), Extent{}, turn_inside_out, options.frames);
+}
+
+Sequence crossing_fans(const SceneOptions& options) {
+  return deform(tube_shape(options.size, false), Extent{}, bite_tail, options.frames);
+}
+
+Sequence winding_spiral(const SceneOptions& options) {
+  return deform(ribbon_shape(options.size), Extent{}, wind, options.frames);
+}
+
+constexpr std::array<SceneInfo, 14> infos = {{
     {"breathing-sphere", "a sphere that swells and shrinks unevenly; positive from its centre",
      1280, 11, true, true},
     {"two-spheres", "two separate spheres, one swells while the other shrinks; no contact", 1280,
@@ -124,11 +153,20 @@ constexpr std::array<SceneInfo, 10> infos = {{
     {"crumpling-sphere", "a sphere is folded over itself at many places", 1280, 11, true, true},
     {"arm-in-box", "an arm of an open box enters through its hole and leaves again; no contact",
      808, 11, false, false},
+    {"ball-in-tube", "a ball goes through a tube open at both ends, and back; no contact", 1280, 41,
+     false, false},
+    {"inverted-sleeve", "a sleeve is turned inside out, over itself, and back; no contact", 1600,
+     81, false, false},
+    {"crossing-fans", "a tube's narrow end goes into its wide end and out again; no contact", 1600,
+     41, false, false},
+    {"winding-spiral", "a ribbon winds up to a narrow spiral and unwinds again; no contact", 784,
+     81, false, false},
 }};
 // In the order of `infos`.
-constexpr std::array<Frames, 10> makers = {
-    breathing_sphere, two_spheres,    dented_sphere, bend_scene,       twist_scene,
-    open_tube,        pinching_torus, folding_sheet, crumpling_sphere, arm_in_box};
+constexpr std::array<Frames, 14> makers = {
+    breathing_sphere, two_spheres,     dented_sphere, bend_scene,       twist_scene,
+    open_tube,        pinching_torus,  folding_sheet, crumpling_sphere, arm_in_box,
+    ball_in_tube,     inverted_sleeve, crossing_fans, winding_spiral};
 
 Problem wrong_option(std::string_view scene, std::string_view detail) {
   return problem_in(FileProblem::wrong_scene_option, {},

@@ -46,6 +46,23 @@ Point on_sphere(const Weights& weights) {
   return {x[0] / length, x[1] / length, x[2] / length};
 }
 
+// The rectangle between two corners in the plane z = 0: columns x rows squares of two triangles.
+Mesh grid(int columns, int rows, const Point& lo, const Point& hi) {
+  MeshMaker maker;
+  for (int i = 0; i <= columns; ++i) {
+    for (int j = 0; j <= rows; ++j) {
+      maker.vertex({(hi[0] - lo[0]) * i / columns + lo[0], (hi[1] - lo[1]) * j / rows + lo[1], 0});
+    }
+  }
+  const auto at = [rows](int i, int j) { return i * (rows + 1) + j; };
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      maker.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+  return maker.mesh();
+}
+
 }  // namespace
 
 Mesh sphere_shape(int size) {
@@ -124,15 +141,12 @@ Mesh torus_shape(int size) {
 
 Mesh sheet_shape(int size) {
   const int k = nearest_resolution(size, 1, [](int n) { return 2 * n * n; });
-  MeshMaker maker;
-  for (int i = 0; i <= k; ++i) {
-    for (int j = 0; j <= k; ++j) maker.vertex({2.0 * i / k - 1, 2.0 * j / k - 1, 0});
-  }
-  const auto at = [k](int i, int j) { return i * (k + 1) + j; };
-  for (int i = 0; i < k; ++i) {
-    for (int j = 0; j < k; ++j) maker.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-  }
-  return maker.mesh();
+  return grid(k, k, {-1, -1, 0}, {1, 1, 0});
+}
+
+Mesh ribbon_shape(int size) {
+  const int k = nearest_resolution(size, 1, [](int n) { return 16 * n * n; });
+  return grid(8 * k, k, {0, 0, 0}, {1, 0.5, 0});
 }
 
 Mesh side_by_side(const Mesh& a, const Mesh& b, double offset) {

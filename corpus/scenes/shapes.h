@@ -19,6 +19,9 @@ Mesh torus_shape(int size);
 // The square [-1,1]^2 in the plane z = 0, normal +z: 2 k^2 triangles.
 Mesh sheet_shape(int size);
 
+// The rectangle [0,1] x [0,0.5] in the plane z = 0, normal +z, 8 k by k squares: 16 k^2 triangles.
+Mesh ribbon_shape(int size);
+
 // Both meshes as one; b is moved by `offset` along x. Triangles of a come first.
 Mesh side_by_side(const Mesh& a, const Mesh& b, double offset);
 

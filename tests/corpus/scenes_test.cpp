@@ -164,6 +164,37 @@ TEST(Scenes, Problems) {
   EXPECT_TRUE(wrong({0, 3, mesh}));
 }
 
+TEST(Scenes, PassagesEndWhereTheyBegan) {
+  for (const char* name :
+       {"arm-in-box", "ball-in-tube", "inverted-sleeve", "crossing-fans", "winding-spiral"}) {
+    SCOPED_TRACE(name);
+    const auto scene = make_scene(name, {400, 9, {}});
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene.value().frames.front(), scene.value().frames.back());
+    EXPECT_TRUE(scene.value().frames.front() != scene.value().frames[4]);
+  }
+}
+
+TEST(Scenes, SleeveIsInsideOutInTheMiddle) {
+  const auto scene = make_scene("inverted-sleeve", {400, 3, {}});
+  ASSERT_TRUE(scene);
+  // Seen from its axis the tube faces away; inside out it faces the axis.
+  const auto facing = [&](const detector::Positions& x) {
+    int outward = 0, inward = 0;
+    for (Eigen::Index i = 0; i < scene.value().triangles.rows(); ++i) {
+      const auto row = scene.value().triangles.row(i);
+      const Point p = detector::point_of(x, row(0));
+      const Point n =
+          cross(minus(detector::point_of(x, row(1)), p), minus(detector::point_of(x, row(2)), p));
+      (p[0] * n[0] + p[1] * n[1] > 0 ? outward : inward) += 1;
+    }
+    return std::pair(outward, inward);
+  };
+  const int all = static_cast<int>(scene.value().triangles.rows());
+  EXPECT_EQ(facing(scene.value().frames[0]), std::pair(all, 0));
+  EXPECT_EQ(facing(scene.value().frames[1]), std::pair(0, all));
+}
+
 TEST(Scenes, ArmStaysClearOfTheRim) {
   const BoxWithArm box(2000);
   const detector::Positions deep = box.with_tip(BoxWithArm::deepest_tip);

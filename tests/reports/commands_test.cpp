@@ -42,6 +42,11 @@ TEST_F(Commands, L5_BreathingSphereIsFreeAllPositiveWithoutBoxTests) {
   }
 }
 
+// Scenes whose layers a coarse step takes through each other.
+bool rolls_up(const std::string& scene) {
+  return scene == "inverted-sleeve" || scene == "winding-spiral";
+}
+
 TEST_F(Commands, EverySceneAgreesAndSaysWhetherItCollides) {
   const std::vector<std::pair<std::string, bool>> expected = {{"breathing-sphere", false},
                                                               {"two-spheres", false},
@@ -52,10 +57,15 @@ TEST_F(Commands, EverySceneAgreesAndSaysWhetherItCollides) {
                                                               {"pinching-torus", true},
                                                               {"folding-sheet", true},
                                                               {"crumpling-sphere", true},
-                                                              {"arm-in-box", false}};
+                                                              {"arm-in-box", false},
+                                                              {"ball-in-tube", false},
+                                                              {"inverted-sleeve", false},
+                                                              {"crossing-fans", false},
+                                                              {"winding-spiral", false}};
   for (const auto& [name, collides] : expected) {
     SCOPED_TRACE(name);
-    const auto outcome = run_assay("check " + make_scene(name, 500, 8) + " --fail-on-collision");
+    const auto outcome = run_assay("check " + make_scene(name, 500, rolls_up(name) ? 41 : 8) +
+                                   " --fail-on-collision");
     EXPECT_EQ(outcome.exit_code, collides ? 5 : 0) << outcome.out << outcome.err;
     EXPECT_NE(outcome.out.find("detector and oracle agree"), std::string::npos);
   }
