@@ -15,18 +15,17 @@ namespace {
 class ExactContact {
  public:
   explicit ExactContact(const FourPoints& query) : query_(query) {
-    std::array<double, 24> values;
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        values[6 * i + k] = query.points[i].t0[k];
-        values[6 * i + 3 + k] = query.points[i].t1[k];
+    // Each axis times a power of two of its own: as contact_pieces.h does, an affine map.
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array<double, 8> values;
+      for (std::size_t i = 0; i < 4; ++i) {
+        values[2 * i] = query.points[i].t0[k];
+        values[2 * i + 1] = query.points[i].t1[k];
       }
-    }
-    std::array<Integer, 24> scaled;
-    to_common_integers(values, scaled);
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        x_[i][k] = Polynomial::linear(scaled[6 * i + k], scaled[6 * i + 3 + k]);
+      std::array<Integer, 8> scaled;
+      to_common_integers(values, scaled);
+      for (std::size_t i = 0; i < 4; ++i) {
+        x_[i][k] = Polynomial::linear(scaled[2 * i], scaled[2 * i + 1]);
       }
     }
     for (std::size_t j = 0; j < 3; ++j) {

@@ -20,12 +20,12 @@ FixedResult fixed_contact(const FourPoints& query, Want want) {
   const QueryIntegers integers(query);
   return with_width(integers.bits(), FixedResult{}, [&](auto width) -> FixedResult {
     using Search = FixedSearch<decltype(width)::value>;
-    Search search(integers, query.first_group);
+    Search search(integers, query.first_group, want);
     switch (search.run()) {
       case Search::Found::nothing:
         return {FixedVerdict::no_contact, {}};
       case Search::Found::contact:
-        return {FixedVerdict::contact, want == Want::first_time ? search.time() : TimeEnclosure{}};
+        return {FixedVerdict::contact, search.time()};
       case Search::Found::open:
         break;
     }

@@ -1,16 +1,15 @@
-// The first contact in exact Bernstein coefficients over pieces of [0,1], in time order.
+// The first contact in exact Bernstein coefficients over pieces of [0,1], in time order. There is
+// no uncertain sign as in contact_pieces.h. Ends of pieces are looked at by themselves: the
+// coefficients there are the values. Inside, the cubic's root must be the only one, and each
+// dependency may have one root: SignAtRoot puts them in order. What is open in the end: roots close
+// together, double roots, and collinear points.
 //
-// Of a polynomial over a piece, zeros among its coefficients left out:
-//   - coefficients of one sign, not all zero: that sign throughout the open piece;
-//   - the number of sign changes is the number of roots in the open piece, or an even number more
-//     (Descartes' rule, by s/(1-s)): none without a change, exactly one, a simple one, with one.
-// So there is no uncertain sign as in contact_pieces.h; what is open are roots of the dependencies
-// among those of the cubic, and roots that are close together. Ends of pieces are looked at by
-// themselves: the coefficients there are the values.
+// Coplanar throughout, no contact where the piece begins: contacts are closed in time, so the first
+// one inside is where signs along an axis change, if not all dependencies of that axis vanish
+// throughout: at a root of one of these.
 #pragma once
 
-#include <optional>
-
+#include "detector/contact/fixed_piece.h"
 #include "detector/contact/fixed_root.h"
 
 namespace assay::detector {
@@ -21,13 +20,16 @@ class FixedSearch {
   enum class Found : std::uint8_t { nothing, contact, open };
 
   // query.bits() <= most_bits<W>.
-  FixedSearch(const QueryIntegers& query, int first_group)
-      : bits_(query.bits()), products_(query, first_group), b_(products_.coplanarity()) {}
+  FixedSearch(const QueryIntegers& query, int first_group, Want want)
+      : bits_(query.bits()),
+        want_(want),
+        products_(query, first_group),
+        b_(products_.coplanarity()) {}
 
   Found run() {
     Piece whole;
     whole.f = {b_[0] + b_[0] + b_[0], b_[1], b_[2], b_[3] + b_[3] + b_[3]};
-    coplanar_ = sure_signs(whole.f) == Signs{};
+    coplanar_ = piece_signs(whole.f).first == 0;
     whole.lo = 0;
     whole.hi = 1;
     if (coplanar_ || b_[0].is_zero()) {
@@ -37,64 +39,22 @@ class FixedSearch {
     return visit(whole, 0);
   }
 
-  // Of the contact that was found.
-  TimeEnclosure time() const {
-    if (found_.lo == found_.hi) return {found_.lo, found_.hi};
-    return FixedRoot<W>(b_, bits_).bracket(found_.sign_lo, found_.lo, found_.hi, found_.guess());
-  }
+  // Of the contact that was found; meaningful where a time is wanted.
+  const TimeEnclosure& time() const { return time_; }
 
  private:
-  using Minor = typename FixedProducts<W>::Minor;
-  using Triple = typename FixedProducts<W>::Triple;
-  using Dependency = std::array<FixedQuadratic<Minor>, 4>;
-
-  struct Piece {
-    FixedCubic<Triple> f;
-    std::array<std::optional<Dependency>, 3> dependencies;  // made when asked for
-    double lo, hi;                                          // dyadic: exact
-  };
-
-  // Where there is a contact: at lo = hi, or at the one root of the cubic in the open piece.
-  struct Place {
-    double lo = 0, hi = 0;
-    int sign_lo = 0;
-    Cubic f = {};
-    double guess() const { return lo + guess_root(f) * (hi - lo); }
-  };
-
-  struct Signs {
-    bool positive = false, negative = false;
-    void add(int sign) {
-      positive |= sign > 0;
-      negative |= sign < 0;
-    }
-    bool both() const { return positive && negative; }
-    bool any() const { return positive || negative; }
-    friend bool operator==(const Signs&, const Signs&) = default;
-  };
-
-  template <class T, std::size_t n>
-  static Signs sure_signs(const std::array<T, n>& coefficients) {
-    Signs signs;
-    for (const auto& c : coefficients) signs.add(c.sign());
-    return signs;
-  }
-
-  const Dependency& dependency(Piece& piece, std::size_t axis) const {
-    auto& l = piece.dependencies[axis];
-    if (!l) l = products_.dependency(axis);  // only the whole can lack one
-    return *l;
-  }
+  using Piece = FixedPiece<W>;
+  using Triple = typename Piece::Triple;
 
   // Whether there is a contact at an end of the piece where the points are coplanar.
   template <class SignThere>
   Found look_at(Piece& piece, double time, SignThere sign_there) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      Signs signs;
-      for (const auto& l : dependency(piece, axis)) signs.add(sign_there(l));
+      SignSet signs;
+      for (const auto& l : piece.dependency(axis, products_)) signs.add(sign_there(l));
       if (signs.both()) return Found::nothing;
       if (!signs.any()) continue;
-      found_ = {time, time};
+      time_ = {time, time};
       return Found::contact;
     }
     return Found::open;  // collinear
@@ -102,65 +62,138 @@ class FixedSearch {
 
   // The piece without its beginning.
   Found visit(Piece& piece, int depth) {
-    int changes = 0, first = 0, last = 0;
-    for (const auto& c : piece.f) {
-      const int sign = c.sign();
-      if (sign == 0) continue;
-      if (first == 0) first = sign;
-      changes += last != 0 && sign != last;
-      last = sign;
-    }
-    if (coplanar_ || changes > 0) {
-      bool apart = false;
-      for (std::size_t axis = 0; axis < 3 && !apart; ++axis) {
-        Signs inside;
-        bool all_known = true;
-        for (const auto& l : dependency(piece, axis)) {
-          const Signs signs = sure_signs(l);
-          if (signs.both()) {
-            all_known = false;
-          } else {
-            inside.add(signs.positive - signs.negative);
-          }
+    const PieceSigns f = piece_signs(piece.f);
+    if (coplanar_ || f.changes > 0) {
+      const Found inside = coplanar_ ? look_inside_coplanar(piece) : look_inside(piece, f);
+      if (inside == Found::open && depth < max_fixed_depth) {
+        for (std::size_t k = 0; k < 3; ++k) piece.dependency(k, products_);
+        for (Piece& half : piece.halves()) {
+          const Found found = visit(half, depth + 1);
+          if (found != Found::nothing) return found;
         }
-        apart = inside.both();
-        if (apart || !all_known || !inside.any()) continue;
-        // Contact at every time of the piece would have been found at its beginning.
-        if (coplanar_) return Found::open;
-        if (changes > 1) continue;
-        found_ = {piece.lo, piece.hi, first, {}};
-        for (std::size_t i = 0; i < 4; ++i) found_.f[i] = piece.f[i].approximate(3 * bits_);
-        return Found::contact;
+        return Found::nothing;
       }
-      if (!apart) return depth < max_fixed_depth ? visit_halves(piece, depth) : Found::open;
+      if (inside != Found::nothing) return inside;
     }
     if (!coplanar_ && !piece.f.back().is_zero()) return Found::nothing;
     return look_at(piece, piece.hi, [](const auto& l) { return l.back().sign(); });
   }
 
-  Found visit_halves(Piece& piece, int depth) {
-    Piece left, right;
-    halve_undivided(piece.f, left.f, right.f);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Dependency& l = dependency(piece, k);
-      left.dependencies[k].emplace();
-      right.dependencies[k].emplace();
-      for (std::size_t i = 0; i < 4; ++i) {
-        halve_undivided(l[i], (*left.dependencies[k])[i], (*right.dependencies[k])[i]);
+  // In the open piece.
+  Found look_inside(Piece& piece, PieceSigns f) {
+    if (apart_throughout(piece)) return Found::nothing;
+    if (f.changes > 1) return Found::open;
+    const Found found = all_known(piece) ? Found::contact : look_at_root(piece, piece.f, f.first);
+    if (found == Found::contact && want_ == Want::first_time) {
+      time_ = bracket(piece, b_, piece.f, f.first);
+    }
+    return found;
+  }
+
+  Found look_inside_coplanar(Piece& piece) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& dependency = piece.dependency(axis, products_);
+      bool vanishes = true;
+      for (const auto& l : dependency) vanishes &= piece_signs(l).first == 0;
+      if (!vanishes) {
+        return apart_throughout(piece) ? Found::nothing : look_at_changes(piece, axis);
       }
     }
-    left.lo = piece.lo;
-    right.hi = piece.hi;
-    left.hi = right.lo = (piece.lo + piece.hi) / 2;
-    const Found found = visit(left, depth + 1);
-    return found == Found::nothing ? visit(right, depth + 1) : found;
+    return Found::open;  // collinear
+  }
+
+  Found look_at_changes(Piece& piece, std::size_t axis) {
+    std::optional<TimeEnclosure> first;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& l = piece.dependency(axis, products_)[i];
+      const PieceSigns signs = piece_signs(l);
+      if (signs.known()) continue;
+      if (signs.changes > 1) return Found::open;
+      const auto cubic = raised<W>(l);
+      const Found found = look_at_root(piece, cubic, signs.first);
+      if (found == Found::open) return Found::open;
+      if (found == Found::nothing) continue;
+      if (want_ == Want::yes_no) return Found::contact;
+      const auto over_step = products_.dependency(axis)[i];
+      auto whole = raised<W>(over_step);
+      whole[0] = Triple(over_step[0]);
+      whole[3] = Triple(over_step[2]);
+      const TimeEnclosure time = bracket(piece, whole, cubic, signs.first);
+      if (!first || !(*first <= time)) first = time;
+    }
+    if (!first) return Found::nothing;
+    time_ = *first;
+    return Found::contact;
+  }
+
+  // Whether along some axis there are both signs at every time in the open piece.
+  bool apart_throughout(Piece& piece) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SignSet inside;
+      for (const auto& l : piece.dependency(axis, products_)) {
+        const PieceSigns signs = piece_signs(l);
+        if (signs.known()) inside.add(signs.first);
+      }
+      if (inside.both()) return true;
+    }
+    return false;
+  }
+
+  // Whether along some axis every sign is known in the open piece, and not all are 0.
+  bool all_known(Piece& piece) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SignSet inside;
+      bool known = true;
+      for (const auto& l : piece.dependency(axis, products_)) {
+        const PieceSigns signs = piece_signs(l);
+        known &= signs.known();
+        inside.add(signs.first);
+      }
+      if (known && inside.any()) return true;
+    }
+    return false;
+  }
+
+  // At the one root in the open piece of a cubic that has the sign `before` before it.
+  Found look_at_root(Piece& piece, const FixedCubic<Triple>& cubic, int before) {
+    std::optional<SignAtRoot<W>> sign_at_root;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SignSet there;
+      bool known = true;
+      const auto& dependency = piece.dependency(axis, products_);
+      for (const auto& l : dependency) {
+        const PieceSigns signs = piece_signs(l);
+        if (signs.known()) {
+          there.add(signs.first);
+        } else if (signs.changes == 1) {
+          if (!sign_at_root) sign_at_root.emplace(cubic, before, bits_);
+          there.add(sign_at_root->of(l, signs.first));
+        } else {
+          known = false;
+        }
+      }
+      if (there.both()) return Found::nothing;
+      if (known && there.any()) return Found::contact;
+    }
+    return Found::open;
+  }
+
+  // Of the one root in the open piece of a cubic: `whole` as coplanarity(), over the step; `cubic`
+  // over the piece.
+  TimeEnclosure bracket(const Piece& piece, const FixedCubic<Triple>& whole,
+                        const FixedCubic<Triple>& cubic, int before) const {
+    Cubic f;
+    for (std::size_t i = 0; i < 4; ++i) f[i] = cubic[i].approximate(3 * bits_);
+    const double guess = piece.lo + guess_root(f) * (piece.hi - piece.lo);
+    return FixedRoot<W>(whole, bits_).bracket(before, piece.lo, piece.hi, guess);
   }
 
   int bits_;
+  Want want_;
   FixedProducts<W> products_;
   FixedCubic<Triple> b_;
   bool coplanar_ = false;
-  Place found_;
+  TimeEnclosure time_;
 };
 
 }  // namespace assay::detector

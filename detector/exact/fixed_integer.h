@@ -11,6 +11,7 @@
 namespace assay::detector {
 
 __extension__ using DoubleLimb = unsigned __int128;
+__extension__ using SignedDoubleLimb = __int128;
 
 template <std::size_t limbs>
 class FixedInteger {
@@ -107,6 +108,13 @@ class FixedInteger {
 template <std::size_t m, std::size_t n>
 FixedInteger<m + n> operator*(const FixedInteger<m>& a, const FixedInteger<n>& b) {
   FixedInteger<m + n> product;
+  if constexpr (m == 1 && n == 1) {
+    const auto whole = static_cast<SignedDoubleLimb>(static_cast<std::int64_t>(a.limb(0))) *
+                       static_cast<std::int64_t>(b.limb(0));
+    product.limb(0) = static_cast<std::uint64_t>(whole);
+    product.limb(1) = static_cast<std::uint64_t>(whole >> 64);
+    return product;
+  }
   for (std::size_t i = 0; i < m; ++i) {
     DoubleLimb carry = 0;
     for (std::size_t j = 0; j < n; ++j) {

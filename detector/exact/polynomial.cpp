@@ -1,6 +1,7 @@
 #include "detector/exact/polynomial.h"
 
 #include <cassert>
+#include <limits>
 
 namespace assay::detector {
 
@@ -99,15 +100,9 @@ int Polynomial::sign_at_one() const {
   return sum.sign();
 }
 
-Polynomial Polynomial::primitive_part() const {
-  Integer content = 0;
-  for (const auto& c : coefficients_) {
-    content = gcd(content, c);
-    if (content == 1) return *this;
-  }
-  Polynomial p = *this;
-  for (auto& c : p.coefficients_) c /= content;
-  return p;
+void Polynomial::divide_exactly(const Integer& divisor) {
+  if (divisor == 1) return;
+  for (auto& c : coefficients_) c /= divisor;
 }
 
 Polynomial Polynomial::remainder(const Polynomial& divisor) const {
@@ -115,7 +110,8 @@ Polynomial Polynomial::remainder(const Polynomial& divisor) const {
   Polynomial rest = *this;
   const Integer scale = abs(divisor.leading());
   const bool negative = divisor.leading().sign() < 0;
-  while (rest.degree() >= divisor.degree()) {
+  int steps = degree() - divisor.degree() + 1;
+  for (; rest.degree() >= divisor.degree(); --steps) {
     Integer factor = rest.leading();
     if (negative) factor.backend().negate();
     const auto offset = static_cast<std::size_t>(rest.degree() - divisor.degree());
@@ -125,7 +121,21 @@ Polynomial Polynomial::remainder(const Polynomial& divisor) const {
     }
     rest.trim();
   }
+  for (; steps > 0; --steps) {
+    for (auto& c : rest.coefficients_) c *= scale;
+  }
   return rest;
+}
+
+void Polynomial::take_out_powers_of_two() {
+  if (is_zero()) return;
+  std::size_t common = std::numeric_limits<std::size_t>::max();
+  for (const auto& c : coefficients_) {
+    if (!c.is_zero()) common = std::min<std::size_t>(common, lsb(abs(c)));
+  }
+  if (common == 0) return;
+  const Integer divisor = Integer(1) << common;
+  divide_exactly(divisor);
 }
 
 Polynomial Polynomial::quotient(const Polynomial& divisor) const {
@@ -144,7 +154,8 @@ Polynomial Polynomial::quotient(const Polynomial& divisor) const {
     }
     rest.trim();
   }
-  return result.primitive_part();
+  result.take_out_powers_of_two();
+  return result;
 }
 
 }  // namespace assay::detector

@@ -42,9 +42,10 @@ class Polynomial {
   int sign_at_zero() const;
   int sign_at_one() const;
 
-  // Divided by the positive greatest common divisor of the coefficients.
-  Polynomial primitive_part() const;
-  // A positive multiple of the remainder of this by `divisor` (not zero).
+  // By an integer that divides every coefficient.
+  void divide_exactly(const Integer& divisor);
+  // The pseudo-remainder of this by `divisor` (not zero): that of this times |leading
+  // coefficient|^(difference of degrees + 1). This itself where its degree is the lower one.
   Polynomial remainder(const Polynomial& divisor) const;
   // This divided by a polynomial that divides it up to a constant; up to a non-zero constant.
   Polynomial quotient(const Polynomial& divisor) const;
@@ -52,6 +53,7 @@ class Polynomial {
  private:
   static constexpr std::size_t inline_coefficients = 7;
   void trim();
+  void take_out_powers_of_two();
   // Ascending powers, the last one not zero.
   boost::container::small_vector<Integer, inline_coefficients> coefficients_;
 };

@@ -4,17 +4,28 @@
 
 namespace assay::detector {
 
+// Subresultants (Collins; Cohen, A Course in Computational Algebraic Number Theory, Algorithm
+// 3.3.7): each pseudo-remainder is divided by a factor that is known to divide it, so that the
+// coefficients grow by a constant length a step, as determinants of coefficients, without any
+// greatest common divisor. Here the factors are taken by their sizes: signs stay those of the
+// remainders themselves.
 SignedRemainders::SignedRemainders(const Polynomial& f, const Polynomial& second) {
   assert(!f.is_zero());
   sequence_.push_back(f);
-  Polynomial next = second;
-  while (!next.is_zero()) {
-    sequence_.push_back(next);
-    const auto n = sequence_.size();
-    // Coefficients of the remainders double in length at each step: take out common factors
-    // unless the sequence is about to end anyway.
-    next = -sequence_[n - 2].remainder(sequence_[n - 1]);
-    if (next.degree() > 0) next = next.primitive_part();
+  if (second.is_zero()) return;
+  sequence_.push_back(second);
+  if (f.degree() < second.degree()) sequence_.push_back(-f);  // its own remainder
+  Integer g = 1, h = 1;
+  while (true) {
+    const Polynomial &a = sequence_[sequence_.size() - 2], &b = sequence_.back();
+    const auto step = static_cast<unsigned>(a.degree() - b.degree());
+    Polynomial next = -a.remainder(b);
+    if (next.is_zero()) return;
+    next.divide_exactly(g * pow(h, step));
+    g = abs(b.leading());
+    // g^step h^(1-step), an integer.
+    if (step > 0) h = pow(g, step) / pow(h, step - 1);
+    sequence_.push_back(std::move(next));
   }
 }
 
