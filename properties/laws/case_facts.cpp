@@ -121,6 +121,8 @@ const std::vector<std::uint8_t>& CaseFacts::touched(std::size_t s) {
   auto& touched = facts_[s].touched;
   if (touched) return *touched;
   touched.emplace(surface_.mesh.triangles.size(), 0);
+  // A step of view-auto without views sweeps no ghosts: what has any is unknown to the next one.
+  const bool is_new = !known_from_[s] || !has_views(*known_from_[s]);
   const Positions apexes_t0 = apex_rows(results_[s], false);
   const Positions apexes_t1 = apex_rows(results_[s], true);
   for (std::size_t c = 0; c < surface_.mesh.components.size(); ++c) {
@@ -129,7 +131,7 @@ const std::vector<std::uint8_t>& CaseFacts::touched(std::size_t s) {
     if (ghosts.empty()) continue;
     const auto part =
         oracle::touched_by_ghosts(x_t0(s), x_t1(s), rows_of(surface_.all(), own), apexes_t0,
-                                  apexes_t1, rows_of(surface_.all(), ghosts), {1, !known_from_[s]});
+                                  apexes_t1, rows_of(surface_.all(), ghosts), {1, is_new});
     for (std::size_t i = 0; i < part.size(); ++i) (*touched)[at(own[i])] = part[i];
   }
   return *touched;
