@@ -146,8 +146,10 @@ class Step {
     if (work_.surface.is_closed()) return true;
     Stopwatch watch(result_.times.ghosts);
     work_.tree.refit(mesh_, work_.x_t0, work_.x_t1);
-    const GhostSweep sweep{work_.surface, work_.tree,       work_.x_t0,
-                           work_.x_t1,    work_.elementary, !is_all_known(work_)};
+    GhostSweep sweep{work_.surface, work_.tree,       work_.x_t0,
+                     work_.x_t1,    work_.elementary, !is_all_known(work_)};
+    work_.near_ghosts.assign(mesh_.triangles.size(), 0);
+    sweep.near = &work_.near_ghosts;
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
       if (work_.free[c]) continue;
       if (!work_.boundary.sweep(sweep, work_.ghosts(c), work_.stop, work_.touched,
@@ -155,6 +157,9 @@ class Step {
         return false;
       }
     }
+    const auto& near = work_.near_ghosts;
+    work_.counts.ghosts.near_triangles =
+        static_cast<std::uint64_t>(std::count(near.begin(), near.end(), 1));
     return true;
   }
 

@@ -24,6 +24,7 @@ struct StepWork {
   std::vector<std::uint8_t> free = {};         // by component: by L5, over the whole step
   std::vector<std::uint8_t> clean = {};        // by triangle of the mesh, at t=0
   std::vector<std::uint8_t> touched = {};      // by triangle of the mesh: by a ghost, in the step
+  std::vector<std::uint8_t> near_ghosts = {};  // the same by moving boxes; for the counts
   StepCounts counts = {};
 
   // Whether nothing but K and its closure is tested. Else every pair is.

@@ -9,6 +9,8 @@ namespace assay::detector {
 struct GhostCounts {
   std::uint64_t pairs = 0;             // ghost and triangle whose moving boxes are not apart
   std::uint64_t elementary_tests = 0;  // feature pairs of these tested beyond axis order
+  // Triangles of those pairs, each once, in the step itself: what GhostTest::boxes calls violated.
+  std::uint64_t near_triangles = 0;
 };
 
 class FacePairTest {

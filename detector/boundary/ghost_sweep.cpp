@@ -45,6 +45,7 @@ class HoleSweep {
   void test(std::int32_t ghost, std::int32_t t) {
     constexpr std::uint64_t pairs_between_stops = 256;
     if (counts_.pairs++ % pairs_between_stops == 0 && stop_ && stop_()) stopped_ = true;
+    if (sweep_.near) (*sweep_.near)[at(t)] = 1;
     if (stopped_ || touched_[at(t)]) return;
     touched_[at(t)] = sweep_.test == GhostTest::boxes ||
                       faces_.meet(all_.triangles[at(ghost)], all_.triangles[at(t)], counts_);

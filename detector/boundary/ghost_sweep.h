@@ -20,6 +20,8 @@ struct GhostSweep {
   const ElementaryTest& elementary;
   bool piercing_at_start = false;  // also edges that pierce at t=0: where no state is known
   GhostTest test = GhostTest::exact;
+  // Where given: set for each triangle whose moving box is not apart from that of a ghost.
+  std::vector<std::uint8_t>* near = nullptr;
 };
 
 // Sets touched[t] of each mesh triangle t that a ghost of the hole (ghosts of one component)

@@ -71,6 +71,27 @@ TEST_F(Commands, EverySceneAgreesAndSaysWhetherItCollides) {
   }
 }
 
+TEST_F(Commands, ReportHoldsWhatGhostsAndReleaseCost) {
+  const auto frames = make_scene("arm-in-box", 800, 31);
+  const auto outcome = run_assay("check " + frames + " --no-oracle --json " + (scratch / "r.json"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const auto report = json::parse(read_text(scratch / "r.json"));
+  int in_doubt = 0, released = 0, pairs = 0;
+  for (const auto& step : report["steps"]) {
+    const auto &ghosts = step["ghosts"], &release = step["release"];
+    EXPECT_GE(ghosts["near_triangles"], step["violated"]);
+    EXPECT_LE(ghosts["near_triangles"], ghosts["pairs"]);
+    EXPECT_EQ(release["in_doubt"].get<int>() - release["released"].get<int>(), step["dirty"]);
+    in_doubt += release["in_doubt"].get<int>();
+    released += release["released"].get<int>();
+    pairs += release["pairs"].get<int>();
+  }
+  EXPECT_GT(in_doubt, released);
+  EXPECT_GT(released, 0);
+  EXPECT_GT(pairs, 0);
+  EXPECT_EQ(report["steps"].back()["dirty"], 0);
+}
+
 TEST_F(Commands, ReportHoldsTheContactsAndTimes) {
   const auto frames = make_scene("folding-sheet", 200, 6);
   const auto outcome = run_assay("check " + frames + " --json " + (scratch / "r.json"));

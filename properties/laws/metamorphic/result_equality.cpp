@@ -41,6 +41,7 @@ bool same_counts(const detector::StepCounts& a, const detector::StepCounts& b) {
                       c.view.exact,
                       c.ghosts.pairs,
                       c.ghosts.elementary_tests,
+                      c.ghosts.near_triangles,
                       c.release.in_doubt,
                       c.release.released,
                       c.release.pairs,
