@@ -20,12 +20,6 @@ Polynomial deflate(const Polynomial& f, const Dyadic& time) {
   return rest;
 }
 
-Polynomial square_free_part(const Polynomial& f) {
-  if (f.degree() <= 1) return f;
-  const SignedRemainders sequence(f, f.derivative());
-  return sequence.last().degree() > 0 ? f.quotient(sequence.last()) : f;
-}
-
 // Where f changes sign between lo and hi, in plain double arithmetic: a guess that saves exact
 // evaluations and decides nothing.
 double approximate_root(const Polynomial& f, double lo, double hi) {
@@ -64,7 +58,9 @@ struct Interval {
 class Isolation {
  public:
   // f square-free, without roots at the ends of [0,1].
-  explicit Isolation(const Polynomial& f) : f_(f), sequence_(f, f.derivative()) {}
+  explicit Isolation(const Polynomial& f) : Isolation(f, SignedRemainders(f, f.derivative())) {}
+  Isolation(const Polynomial& f, SignedRemainders sequence)
+      : f_(f), sequence_(std::move(sequence)) {}
 
   void run(std::vector<RealRoot>& out) {
     const Interval unit{Dyadic::of(0), Dyadic::of(1), {0, 1}};
@@ -172,8 +168,27 @@ int RealRoot::sign_of(const Polynomial& q) const {
     const Polynomial slope = q.derivative();
     if (q.degree() == 2 && slope.sign_at(lo_) * slope.sign_at(hi_) > 0) return at_lo;
   }
+  if (q.degree() == 2 && at_lo != 0 && q.sign_at(hi_) == -at_lo) return sign_by_order(q, at_lo);
   const SignedRemainders sequence(f_, f_.derivative() * q);
   return sequence.variations_at(lo_) - sequence.variations_at(hi_);
+}
+
+// q changes its sign once between lo and hi, at p. A positive multiple of f is (...) q + r with r
+// of degree 1 at most: f(p) has the sign of r(p), and tells the order of p and the root of f. If r
+// has different signs at lo and hi, q at the root of r tells the order of that and p in the same
+// way.
+int RealRoot::sign_by_order(const Polynomial& q, int q_lo) const {
+  const Polynomial r = f_.remainder(q);
+  const int r_lo = r.sign_at(lo_), r_hi = r.sign_at(hi_);
+  int f_there = r_lo != 0 ? r_lo : r_hi;
+  if (r_lo * r_hi < 0) {
+    // r = a t + b: the sign of a^2 q(-b/a).
+    const Integer &a = r[1], &b = r[0];
+    const int there = Integer(q[2] * b * b - q[1] * a * b + q[0] * a * a).sign();
+    f_there = there == 0 ? 0 : there == q_lo ? r_hi : r_lo;
+  }
+  if (f_there == 0) return 0;
+  return f_there == f_.sign_at(lo_) ? -q_lo : q_lo;
 }
 
 TimeEnclosure enclose_single_root(const Polynomial& f, double lo, double hi, double guess) {
@@ -213,7 +228,13 @@ std::vector<RealRoot> roots_in_unit_interval(const Polynomial& f) {
       roots.emplace_back(inside, Dyadic::of(doubles.lo), Dyadic::of(doubles.hi), doubles);
     }
   } else if (variations > 1) {
-    Isolation(square_free_part(inside)).run(roots);
+    SignedRemainders sequence(inside, inside.derivative());
+    const Polynomial& common = sequence.last();
+    if (common.degree() > 0) {
+      Isolation(inside.quotient(common)).run(roots);
+    } else {
+      Isolation(inside, std::move(sequence)).run(roots);
+    }
   }
   if (root_at_one) roots.emplace_back(one);
   return roots;

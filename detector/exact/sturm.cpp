@@ -21,6 +21,10 @@ SignedRemainders::SignedRemainders(const Polynomial& f, const Polynomial& second
     const auto step = static_cast<unsigned>(a.degree() - b.degree());
     Polynomial next = -a.remainder(b);
     if (next.is_zero()) return;
+    if (next.degree() == 0) {  // the last one: only its sign counts
+      sequence_.push_back(std::move(next));
+      return;
+    }
     next.divide_exactly(g * pow(h, step));
     g = abs(b.leading());
     // g^step h^(1-step), an integer.
