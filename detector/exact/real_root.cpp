@@ -164,9 +164,12 @@ int RealRoot::sign_of(const Polynomial& q) const {
     if (at_lo == 0) return at_hi;
     if (at_hi == 0) return at_lo;
   } else if (at_lo != 0 && q.sign_at(hi_) == at_lo) {
-    // q keeps its sign unless its derivative changes sign in between.
-    const Polynomial slope = q.derivative();
-    if (q.degree() == 2 && slope.sign_at(lo_) * slope.sign_at(hi_) > 0) return at_lo;
+    // q keeps its sign unless it turns around in between, and far enough to have roots.
+    if (q.degree() == 2) {
+      const Polynomial slope = q.derivative();
+      if (slope.sign_at(lo_) * slope.sign_at(hi_) >= 0) return at_lo;
+      if (Integer(q[1] * q[1] - 4 * q[0] * q[2]).sign() < 0) return at_lo;
+    }
   }
   if (q.degree() == 2 && at_lo != 0 && q.sign_at(hi_) == -at_lo) return sign_by_order(q, at_lo);
   const SignedRemainders sequence(f_, f_.derivative() * q);
