@@ -48,6 +48,18 @@ double approximate_root(const Polynomial& f, double lo, double hi) {
   return lo;
 }
 
+// A time in between: of the order of magnitude in between while these differ. Next to 0, where no
+// double is, roots can be at 2^-2000.
+Dyadic between(const Dyadic& lo, const Dyadic& hi) {
+  const auto magnitude = [](const Dyadic& t) {
+    return t.exponent + static_cast<int>(msb(t.mantissa));
+  };
+  const int greatest = magnitude(hi);
+  if (lo.mantissa.is_zero()) return {1, 2 * greatest - 1};
+  const int least = magnitude(lo);
+  return greatest - least > 2 ? Dyadic{1, (least + greatest) / 2} : lo.midpoint_with(hi);
+}
+
 // An interval of times whose ends are doubles as long as a double lies inside.
 struct Interval {
   Dyadic lo, hi;
@@ -79,7 +91,7 @@ class Isolation {
     // count >= 2: split at a time that is no root; a root there is one of the roots to report.
     Interval left = interval, right = interval;
     if (interval.inside_gap()) {
-      left.hi = right.lo = interval.lo.midpoint_with(interval.hi);
+      left.hi = right.lo = between(interval.lo, interval.hi);
     } else {
       const double middle =
           from_ordinal((ordinal(interval.doubles.lo) + ordinal(interval.doubles.hi)) / 2);
@@ -154,45 +166,6 @@ RealRoot::RealRoot(const Dyadic& exact_time)
 
 RealRoot::RealRoot(const Polynomial& f, const Dyadic& lo, const Dyadic& hi, TimeEnclosure doubles)
     : lo_(lo), hi_(hi), f_(f), enclosure_(doubles) {}
-
-int RealRoot::sign_of(const Polynomial& q) const {
-  if (is_exact_ || q.degree() <= 0) return q.sign_at(lo_);
-  const int at_lo = q.sign_at(lo_);
-  if (q.degree() == 1) {
-    const int at_hi = q.sign_at(hi_);
-    if (at_lo == at_hi) return at_lo;
-    if (at_lo == 0) return at_hi;
-    if (at_hi == 0) return at_lo;
-  } else if (at_lo != 0 && q.sign_at(hi_) == at_lo) {
-    // q keeps its sign unless it turns around in between, and far enough to have roots.
-    if (q.degree() == 2) {
-      const Polynomial slope = q.derivative();
-      if (slope.sign_at(lo_) * slope.sign_at(hi_) >= 0) return at_lo;
-      if (Integer(q[1] * q[1] - 4 * q[0] * q[2]).sign() < 0) return at_lo;
-    }
-  }
-  if (q.degree() == 2 && at_lo != 0 && q.sign_at(hi_) == -at_lo) return sign_by_order(q, at_lo);
-  const SignedRemainders sequence(f_, f_.derivative() * q);
-  return sequence.variations_at(lo_) - sequence.variations_at(hi_);
-}
-
-// q changes its sign once between lo and hi, at p. A positive multiple of f is (...) q + r with r
-// of degree 1 at most: f(p) has the sign of r(p), and tells the order of p and the root of f. If r
-// has different signs at lo and hi, q at the root of r tells the order of that and p in the same
-// way.
-int RealRoot::sign_by_order(const Polynomial& q, int q_lo) const {
-  const Polynomial r = f_.remainder(q);
-  const int r_lo = r.sign_at(lo_), r_hi = r.sign_at(hi_);
-  int f_there = r_lo != 0 ? r_lo : r_hi;
-  if (r_lo * r_hi < 0) {
-    // r = a t + b: the sign of a^2 q(-b/a).
-    const Integer &a = r[1], &b = r[0];
-    const int there = Integer(q[2] * b * b - q[1] * a * b + q[0] * a * a).sign();
-    f_there = there == 0 ? 0 : there == q_lo ? r_hi : r_lo;
-  }
-  if (f_there == 0) return 0;
-  return f_there == f_.sign_at(lo_) ? -q_lo : q_lo;
-}
 
 TimeEnclosure enclose_single_root(const Polynomial& f, double lo, double hi, double guess) {
   const int sign_lo = f.sign_at(Dyadic::of(lo));
