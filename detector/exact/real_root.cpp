@@ -98,14 +98,15 @@ class Isolation {
       left.hi = right.lo = Dyadic::of(middle);
       left.doubles.hi = right.doubles.lo = middle;
     }
-    if (f_.sign_at(left.hi) == 0) {
+    const int sign_middle = f_.sign_at(left.hi);
+    if (sign_middle == 0) {
       Isolation rest(deflate(f_, left.hi));
       rest.isolate_in(left, out);
       out.emplace_back(left.hi);
       rest.isolate_in(right, out);
       return;
     }
-    const int variations_middle = sequence_.variations_at(left.hi);
+    const int variations_middle = sequence_.variations_at(left.hi, sign_middle);
     isolate(left, variations_lo, variations_middle, out);
     isolate(right, variations_middle, variations_hi, out);
   }
