@@ -81,13 +81,17 @@ Polynomial Polynomial::derivative() const {
 int Polynomial::sign_at(const Dyadic& time) const {
   if (is_zero()) return 0;
   assert(time.exponent <= 0);
+  if (degree() == 0) return coefficients_.front().sign();
   // Horner on sum c_i m^i 2^(e i), multiplied by 2^(-e degree) to stay in integers.
   const auto shift = static_cast<unsigned>(-time.exponent);
-  Integer value = coefficients_.back();
+  Integer value = coefficients_.back(), term;
   unsigned total = 0;
   for (std::size_t i = coefficients_.size() - 1; i-- > 0;) {
     total += shift;
-    value = value * time.mantissa + (coefficients_[i] << total);
+    value *= time.mantissa;
+    term = coefficients_[i];
+    term <<= total;
+    value += term;
   }
   return value.sign();
 }

@@ -20,12 +20,6 @@ Polynomial deflate(const Polynomial& f, const Dyadic& time) {
   return rest;
 }
 
-Polynomial square_free_part(const Polynomial& f) {
-  if (f.degree() <= 1) return f;
-  const SignedRemainders sequence(f, f.derivative());
-  return sequence.last().degree() > 0 ? f.quotient(sequence.last()) : f;
-}
-
 // Where f changes sign between lo and hi, in plain double arithmetic: a guess that saves exact
 // evaluations and decides nothing.
 double approximate_root(const Polynomial& f, double lo, double hi) {
@@ -54,6 +48,18 @@ double approximate_root(const Polynomial& f, double lo, double hi) {
   return lo;
 }
 
+// A time in between: of the order of magnitude in between while these differ. Next to 0, where no
+// double is, roots can be at 2^-2000.
+Dyadic between(const Dyadic& lo, const Dyadic& hi) {
+  const auto magnitude = [](const Dyadic& t) {
+    return t.exponent + static_cast<int>(msb(t.mantissa));
+  };
+  const int greatest = magnitude(hi);
+  if (lo.mantissa.is_zero()) return {1, 2 * greatest - 1};
+  const int least = magnitude(lo);
+  return greatest - least > 2 ? Dyadic{1, (least + greatest) / 2} : lo.midpoint_with(hi);
+}
+
 // An interval of times whose ends are doubles as long as a double lies inside.
 struct Interval {
   Dyadic lo, hi;
@@ -64,7 +70,9 @@ struct Interval {
 class Isolation {
  public:
   // f square-free, without roots at the ends of [0,1].
-  explicit Isolation(const Polynomial& f) : f_(f), sequence_(f, f.derivative()) {}
+  explicit Isolation(const Polynomial& f) : Isolation(f, SignedRemainders(f, f.derivative())) {}
+  Isolation(const Polynomial& f, SignedRemainders sequence)
+      : f_(f), sequence_(std::move(sequence)) {}
 
   void run(std::vector<RealRoot>& out) {
     const Interval unit{Dyadic::of(0), Dyadic::of(1), {0, 1}};
@@ -83,21 +91,22 @@ class Isolation {
     // count >= 2: split at a time that is no root; a root there is one of the roots to report.
     Interval left = interval, right = interval;
     if (interval.inside_gap()) {
-      left.hi = right.lo = interval.lo.midpoint_with(interval.hi);
+      left.hi = right.lo = between(interval.lo, interval.hi);
     } else {
       const double middle =
           from_ordinal((ordinal(interval.doubles.lo) + ordinal(interval.doubles.hi)) / 2);
       left.hi = right.lo = Dyadic::of(middle);
       left.doubles.hi = right.doubles.lo = middle;
     }
-    if (f_.sign_at(left.hi) == 0) {
+    const int sign_middle = f_.sign_at(left.hi);
+    if (sign_middle == 0) {
       Isolation rest(deflate(f_, left.hi));
       rest.isolate_in(left, out);
       out.emplace_back(left.hi);
       rest.isolate_in(right, out);
       return;
     }
-    const int variations_middle = sequence_.variations_at(left.hi);
+    const int variations_middle = sequence_.variations_at(left.hi, sign_middle);
     isolate(left, variations_lo, variations_middle, out);
     isolate(right, variations_middle, variations_hi, out);
   }
@@ -159,23 +168,6 @@ RealRoot::RealRoot(const Dyadic& exact_time)
 RealRoot::RealRoot(const Polynomial& f, const Dyadic& lo, const Dyadic& hi, TimeEnclosure doubles)
     : lo_(lo), hi_(hi), f_(f), enclosure_(doubles) {}
 
-int RealRoot::sign_of(const Polynomial& q) const {
-  if (is_exact_ || q.degree() <= 0) return q.sign_at(lo_);
-  const int at_lo = q.sign_at(lo_);
-  if (q.degree() == 1) {
-    const int at_hi = q.sign_at(hi_);
-    if (at_lo == at_hi) return at_lo;
-    if (at_lo == 0) return at_hi;
-    if (at_hi == 0) return at_lo;
-  } else if (at_lo != 0 && q.sign_at(hi_) == at_lo) {
-    // q keeps its sign unless its derivative changes sign in between.
-    const Polynomial slope = q.derivative();
-    if (q.degree() == 2 && slope.sign_at(lo_) * slope.sign_at(hi_) > 0) return at_lo;
-  }
-  const SignedRemainders sequence(f_, f_.derivative() * q);
-  return sequence.variations_at(lo_) - sequence.variations_at(hi_);
-}
-
 TimeEnclosure enclose_single_root(const Polynomial& f, double lo, double hi, double guess) {
   const int sign_lo = f.sign_at(Dyadic::of(lo));
   assert(sign_lo != 0 && f.sign_at(Dyadic::of(hi)) == -sign_lo);
@@ -213,7 +205,13 @@ std::vector<RealRoot> roots_in_unit_interval(const Polynomial& f) {
       roots.emplace_back(inside, Dyadic::of(doubles.lo), Dyadic::of(doubles.hi), doubles);
     }
   } else if (variations > 1) {
-    Isolation(square_free_part(inside)).run(roots);
+    SignedRemainders sequence(inside, inside.derivative());
+    const Polynomial& common = sequence.last();
+    if (common.degree() > 0) {
+      Isolation(inside.quotient(common)).run(roots);
+    } else {
+      Isolation(inside, std::move(sequence)).run(roots);
+    }
   }
   if (root_at_one) roots.emplace_back(one);
   return roots;

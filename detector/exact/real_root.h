@@ -6,7 +6,8 @@
 // one gap between adjacent doubles are isolated further by dyadic midpoints. The sign of q at a
 // root of f is the difference of sign variations of the sequence of (f, f'q) at the two ends of
 // its isolating interval (Tarski query; Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry,
-// Theorem 2.61), used when plain signs on the interval do not tell.
+// Theorem 2.61), used when neither plain signs on the interval tell nor, for a quadratic with one
+// root there, the order of the two roots.
 #pragma once
 
 #include <vector>
@@ -27,6 +28,8 @@ class RealRoot {
   const TimeEnclosure& enclosure() const { return enclosure_; }
 
  private:
+  int sign_by_order(const Polynomial& q, int q_lo) const;
+
   bool is_exact_ = false;
   Dyadic lo_, hi_;  // both the root itself when exact
   Polynomial f_;

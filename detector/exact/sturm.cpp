@@ -21,6 +21,10 @@ SignedRemainders::SignedRemainders(const Polynomial& f, const Polynomial& second
     const auto step = static_cast<unsigned>(a.degree() - b.degree());
     Polynomial next = -a.remainder(b);
     if (next.is_zero()) return;
+    if (next.degree() == 0) {  // the last one: only its sign counts
+      sequence_.push_back(std::move(next));
+      return;
+    }
     next.divide_exactly(g * pow(h, step));
     g = abs(b.leading());
     // g^step h^(1-step), an integer.
@@ -30,9 +34,13 @@ SignedRemainders::SignedRemainders(const Polynomial& f, const Polynomial& second
 }
 
 int SignedRemainders::variations_at(const Dyadic& time) const {
-  int variations = 0, previous = 0;
-  for (const auto& p : sequence_) {
-    const int sign = p.sign_at(time);
+  return variations_at(time, sequence_.front().sign_at(time));
+}
+
+int SignedRemainders::variations_at(const Dyadic& time, int sign_of_f) const {
+  int variations = 0, previous = sign_of_f;
+  for (std::size_t i = 1; i < sequence_.size(); ++i) {
+    const int sign = sequence_[i].sign_at(time);
     if (sign == 0) continue;
     if (previous != 0 && sign != previous) ++variations;
     previous = sign;

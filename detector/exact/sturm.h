@@ -15,6 +15,8 @@ class SignedRemainders {
 
   // Sign variations of the sequence at a time that is no root of f.
   int variations_at(const Dyadic& time) const;
+  // The same where the sign of f there is known.
+  int variations_at(const Dyadic& time, int sign_of_f) const;
   // A greatest common divisor of f and second.
   const Polynomial& last() const { return sequence_.back(); }
 

@@ -78,6 +78,21 @@ TEST(RealRoot, FindsTinyRootsWithoutManySteps) {
   expect_exact(roots[0], 0x1p-1074);
 }
 
+// All below the least double: 2^-2000, 2^-1500 and 3 2^-1100.
+TEST(RealRoot, SeparatesRootsOfAllMagnitudesNextToZero) {
+  const auto tiny = [](unsigned exponent, int numerator) {
+    return Polynomial::linear(-numerator, -numerator + (Integer(1) << exponent));
+  };
+  const auto roots = roots_in_unit_interval(tiny(1100, 3) * tiny(2000, 1) * tiny(1500, 1));
+  ASSERT_EQ(roots.size(), 3u);
+  for (const auto& root : roots) EXPECT_EQ(root.enclosure(), (TimeEnclosure{0, 0x1p-1074}));
+  EXPECT_EQ(roots[0].sign_of(tiny(2000, 1)), 0);
+  EXPECT_EQ(roots[1].sign_of(tiny(2000, 1)), 1);
+  EXPECT_EQ(roots[1].sign_of(tiny(1500, 1) * tiny(1700, 1)), 0);
+  EXPECT_EQ(roots[1].sign_of(tiny(1499, 1) * tiny(1700, 1)), -1);
+  EXPECT_EQ(roots[2].sign_of(tiny(1100, 3)), 0);
+}
+
 TEST(RealRoot, SignAtAnIrrationalRoot) {
   // t^2 = 1/2.
   const auto roots = roots_in_unit_interval(polynomial({-1, 0, 2}));

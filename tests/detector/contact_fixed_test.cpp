@@ -1,0 +1,200 @@
+// Integers of fixed width against the general path: verdicts, times in every bit, how much they
+// leave open; the widths at their bounds; signs at roots against Tarski queries.
+#include "detector/contact/contact_fixed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "detector/contact/contact_exact.h"
+#include "detector/contact/fixed_piece.h"
+#include "detector/contact/fixed_root.h"
+#include "detector/exact/real_root.h"
+
+namespace assay::detector {
+namespace {
+
+class Draw {
+ public:
+  int between(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(engine_); }
+
+  template <class Coordinate>
+  FourPoints query(Coordinate coordinate) {
+    FourPoints q;
+    q.first_group = between(1, 2);
+    for (auto& p : q.points) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        p.t0[k] = coordinate();
+        p.t1[k] = coordinate();
+      }
+    }
+    return q;
+  }
+  double full() { return std::ldexp(static_cast<double>(engine_() >> 11), -53) - .5; }
+
+ private:
+  std::mt19937_64 engine_{31};
+};
+
+struct Tally {
+  int queries = 0, contacts = 0, open = 0;
+};
+
+void compare(const FourPoints& query, Tally& tally) {
+  ++tally.queries;
+  const FixedResult fixed = fixed_contact(query, Want::first_time);
+  const FixedResult yes_no = fixed_contact(query, Want::yes_no);
+  const auto general = general_first_contact(query);
+  // Of several times in one plane the first may stay open where one of them is known.
+  if (yes_no.verdict != FixedVerdict::open) {
+    ASSERT_EQ(yes_no.verdict == FixedVerdict::contact, general.has_value());
+  }
+  if (fixed.verdict == FixedVerdict::open) {
+    ++tally.open;
+    return;
+  }
+  ASSERT_EQ(fixed.verdict, yes_no.verdict);
+  ASSERT_EQ(fixed.verdict == FixedVerdict::contact, general.has_value());
+  if (!general) return;
+  ++tally.contacts;
+  ASSERT_EQ(fixed.time, *general);
+}
+
+void expect_agreement(const char* what, int queries, int most_open, const auto& next) {
+  Tally tally;
+  for (int i = 0; i < queries; ++i) {
+    compare(next(), tally);
+    if (testing::Test::HasFatalFailure()) {
+      std::printf("%s, query %d\n", what, i);
+      return;
+    }
+  }
+  std::printf("%s: %d queries, %d contacts, %d open\n", what, tally.queries, tally.contacts,
+              tally.open);
+  EXPECT_GT(tally.contacts, queries / 50) << what;
+  EXPECT_LE(tally.open, most_open) << what;
+}
+
+TEST(ContactFixed, AgreesWithTheGeneralPath) {
+  Draw draw;
+  expect_agreement("small integers", 20000, 200,
+                   [&] { return draw.query([&] { return draw.between(-2, 2); }); });
+  expect_agreement("integers", 10000, 30,
+                   [&] { return draw.query([&] { return draw.between(-9, 9); }); });
+  expect_agreement("full doubles", 10000, 10,
+                   [&] { return draw.query([&] { return draw.full(); }); });
+  expect_agreement("two limbs", 5000, 500, [&] {
+    return draw.query([&] { return std::ldexp(draw.full(), draw.between(-40, 0)); });
+  });
+  expect_agreement("five limbs", 2000, 1000, [&] {
+    return draw.query([&] { return std::ldexp(draw.full(), draw.between(-100, 100)); });
+  });
+}
+
+// Edges that mirror each other in the plane z = 0 meet end to end, or cross where they are: common
+// roots of the cubic and of the dependencies.
+TEST(ContactFixed, SettlesMirrorImages) {
+  Draw draw;
+  const auto mirrored = [](MovingPoint p) {
+    p.t0[2] = -p.t0[2];
+    p.t1[2] = -p.t1[2];
+    return p;
+  };
+  const auto moving = [&] {
+    return MovingPoint{{draw.full(), draw.full(), std::abs(draw.full())},
+                       {draw.full(), draw.full(), -std::abs(draw.full())}};
+  };
+  expect_agreement("mirrored edges", 5000, 500, [&] {
+    const MovingPoint a = moving(), b = moving();
+    return FourPoints{{a, b, mirrored(a), mirrored(b)}, 2};
+  });
+  expect_agreement("edges that share an image", 5000, 500, [&] {
+    const MovingPoint a = moving(), b = moving(), c = moving();
+    return FourPoints{{a, b, mirrored(a), mirrored(c)}, 2};
+  });
+  expect_agreement("in one plane", 5000, 500, [&] {
+    auto query = draw.query([&] { return draw.full(); });
+    for (auto& p : query.points) p.t0[1] = p.t1[1] = 0;
+    return query;
+  });
+}
+
+// The largest coordinates that a width admits, in all signs: nothing wraps.
+TEST(ContactFixed, WidthsHoldTheirBounds) {
+  Draw draw;
+  for (const int bits : {most_bits<1>, most_bits<2>, most_bits<5>}) {
+    const double most = std::ldexp(1 - 0x1p-53, bits), unit = 1;
+    const FourPoints scale = {{MovingPoint{{most, most, most}, {unit, unit, unit}}, {}, {}, {}}, 1};
+    ASSERT_EQ(QueryIntegers(scale).bits(), bits);
+    expect_agreement("extremes", 3000, 600, [&] {
+      return draw.query([&]() -> double {
+        const int sign = draw.between(0, 1) ? 1 : -1;
+        return sign * (draw.between(0, 7) ? most : unit);
+      });
+    });
+  }
+}
+
+// The part of a double below the root of a cubic that is asked for where times are near 0.
+TEST(ContactFixed, FindsTimesNearZero) {
+  for (const double height : {0x1p-90, 0x1p-140, 0x1p-250}) {
+    const FourPoints query = {{MovingPoint{{.25, .25, height}, {.25, .25, -.75}},
+                               {{0, 0, 0}, {0, 0, 0}},
+                               {{1, 0, 0}, {1, 0, 0}},
+                               {{0, 1, 0}, {0, 1, 0}}},
+                              1};
+    const FixedResult fixed = fixed_contact(query, Want::first_time);
+    ASSERT_EQ(fixed.verdict, FixedVerdict::contact) << height;
+    EXPECT_EQ(fixed.time, *general_first_contact(query)) << height;
+    EXPECT_EQ(*fixed_bracketed_time(query, 0, 1, .5), fixed.time) << height;
+  }
+}
+
+TEST(ContactFixed, SignAtRootIsThatOfATarskiQuery) {
+  using Triple = FixedInteger<3>;
+  using Minor = FixedInteger<2>;
+  Draw draw;
+  const Polynomial t = Polynomial::linear(0, 1), s = Polynomial::linear(1, 0);
+  int compared = 0, zeros = 0;
+  for (int i = 0; i < 60000; ++i) {
+    const int reach = i % 2 ? 3 : 1000;
+    // Times a common linear factor in every fourth case: common roots that are no small fractions.
+    std::array<std::int64_t, 4> f;
+    std::array<std::int64_t, 3> l;
+    if (i % 4 == 0) {
+      const int p = draw.between(1, 30), q = -draw.between(1, 30);
+      const int a = draw.between(1, 9), b = draw.between(1, 9), c = draw.between(-9, 9);
+      const int d = draw.between(1, 9), e = draw.between(-9, 9);
+      f = {3 * p * a, 2 * p * b + q * a, p * c + 2 * q * b, 3 * q * c};
+      l = {2 * p * d, p * e + q * d, 2 * q * e};
+    } else {
+      for (auto& c : f) c = draw.between(-reach, reach);
+      for (auto& c : l) c = draw.between(-reach, reach);
+    }
+    const FixedCubic<Triple> fixed_f = {f[0], f[1], f[2], f[3]};
+    const FixedQuadratic<Minor> fixed_l = {l[0], l[1], l[2]};
+    const PieceSigns f_signs = piece_signs(fixed_f), l_signs = piece_signs(fixed_l);
+    if (f_signs.changes != 1 || l_signs.changes != 1) continue;
+    const auto of = [](std::int64_t value) { return Polynomial::constant(Integer(value)); };
+    const Polynomial cubic = of(f[0]) * s * s * s + of(3 * f[1]) * t * s * s +
+                             of(3 * f[2]) * t * t * s + of(f[3]) * t * t * t;
+    const Polynomial quadratic = of(l[0]) * s * s + of(2 * l[1]) * t * s + of(l[2]) * t * t;
+    std::optional<int> expected;
+    for (const auto& root : roots_in_unit_interval(cubic)) {
+      if (root.sign_of(t) > 0 && root.sign_of(s) > 0) expected = root.sign_of(quadratic);
+    }
+    ASSERT_TRUE(expected) << i;
+    const SignAtRoot<1> sign(fixed_f, f_signs.first, 40);
+    ASSERT_EQ(sign.of(fixed_l, l_signs.first), *expected) << i;
+    ++compared;
+    zeros += *expected == 0 ? 1 : 0;
+  }
+  std::printf("%d signs at roots, %d of them 0\n", compared, zeros);
+  EXPECT_GT(compared, 5000);
+  EXPECT_GT(zeros, 500);
+}
+
+}  // namespace
+}  // namespace assay::detector
