@@ -63,7 +63,8 @@ std::optional<int> winding_outside(const TouchedSurface& instant, std::size_t c,
                                    std::span<const std::int32_t> piece) {
   const Topology& all = instant.surface.all();
   const auto& cycle = all.components[c].triangles;
-  const auto& [surface, x, touched, arithmetic] = instant;
+  const PositionsView& x = instant.x;
+  const Arithmetic arithmetic = instant.arithmetic;
   if (arithmetic == Arithmetic::exact) {
     const auto with_area = std::find_if(piece.begin(), piece.end(),
                                         [&](std::int32_t t) { return !has_zero_area(all, x, t); });

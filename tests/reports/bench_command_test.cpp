@@ -259,7 +259,7 @@ TEST_F(Suites, Claims) {
         "break-even share of V+, view-point, last crossing"}) {
     EXPECT_TRUE(has(report, row)) << row;
   }
-  EXPECT_EQ(report.scatter.size(), 5u * 20u * 2u);  // scenes, steps, cullings
+  EXPECT_EQ(report.scatter.size(), 5u * 20u * 3u);  // scenes, steps, cullings
 }
 
 TEST(BenchCommand, RefusesWhatItCannotDo) {
