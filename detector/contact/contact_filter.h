@@ -24,6 +24,7 @@ struct FilterResult {
 // Rung 1. Bernstein coefficients over pieces of [0,1] in time order. 0.1 to 1.5 us.
 FilterResult filter_contact(const FourPoints& query, Want want);
 
-inline constexpr int max_filter_depth = 4;
+// Integers cost about as much as the pieces of two more levels (contact_fixed.h).
+inline constexpr int max_filter_depth = 2;
 
 }  // namespace assay::detector

@@ -1,9 +1,11 @@
 #include "detector/contact/contact_plain.h"
 
-#include "detector/contact/contact_filter.h"
+#include "detector/contact/contact_pieces.h"
 
 namespace assay::detector {
 namespace {
+
+constexpr int max_plain_depth = 4;
 
 template <class Number, std::size_t n>
 Number value_at(std::array<Number, n> b, Number s) {
@@ -17,7 +19,7 @@ template <class Number>
 struct PlainSearch {
   using Piece = ContactPiece<Number>;
 
-  bool may_halve(int depth) const { return depth < max_filter_depth; }
+  bool may_halve(int depth) const { return depth < max_plain_depth; }
 
   // In place of integers: signs at a root as computed. A root without a change of sign is not seen;
   // a piece that is coplanar all along is looked at where it begins and ends.

@@ -28,7 +28,7 @@ struct ContactResult {
   ContactRung rung = ContactRung::axis;  // which rung decided whether there is a contact
 };
 
-// Mean 0.1 to 1 us for candidates of a mesh; a hit's time costs about 5 us more.
+// Mean 0.1 to 1 us for candidates of a mesh; a hit's time costs about 1 us more.
 ContactResult test_contact(const FourPoints& query, Want want);
 
 // The same for a query that separated_along_an_axis did not settle.

@@ -8,9 +8,9 @@
 //   m = n(0,1) + n(1,0)                     2c + 4
 //   dependency 1..3 as 2 n00, m, 2 n11      2c + 4;   0, their sum: 2c + 6
 //   B0 = w0.n00, B3 = w1.n11                3c + 6;   3 B0, 3 B3: 3c + 8
-//   B1 = w0.m + w1.n00                      3c + 5 + 4 = 3c + 9 (six terms), B2 alike
+//   B1 = w0.m + w1.n00                      below 9 2^(3c + 4): 3c + 8; B2 alike
 //   halving without the division            2 more a level of a dependency, 3 of the cubic
-// With max_fixed_depth = 4 at most 2c + 14 <= 128 W - 2 and 3c + 21 <= 192 W - 3: 2 W limbs hold a
+// With max_fixed_depth = 4 at most 2c + 14 <= 128 W - 2 and 3c + 20 <= 192 W - 4: 2 W limbs hold a
 // dependency, 3 W limbs the cubic, signs included.
 #pragma once
 

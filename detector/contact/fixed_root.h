@@ -3,8 +3,8 @@
 //
 // With B0..B3 of fixed_products.h the cubic is c0 + c1 t + c2 t^2 + c3 t^3, c0 = B0,
 // c1 = B1 - 3 B0, c2 = B2 - 2 B1 + 3 B0, c3 = B3 - B2 + B1 - B0. At t = m 2^-e <= 1, times 2^(3e),
-// each term is below 2^(3c + 11 + 3e) and so the sum below 2^(3c + 13 + 3e): with e <= 128 it fits
-// 3 W + 6 limbs, 192 W + 384 bits, as 3c <= 192 W - 24.
+// each term is below 2^(3c + 11 + 3e) and so the sum below 2^(3c + 13 + 3e): with e <= 64 it fits
+// 3 W + 3 limbs, 192 W + 192 bits, as 3c <= 192 W - 24; with e <= 128 it fits 3 W + 6.
 #pragma once
 
 #include "detector/bernstein/bernstein.h"
@@ -29,9 +29,7 @@ class FixedRoot {
   // bits: of a coordinate; only scales guesses.
   FixedRoot(const FixedCubic<FixedInteger<3 * W>>& b, int bits) : bits_(bits) {
     const auto b0_3 = b[0] + b[0] + b[0];
-    const FixedCubic<FixedInteger<3 * W>> c = {b[0], b[1] - b0_3, b[2] - (b[1] + b[1]) + b0_3,
-                                               b[3] - b[2] + b[1] - b[0]};
-    for (std::size_t i = 0; i < 4; ++i) c_[i] = Value(c[i]);
+    c_ = {b[0], b[1] - b0_3, b[2] - (b[1] + b[1]) + b0_3, b[3] - b[2] + b[1] - b[0]};
   }
 
   // As bracket_root: one root in (lo, hi), the sign before it.
@@ -43,18 +41,24 @@ class FixedRoot {
   // Exact sign at a double in [0,1].
   int sign_at(double time) const {
     const Binary t = binary_of(time);
-    return -t.exponent <= most_exponent ? scaled_value_at(t).sign() : unbounded_sign_at(time);
+    return -t.exponent <= 64    ? scaled_value_at<3 * W + 3>(t).sign()
+           : -t.exponent <= 128 ? scaled_value_at<3 * W + 6>(t).sign()
+                                : unbounded_sign_at(time);
   }
 
  private:
-  using Value = FixedInteger<3 * W + 6>;
-  static constexpr int most_exponent = 128;
+  // Of c0..c3 the greatest is below 2^(3c + 11).
+  using Coefficient = FixedInteger<3 * W>;
 
-  Value scaled_value_at(const Binary& t) const {
+  template <std::size_t limbs>
+  FixedInteger<limbs> scaled_value_at(const Binary& t) const {
+    using Value = FixedInteger<limbs>;
     const auto m = static_cast<std::uint64_t>(t.mantissa);
     const auto shift = static_cast<unsigned>(-t.exponent);
-    Value value = c_[3];
-    for (unsigned i = 1; i <= 3; ++i) value = value.times(m) + c_[3 - i].shifted(i * shift);
+    Value value(c_[3]);
+    for (unsigned i = 1; i <= 3; ++i) {
+      value = value.times(m) + Value(c_[3 - i]).shifted(i * shift);
+    }
     return value;
   }
 
@@ -62,9 +66,9 @@ class FixedRoot {
   double sharpened(double guess, double lo, double hi) const {
     if (!(guess > lo && guess < hi)) return guess;
     const Binary t = binary_of(guess);
-    if (-t.exponent > most_exponent) return guess;
+    if (-t.exponent > 64) return guess;
     const int scale = 3 * bits_;
-    const double value = scaled_value_at(t).approximate(scale - 3 * t.exponent);
+    const double value = scaled_value_at<3 * W + 3>(t).approximate(scale - 3 * t.exponent);
     const auto c = [&](std::size_t i) { return c_[i].approximate(scale); };
     const double slope = (3 * c(3) * guess + 2 * c(2)) * guess + c(1);
     const double next = guess - value / slope;
@@ -80,7 +84,7 @@ class FixedRoot {
   }
 
   int bits_;
-  FixedCubic<Value> c_;
+  FixedCubic<Coefficient> c_;
 };
 
 }  // namespace assay::detector

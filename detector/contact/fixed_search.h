@@ -81,9 +81,9 @@ class FixedSearch {
 
   // In the open piece.
   Found look_inside(Piece& piece, PieceSigns f) {
-    if (apart_throughout(piece)) return Found::nothing;
-    if (f.changes > 1) return Found::open;
-    const Found found = all_known(piece) ? Found::contact : look_at_root(piece, piece.f, f.first);
+    const bool single = f.changes == 1;
+    Found found = look_at_signs(piece, single);
+    if (found == Found::open && single) found = look_at_root(piece, piece.f, f.first);
     if (found == Found::contact && want_ == Want::first_time) {
       time_ = bracket(piece, b_, piece.f, f.first);
     }
@@ -96,7 +96,8 @@ class FixedSearch {
       bool vanishes = true;
       for (const auto& l : dependency) vanishes &= piece_signs(l).first == 0;
       if (!vanishes) {
-        return apart_throughout(piece) ? Found::nothing : look_at_changes(piece, axis);
+        const Found found = look_at_signs(piece, false);
+        return found == Found::open ? look_at_changes(piece, axis) : found;
       }
     }
     return Found::open;  // collinear
@@ -126,32 +127,24 @@ class FixedSearch {
     return Found::contact;
   }
 
-  // Whether along some axis there are both signs at every time in the open piece.
-  bool apart_throughout(Piece& piece) const {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      SignSet inside;
-      for (const auto& l : piece.dependency(axis, products_)) {
-        const PieceSigns signs = piece_signs(l);
-        if (signs.known()) inside.add(signs.first);
-      }
-      if (inside.both()) return true;
-    }
-    return false;
-  }
-
-  // Whether along some axis every sign is known in the open piece, and not all are 0.
-  bool all_known(Piece& piece) const {
+  // By signs that are known throughout the open piece: both along some axis, or all along some axis
+  // and a root (`has_root`) of the cubic inside.
+  Found look_at_signs(Piece& piece, bool has_root) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       SignSet inside;
       bool known = true;
       for (const auto& l : piece.dependency(axis, products_)) {
         const PieceSigns signs = piece_signs(l);
-        known &= signs.known();
-        inside.add(signs.first);
+        if (signs.known()) {
+          inside.add(signs.first);
+        } else {
+          known = false;
+        }
       }
-      if (known && inside.any()) return true;
+      if (inside.both()) return Found::nothing;
+      if (has_root && known && inside.any()) return Found::contact;
     }
-    return false;
+    return Found::open;
   }
 
   // At the one root in the open piece of a cubic that has the sign `before` before it.
