@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <string_view>
 
 #include "properties/campaign/case_tally.h"
+#include "properties/campaign/clean_starts.h"
 #include "properties/campaign/runner.h"
 #include "properties/case_check.h"
 #include "properties/generators/families.h"
@@ -27,9 +29,14 @@ bool is_number(std::string_view word) {
   return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// Of an id "campaign:seed:family:index"; null for what is none. Behind the seed's number a round
+struct TrialName {
+  const properties::Family* family;
+  std::uint64_t index;
+};
+
+// Of an id "campaign:seed:family:index"; nothing for what is none. Behind the seed's number a round
 // may stand, as in "quick:1.canary:broken:7".
-const properties::Family* family_of(std::string_view id) {
+std::optional<TrialName> trial_of(std::string_view id) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0; begin <= id.size();) {
     const auto end = std::min(id.find(':', begin), id.size());
@@ -38,23 +45,34 @@ const properties::Family* family_of(std::string_view id) {
   }
   if (parts.size() != 4 || parts[0].empty() || !is_number(parts[3]) ||
       !is_number(parts[1].substr(0, parts[1].find('.')))) {
-    return nullptr;
+    return std::nullopt;
   }
+  std::uint64_t index = 0;
+  const auto* end = parts[3].data() + parts[3].size();
+  if (std::from_chars(parts[3].data(), end, index).ec != std::errc()) return std::nullopt;
   const auto known = properties::families();
   const auto found = std::find_if(known.begin(), known.end(),
                                   [&](const auto& family) { return family.name == parts[2]; });
-  return found == known.end() ? nullptr : &*found;
+  if (found == known.end()) return std::nullopt;
+  return TrialName{&*found, index};
 }
 
+struct ReplayedCase {
+  corpus::Case c;
+  std::optional<TrialName> trial;  // of the campaign that it is from
+};
+
 // An id makes the case again; anything else is a file.
-corpus::Expected<corpus::Case> case_of(const std::string& id_or_file) {
+corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
   std::error_code ignored;
   if (!std::filesystem::exists(id_or_file, ignored)) {
-    if (const auto* family = family_of(id_or_file)) {
-      return properties::make_case(*family, id_or_file).c;
+    if (const auto trial = trial_of(id_or_file)) {
+      return ReplayedCase{properties::make_case(*trial->family, id_or_file).c, trial};
     }
   }
-  return corpus::read_case(id_or_file);
+  auto read = corpus::read_case(id_or_file);
+  if (!read) return read.error();
+  return ReplayedCase{std::move(read.value()), std::nullopt};
 }
 
 // A case that states options is about them; one that does not, about every configuration.
@@ -129,12 +147,17 @@ int run_replay(const ReplayRequest& request) {
                        ? ""
                        : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)"));
   }
-  const corpus::Case& c = made.value();
+  const corpus::Case& c = made.value().c;
+  const auto& trial = made.value().trial;
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
   if (auto problem = choose_detector(request.detector, subject)) return refuse(*problem);
   if (auto problem = choose_configurations(c, subject.detector)) {
     return refuse(fmt::format("{}: {}", request.id_or_file, *problem));
+  }
+  const bool vouched = trial && properties::is_vouched_for(subject.detector, c, trial->index);
+  if (vouched) {
+    subject.detector.configurations = properties::with_clean_start(subject.detector.configurations);
   }
   if (request.why && !subject.detector.built_in) {
     return refuse("--why is of the built-in detector: a plug-in does not show its stages");
@@ -158,6 +181,7 @@ int run_replay(const ReplayRequest& request) {
   }
   fmt::print("{}: {}{}\n", c.id, properties::size_text(properties::size_of(c)),
              c.about.empty() ? "" : "; " + c.about);
+  if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
   print_steps(c, truth);
   int code = exit_holds;
   for (std::size_t i = 0; i < runs.size(); ++i) {

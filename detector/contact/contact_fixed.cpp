@@ -1,5 +1,7 @@
 #include "detector/contact/contact_fixed.h"
 
+#include <cassert>
+
 #include "detector/contact/fixed_search.h"
 
 namespace assay::detector {
@@ -41,7 +43,9 @@ std::optional<TimeEnclosure> fixed_bracketed_time(const FourPoints& query, doubl
     constexpr std::size_t W = decltype(width)::value;
     const FixedProducts<W> products(integers, query.first_group);
     const FixedRoot<W> root(products.coplanarity(), integers.bits());
-    return root.bracket(root.sign_at(lo), lo, hi, guess);
+    const int sign_lo = root.sign_at(lo);
+    assert(sign_lo != 0 && root.sign_at(hi) == -sign_lo);
+    return root.bracket(sign_lo, lo, hi, guess);
   });
 }
 

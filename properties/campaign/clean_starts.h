@@ -4,13 +4,17 @@
 #include <vector>
 
 #include "corpus/case_file.h"
-#include "properties/worker/case_run.h"
+#include "properties/campaign/trial.h"
 
 namespace assay::properties {
 
 // Whether the oracle calls every triangle clean (THEORY: L9) wherever a step of the case is a new
 // start. Closed meshes alone: of others the answer depends on where the detector puts its apexes.
 bool starts_clean(const corpus::Case& c);
+
+// Whether trial `index` of a family vouches for the start of its case: to the built-in detector, in
+// every second one of the trials that may.
+bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index);
 
 // The same configurations with the start vouched for instead of verified.
 std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations);

@@ -85,8 +85,6 @@ class Trials {
  private:
   // Every 16th trial is run twice, for the claim `deterministic`.
   static constexpr std::uint64_t repeat_every = 16;
-  // Of the cases with a clean start every second one is given as such to the built-in detector.
-  static constexpr std::uint64_t vouch_every = 2;
   static constexpr std::uint64_t meshes_kept = 3;  // of a signature
 
   void work() {
@@ -121,8 +119,7 @@ class Trials {
 
   void judge(const PlannedTrial& planned, WorkerProcess& worker) {
     const GeneratedCase made = make_case(*planned.family, id_of(planned));
-    const bool vouched =
-        request_.detector.built_in && planned.index % vouch_every == 1 && starts_clean(made.c);
+    const bool vouched = is_vouched_for(request_.detector, made.c, planned.index);
     const auto configurations = vouched ? with_clean_start(request_.detector.configurations)
                                         : request_.detector.configurations;
     TrialRecord record;

@@ -131,8 +131,7 @@ std::vector<Fault> release_faults() {
       {"release/released-while-touched",
        "what still touches something is released beside a clean neighbour", "L9", FaultStatus::open,
        "where it meets the mesh in (V+,V+) alone, so far a dirty triangle next to it did too: none "
-       "of "
-       "60,000 changes of D8's second step shows it",
+       "of 60,000 changes of D8's second step shows it",
        with_points, "", 0, "release", with<&Stages::release, ReleasedWhileTouched>},
   };
 }

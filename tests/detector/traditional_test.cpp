@@ -7,12 +7,14 @@
 
 #include "detector/detector.h"
 #include "tests/detector/patch_meshes.h"
+#include "tests/detector/same_contacts.h"
 #include "tests/detector/search_meshes.h"
 
 namespace assay::detector {
 namespace {
 
 using tests::bent;
+using tests::expect_same_contacts;
 using tests::ramp;
 using tests::Sheet;
 using tests::sheet;
@@ -25,16 +27,6 @@ StepResult step(const Triangles& rows, const Positions& x_t0, const Positions& x
   auto made = Detector::create(rows, x_t0, {culling});
   EXPECT_TRUE(made.has_value());
   return made.value().step(x_t0, x_t1);
-}
-
-void expect_same(const StepResult& a, const StepResult& b) {
-  EXPECT_EQ(a.answer, b.answer);
-  EXPECT_EQ(a.first, b.first);
-  ASSERT_EQ(a.pairs.size(), b.pairs.size());
-  for (std::size_t i = 0; i < a.pairs.size(); ++i) {
-    EXPECT_EQ(a.pairs[i].pair, b.pairs[i].pair);
-    EXPECT_EQ(a.pairs[i].time, b.pairs[i].time);
-  }
 }
 
 PairSet candidates(const PairSearch& search, const Topology& mesh, const Positions& x_t0,
@@ -69,7 +61,7 @@ TEST(Traditional, L13_AgreesWithBvhOnRandomSheets) {
     }
     SCOPED_TRACE(seed);
     const auto truth = step(rows, mesh.x_t0, mesh.x_t1, Culling::bvh);
-    expect_same(step(rows, mesh.x_t0, mesh.x_t1, Culling::normal_cone), truth);
+    expect_same_contacts(step(rows, mesh.x_t0, mesh.x_t1, Culling::normal_cone), truth);
     collisions += truth.answer == Answer::collision;
     const auto all = candidates(TreeSearch(), mesh.topology, mesh.x_t0, mesh.x_t1);
     const auto some = candidates(NormalConeSearch(), mesh.topology, mesh.x_t0, mesh.x_t1);
@@ -87,7 +79,7 @@ TEST(Traditional, ABentSheetTakesATenthOfTheBoxTests) {
     const Positions after = sheet(40, 40, bent(angle + 0.1)).x;
     const auto traditional = step(before.rows, before.x, after, Culling::normal_cone);
     const auto bvh = step(before.rows, before.x, after, Culling::bvh);
-    expect_same(traditional, bvh);
+    expect_same_contacts(traditional, bvh);
     EXPECT_EQ(bvh.answer, Answer::free);
     EXPECT_LT(10 * traditional.counts.search.box_tests, bvh.counts.search.box_tests) << angle;
     EXPECT_LT(10 * traditional.counts.search.candidate_pairs, bvh.counts.search.candidate_pairs)
@@ -108,7 +100,7 @@ TEST(Traditional, L13_ARampThatWindsOverItselfIsTraversed) {
   EXPECT_GT(free.counts.search.box_tests, 0u);
   const auto meets = step(before.rows, before.x, through, Culling::normal_cone);
   EXPECT_EQ(meets.answer, Answer::collision);
-  expect_same(meets, step(before.rows, before.x, through, Culling::bvh));
+  expect_same_contacts(meets, step(before.rows, before.x, through, Culling::bvh));
   DirectionSet cone = ~DirectionSet{0};
   for (Eigen::Index t = 0; t < before.rows.rows(); ++t) {
     std::array<MovingPoint, 3> corners;
@@ -136,7 +128,7 @@ TEST(Traditional, HalvesOfASphereHaveNormalCones) {
   const auto result = step(before.rows, before.x, after, Culling::normal_cone);
   const auto bvh = step(before.rows, before.x, after, Culling::bvh);
   EXPECT_EQ(result.answer, Answer::free);
-  expect_same(result, bvh);
+  expect_same_contacts(result, bvh);
   EXPECT_LT(5 * result.counts.search.candidate_pairs, bvh.counts.search.candidate_pairs);
   const Topology mesh = make_topology(before.rows, before.x.rows());
   const BoundingVolumeTree tree(mesh, before.x);

@@ -9,10 +9,12 @@
 #include "detector/detector.h"
 #include "tests/detector/points.h"
 #include "tests/detector/revolved.h"
+#include "tests/detector/same_contacts.h"
 
 namespace assay::detector {
 namespace {
 
+using tests::expect_same_contacts;
 using tests::octahedron;
 using tests::octahedron_positions;
 using tests::revolved;
@@ -43,16 +45,6 @@ bool has_no_views(const StepResult& r) {
 }
 bool was_looked_at(const StepResult& r) {
   return r.counts.view.lanes + r.counts.view.filter + r.counts.view.exact > 0;
-}
-
-void expect_same_contacts(const StepResult& a, const StepResult& b) {
-  EXPECT_EQ(a.answer, b.answer);
-  EXPECT_EQ(a.first, b.first);
-  ASSERT_EQ(a.pairs.size(), b.pairs.size());
-  for (std::size_t i = 0; i < a.pairs.size(); ++i) {
-    EXPECT_EQ(a.pairs[i].pair, b.pairs[i].pair);
-    EXPECT_EQ(a.pairs[i].time, b.pairs[i].time);
-  }
 }
 
 void expect_same_bytes(const StepResult& a, const StepResult& b) {
