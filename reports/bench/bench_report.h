@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/bench/error_summary.h"
 #include "reports/bench/estimate.h"
 
 namespace assay::reports {
@@ -47,6 +48,10 @@ struct BenchReport {
   // One line each. Times are noisy, answers are not: any of these fails the run.
   std::vector<std::string> wrong_answers;
   std::vector<ScatterPoint> scatter;
+  // Of suite speed-error.
+  std::vector<JudgedStep> steps;
+  std::vector<FamilySummary> families;
+  std::vector<VariantSummary> variants;
 
   void add(std::string what, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});
@@ -59,5 +64,7 @@ std::string text_of(const Wanted& wanted);
 // A table, a line a row.
 std::string text_of(const BenchReport& report);
 nlohmann::ordered_json to_json(const BenchReport& report);
+// A line a raw sample; of suite speed-error a line a step and variant (error_output.h).
+std::string csv_of(const BenchReport& report);
 
 }  // namespace assay::reports
