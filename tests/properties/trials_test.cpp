@@ -19,7 +19,7 @@
 namespace assay::properties {
 namespace {
 
-using detector::Culling;
+using test::faulty;
 using test::in_a_minute;
 using test::request_of;
 using tests::Scratch;
@@ -126,17 +126,6 @@ TEST_F(Trials, WithoutAWorkerTheHarnessIsToBlame) {
   EXPECT_EQ(end.trials, 0u);
   EXPECT_NE(end.harness_problem.find("/nowhere/assay-worker"), std::string::npos);
   EXPECT_EQ(store.trial_count(), 0u);
-}
-
-// The built-in detector with a fault in it, in the first configuration.
-CampaignRequest faulty(std::string_view name, std::uint64_t cases) {
-  auto request = request_of(cases);
-  const Fault* fault = find_fault(name);
-  EXPECT_TRUE(fault) << name;
-  request.detector.configurations = {{"faulty", fault->options, std::string(name)},
-                                     {"bvh", {Culling::bvh}}};
-  request.plan.laws_every = 1;
-  return request;
 }
 
 TEST_F(Trials, AFaultIsFoundKeptThriceAndReplays) {
