@@ -97,8 +97,8 @@ Draft broken_shape(Random& random, int size) {
     const Damage& damage = any_of(random, damages);
     damage.apply(random, d);
     d.tag(std::string("broken:") + damage.name);
+    drop_invalid_faces(d);  // at once: the face that lost faces leave may not be one of these
   }
-  drop_invalid_faces(d);
   return d;
 }
 
