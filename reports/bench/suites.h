@@ -37,4 +37,7 @@ BenchReport claims_suite(const BenchSettings& settings, Progress& progress);
 // oracle.
 BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress);
 
+// What judging costs: the oracle on a real step and on queries, a campaign's steps a second.
+BenchReport harness_suite(const BenchSettings& settings, Progress& progress);
+
 }  // namespace assay::reports
