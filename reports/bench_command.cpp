@@ -19,7 +19,8 @@ struct Suite {
 constexpr Suite suites[] = {{"elementary", elementary_suite},
                             {"view", view_suite},
                             {"growth", growth_suite},
-                            {"claims", claims_suite}};
+                            {"claims", claims_suite},
+                            {"stability", stability_suite}};
 
 }  // namespace
 

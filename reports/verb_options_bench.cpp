@@ -20,7 +20,7 @@ void add_bench(CLI::App& app, BenchRequest& request) {
   request.data = data && *data ? data : "../shared/data";
   auto* verb = app.add_subcommand("bench", "Speeds and memory beside what is wanted");
   verb->add_option("--suite", request.suite, "What to measure")
-      ->check(one_of("elementary, view, growth, claims", is_bench_suite))
+      ->check(one_of("elementary, view, growth, claims, stability", is_bench_suite))
       ->required();
   verb->add_option("--data", request.data,
                    "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "

@@ -81,6 +81,33 @@ std::string text_of(const BenchReport& report) {
   return text;
 }
 
+namespace {
+
+Json heat_json(const std::vector<StabilityCell>& heat) {
+  Json cells = Json::array();
+  for (const auto& c : heat) {
+    cells.push_back({{"family", c.family},
+                     {"arithmetic", c.arithmetic},
+                     {"strength", c.strength},
+                     {"exponent", c.touches ? Json() : Json(c.exponent)},
+                     {"knob", c.knob},
+                     {"cases", c.cases},
+                     {"right", c.right},
+                     {"share_right", c.share_right()},
+                     {"exactly_right", c.exactly_right},
+                     {"missed", c.missed},
+                     {"late", c.late},
+                     {"early", c.early},
+                     {"spurious", c.spurious},
+                     {"wrong_signs", c.wrong_signs},
+                     {"time_errors", c.time_errors},
+                     {"time_errors_ulps", c.time_errors_ulps}});
+  }
+  return cells;
+}
+
+}  // namespace
+
 Json to_json(const BenchReport& report) {
   Json rows = Json::array(), scatter = Json::array();
   for (const auto& row : report.rows) {
@@ -104,9 +131,13 @@ Json to_json(const BenchReport& report) {
                        {"view_positive_share", p.share},
                        {"time_over_bvh", p.ratio}});
   }
-  return {{"schema", "assay-bench/1"}, {"version", version_text()},
-          {"suite", report.suite},     {"rows", rows},
-          {"scatter", scatter},        {"wrong_answers", report.wrong_answers}};
+  return {{"schema", "assay-bench/1"},
+          {"version", version_text()},
+          {"suite", report.suite},
+          {"rows", rows},
+          {"scatter", scatter},
+          {"heat", heat_json(report.heat)},
+          {"wrong_answers", report.wrong_answers}};
 }
 
 }  // namespace assay::reports

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reports/bench/estimate.h"
+#include "reports/bench/stability_cell.h"
 
 namespace assay::reports {
 
@@ -47,6 +48,7 @@ struct BenchReport {
   // One line each. Times are noisy, answers are not: any of these fails the run.
   std::vector<std::string> wrong_answers;
   std::vector<ScatterPoint> scatter;
+  std::vector<StabilityCell> heat;  // of suite stability
 
   void add(std::string what, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});

@@ -32,5 +32,7 @@ BenchReport view_suite(const BenchSettings& settings, Progress& progress);
 BenchReport growth_suite(const BenchSettings& settings, Progress& progress);
 // What the thesis says of costs, the whole step against culling bvh, the break-even share of V+.
 BenchReport claims_suite(const BenchSettings& settings, Progress& progress);
+// Where each arithmetic breaks, in the corpus's hard families.
+BenchReport stability_suite(const BenchSettings& settings, Progress& progress);
 
 }  // namespace assay::reports
