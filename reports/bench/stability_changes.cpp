@@ -24,6 +24,8 @@ std::vector<std::int32_t> shuffled(Random& random, Eigen::Index n) {
   for (std::size_t i = order.size(); i > 1; --i) {
     std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
   }
+  // The order of few may have stayed.
+  if (order == in_order(n)) std::reverse(order.begin(), order.end());
   return order;
 }
 

@@ -143,6 +143,7 @@ std::vector<FamilyStability> measure_stability(const corpus::HardFamily& family,
                                                const std::function<void()>& tick) {
   FamilyRun run(family, subjects);
   for (const int strength : strengths_of(family, plan.strength_step)) {
+    if (corpus::hard_case(family, strength, 0).triangles.rows() > plan.most_triangles) continue;
     run.begin(strength);
     const int rounds = family.touches(strength) ? plan.touching_rounds : plan.rounds;
     for (int variant = 0; variant < rounds * family.kinds_at(strength); ++variant) {

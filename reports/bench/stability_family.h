@@ -18,6 +18,7 @@ struct StabilityPlan {
   int strength_step = 1;  // of 0, step, 2 step ...; strongest and touching are always among them
   int rounds = 2;         // of all kinds of the family, at each strength
   int touching_rounds = 10;
+  int most_triangles = 5000;  // strengths of larger meshes are left out
 };
 
 // Answers kept under a change, of those in which it is exact.

@@ -152,6 +152,7 @@ BenchReport stability_of(std::span<const corpus::HardFamily> families,
     StabilityPlan plan;
     plan.rounds = settings.scale < 1 ? 1 : full_rounds;
     plan.touching_rounds = settings.scale < 1 ? 2 : touching_rounds;
+    plan.most_triangles = settings.triangles(plan.most_triangles);
     if (settings.scale < 1) plan.strength_step = std::max(1, family.strongest / steps_when_small);
     std::vector<std::string> disagreements;
     const auto found =
