@@ -270,6 +270,12 @@ void add_bench(CLI::App& app, reports::BenchRequest& request) {
                    "Draw the break-even scatter of suite claims here (SVG)");
 }
 
+void add_report(CLI::App& app, reports::ReportRequest& request) {
+  auto* verb = app.add_subcommand("report", "Runs as one HTML page that works offline");
+  verb->add_option("folders", request.folders, "Folders of runs, the oldest first")->required();
+  verb->add_option("--out", request.out, "The page (.html)")->required();
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Assay certifies continuous self-collision detectors for deforming triangle meshes.");
@@ -285,6 +291,7 @@ int run(int argc, char** argv) {
   reports::ReplayRequest replay;
   reports::ShrinkRequest shrink;
   reports::BenchRequest bench;
+  reports::ReportRequest report;
   std::string listed = "scenes", listed_folder;
   check.jobs = certify.jobs = self_test.jobs = campaign.jobs =
       static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -296,6 +303,7 @@ int run(int argc, char** argv) {
   add_replay(app, replay);
   add_shrink(app, shrink);
   add_bench(app, bench);
+  add_report(app, report);
   auto* list = app.add_subcommand("list", "List scenes, laws, faults, campaigns, or failures");
   list->add_option("what", listed, "scenes, laws, faults, campaigns, failures")
       ->check(CLI::IsMember({"scenes", "laws", "faults", "campaigns", "failures"}));
@@ -330,6 +338,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("self-test")) return reports::run_self_test(self_test);
   if (app.got_subcommand("replay")) return reports::run_replay(replay);
   if (app.got_subcommand("bench")) return reports::run_bench(bench);
+  if (app.got_subcommand("report")) return reports::run_report(report);
   if (app.got_subcommand("shrink")) return reports::run_shrink(shrink);
   return reports::run_list(listed, listed_folder);
 }
