@@ -8,6 +8,7 @@
 
 #include "corpus/atomic_file.h"
 #include "properties/reducer/mesh_size.h"
+#include "reports/picture/scene_maker.h"
 #include "reports/shell_word.h"
 
 namespace assay::reports {
@@ -69,6 +70,7 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
     report.problem = fmt::format("{}: cannot be made: {}", folder.string(), error.message());
     return report;
   }
+  SceneMaker scenes(request.plugin ? request.plugin->string() : "");
   const auto met = store.signatures();
   std::set<std::string> told;
   for (const auto& failure : failures) {
@@ -80,15 +82,24 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
         return report;
       }
     }
-    const bool is_shrunk = !failure.smallest.empty();
     if (!told.insert(failure.signature).second) continue;
+    const bool is_shrunk = !failure.smallest.empty();
+    const auto shown_file = is_shrunk ? smallest_file(out, failure) : original_file(out, failure);
+    const auto shown =
+        corpus::parse_case(is_shrunk ? failure.smallest : failure.mesh, "stored failure");
+    if (shown) {
+      report.problem = scenes.write_picture(shown_file.string(), shown.value(),
+                                            failure.configuration, failure.signature);
+      if (report.problem) return report;
+    }
     const auto count = met.find(failure.signature);
     report.text += fmt::format(
-        "\nDEFECT {} ({}), met {} times\n  {}\n  case {}: {}{}\n{}  replay: {}\n",
+        "\nDEFECT {} ({}), met {} times\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n",
         failure.signature, failure.configuration, count == met.end() ? 1 : count->second,
         failure.what, failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
+        picture_file(shown_file.string()),
         replay_line(out, failure, request.plugin ? request.plugin->string() : ""));
   }
   return report;

@@ -2,21 +2,22 @@
 
 #include <fmt/format.h>
 
-#include "properties/case_check.h"
 #include "properties/reducer/mesh_size.h"
-#include "reports/detector_choice.h"
 #include "reports/failure_text.h"
 #include "reports/page_data/scene_json.h"
 #include "reports/picture/mesh_svg.h"
+#include "reports/picture/scene_maker.h"
 
 namespace assay::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A mesh that was not shrunk may be too much for a page and its reader.
-constexpr Eigen::Index most_triangles = 2000;
-constexpr double case_seconds = 10;
+// As SceneMaker takes it.
+std::optional<std::string> library_of(const DetectorNote& detector) {
+  if (!detector.built_in && detector.library.empty()) return std::nullopt;
+  return detector.library;
+}
 
 Json size_json(const corpus::Expected<corpus::Case>& c) {
   if (!c) return nullptr;
@@ -26,7 +27,7 @@ Json size_json(const corpus::Expected<corpus::Case>& c) {
 
 class FailureList {
  public:
-  explicit FailureList(const StoredRun& run) : run_(run), scenes_(run.detector) {}
+  explicit FailureList(const StoredRun& run) : run_(run), scenes_(library_of(run.detector)) {}
 
   Json all() {
     Json list = Json::array();
@@ -72,7 +73,7 @@ class FailureList {
                  {"others", Json::array()}};
     if (!smallest) {
       json["not_shown"] = smallest.error().message;
-    } else if (smallest.value().triangles.rows() > most_triangles) {
+    } else if (smallest.value().triangles.rows() > most_shown_triangles) {
       json["not_shown"] = "the mesh is too large to be shown: shrink it first";
     } else {
       show(json, smallest.value(), failure);
@@ -99,37 +100,6 @@ class FailureList {
 };
 
 }  // namespace
-
-SceneMaker::SceneMaker(const DetectorNote& note)
-    : detector_(properties::built_in_detector()),
-      reference_(properties::worker_program(), std::nullopt, {case_seconds, 0}) {
-  std::optional<std::filesystem::path> plugin;
-  if (!note.built_in) {
-    plugin = note.library;
-    if (note.library.empty()) {
-      absent_ = "the store does not name the plug-in's library";
-      return;
-    }
-    properties::CampaignRequest request;
-    request.worker = properties::worker_program();
-    if (auto problem = choose_detector(note.library, request)) {
-      absent_ = *problem;
-      return;
-    }
-    detector_ = request.detector;
-  }
-  worker_.emplace(properties::worker_program(), plugin, properties::WorkerLimits{case_seconds, 0});
-}
-
-std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,
-                                              const std::string& configuration) {
-  properties::Configuration chosen{configuration, {}};
-  if (detector_.built_in && !properties::wrong_option(c))
-    chosen.options = properties::options_of(c);
-  auto scene = make_scene(c, detector_, chosen, {worker_ ? &*worker_ : nullptr, &reference_});
-  if (scene && !absent_.empty()) scene->ended = absent_;
-  return scene;
-}
 
 Json failures_json(const StoredRun& run) { return FailureList(run).all(); }
 

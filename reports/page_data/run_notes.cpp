@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-
 namespace assay::reports {
 
 using Json = nlohmann::ordered_json;

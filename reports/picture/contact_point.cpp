@@ -4,25 +4,13 @@
 #include <algorithm>
 #include <array>
 
+#include "reports/picture/nearest_points.h"
+
 namespace assay::reports {
 namespace {
 
 using Vector = Eigen::Vector3d;
-
-// The middle of the closest points of the segments a0 a1 and b0 b1 (the ends are clamped one after
-// the other, as in Ericson, Real-Time Collision Detection, 5.1.9).
-Vector between_segments(const Vector& a0, const Vector& a1, const Vector& b0, const Vector& b1) {
-  const Vector a = a1 - a0, b = b1 - b0, gap = a0 - b0;
-  const double aa = a.squaredNorm(), bb = b.squaredNorm(), ab = a.dot(b);
-  const double ag = a.dot(gap), bg = b.dot(gap), determinant = aa * bb - ab * ab;
-  const auto share = [](double part, double whole) {
-    return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0;
-  };
-  double s = share(ab * bg - ag * bb, determinant);
-  const double u = share(ab * s + bg, bb);
-  s = share(ab * u - ag, aa);
-  return 0.5 * (a0 + s * a + b0 + u * b);
-}
+using Corners = std::array<std::int32_t, 3>;
 
 // Where the line e0 e1 crosses the plane of f, within the edge; its middle when it is parallel.
 Vector on_plane(const Vector& e0, const Vector& e1, const std::array<Vector, 3>& f) {
@@ -30,6 +18,33 @@ Vector on_plane(const Vector& e0, const Vector& e1, const std::array<Vector, 3>&
   const double h0 = normal.dot(e0 - f[0]), h1 = normal.dot(e1 - f[0]);
   const double part = h0 == h1 ? 0.5 : std::clamp(h0 / (h0 - h1), 0.0, 1.0);
   return e0 + part * (e1 - e0);
+}
+
+// Where two triangles come closest, in features that share no vertex; nothing where all do.
+template <class Place>
+std::optional<Vector> where_closest(const Corners& a, const Corners& b, const Place& place) {
+  std::optional<NearestPoints> best;
+  const auto offer = [&](const NearestPoints& points) {
+    if (!best || points.distance() < best->distance()) best = points;
+  };
+  const auto has = [](const Corners& corners, std::int32_t v) {
+    return std::find(corners.begin(), corners.end(), v) != corners.end();
+  };
+  for (const auto& [vertices, face] : {std::pair(a, b), std::pair(b, a)}) {
+    for (const auto v : vertices) {
+      if (has(face, v)) continue;
+      offer(nearest_of_triangle(place(v), {place(face[0]), place(face[1]), place(face[2])}));
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Corners first = {a[i], a[(i + 1) % 3], -1}, second = {b[j], b[(j + 1) % 3], -2};
+      if (has(first, second[0]) || has(first, second[1])) continue;
+      offer(nearest_of_segments(place(first[0]), place(first[1]), place(second[0]),
+                                place(second[1])));
+    }
+  }
+  return best ? std::optional<Vector>(best->middle()) : std::nullopt;
 }
 
 }  // namespace
@@ -47,11 +62,15 @@ std::optional<detector::Point> contact_point(const detector::PairContact& contac
     const auto row = triangles.row(contact.pair.a);
     at = (place(row[0]) + place(row[1]) + place(row[2])) / 3;
   } else if (v[0] < 0) {
-    return std::nullopt;
+    const auto row_a = triangles.row(contact.pair.a), row_b = triangles.row(contact.pair.b);
+    const auto closest =
+        where_closest({row_a[0], row_a[1], row_a[2]}, {row_b[0], row_b[1], row_b[2]}, place);
+    if (!closest) return std::nullopt;
+    at = *closest;
   } else if (contact.feature.kind == detector::FeatureKind::vertex_face) {
     at = place(v[0]);
   } else if (contact.feature.kind == detector::FeatureKind::edge_edge) {
-    at = between_segments(place(v[0]), place(v[1]), place(v[2]), place(v[3]));
+    at = nearest_of_segments(place(v[0]), place(v[1]), place(v[2]), place(v[3])).middle();
   } else {
     at = on_plane(place(v[0]), place(v[1]), {place(v[2]), place(v[3]), place(v[4])});
   }

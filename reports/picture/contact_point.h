@@ -9,7 +9,8 @@ namespace assay::reports {
 
 // At time t in [0,1] of the step: the vertex of a vertex-face contact, the middle of the closest
 // points of two edges, where a piercing edge crosses the plane, the centre of triangles with the
-// same vertices. Nothing when the contact names no feature, as of a plug-in.
+// same vertices; where no feature is named, as by a plug-in, the middle of the closest points of
+// the two triangles. Nothing when that is no place: all features share a vertex, or it overflows.
 std::optional<detector::Point> contact_point(const detector::PairContact& contact,
                                              const detector::TrianglesView& triangles,
                                              const detector::PositionsView& x_t0,

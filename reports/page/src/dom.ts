@@ -36,11 +36,13 @@ export interface Column<Row> {
   head: string;
   cell: (row: Row) => Child;
   number?: boolean;
+  short?: boolean; // never broken into lines
 }
 
 // A table that scrolls by itself where the window is narrow.
 export function table<Row>(caption: string, columns: Column<Row>[], rows: Row[]): HTMLElement {
-  const kind = (column: Column<Row>): Attributes => (column.number ? { class: "number" } : {});
+  const kind = (column: Column<Row>): Attributes => 
+    column.number ? { class: "number" } : column.short ? { class: "short" } : {};
   const head = html("tr", {}, ...columns.map((c) => html("th", { scope: "col", ...kind(c) }, c.head)));
   const body = rows.map((row) =>
     html("tr", {}, ...columns.map((c) => html("td", kind(c), c.cell(row)))),

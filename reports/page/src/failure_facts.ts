@@ -1,6 +1,6 @@
 // What is known of a failure besides its picture, and the line that replays it.
 import { html } from "./dom";
-import type { Failure, Run } from "./report";
+import type { Failure } from "./report";
 import { size, time } from "./words";
 
 export function replayLine(line: string): HTMLElement {
@@ -37,7 +37,7 @@ async function copy(text: string): Promise<boolean> {
   }
 }
 
-export function failureFacts(run: Run, failure: Failure): HTMLElement {
+export function failureFacts(failure: Failure): HTMLElement {
   const rows: [string, string | null][] = [];
   const law = failure.configuration.split(", law ")[1];
   rows.push([law ? "Law" : "Claim", law ?? failure.signature.split(":")[0] ?? null]);
@@ -57,7 +57,7 @@ export function failureFacts(run: Run, failure: Failure): HTMLElement {
         : `no answer (${scene.ended ?? "not run"})`,
     ]);
   }
-  if (failure.now && failure.now !== failure.what) rows.push(["In the smallest mesh", failure.now]);
+  if (failure.now && failure.now !== failure.what) rows.push(["In the mesh as met", failure.what]);
   if (failure.flaky) rows.push(["Repeatable", "no: two runs of it differ, a replay may hold"]);
   const facts = html(
     "dl",
@@ -72,7 +72,7 @@ export function failureFacts(run: Run, failure: Failure): HTMLElement {
     {},
     html("h4", {}, "Replay"),
     replayLine(failure.replay),
-    html("p", { class: "note" }, run.detector.library ? "Runs from the folder in which the campaign was started." : ""),
+    html("p", { class: "note" }, "Paste it where the campaign was started: paths are as they were named there."),
     facts,
     others.length === 0
       ? null

@@ -7,6 +7,17 @@ import type { Failure, Run } from "./report";
 import { count, counted } from "./words";
 import { staticPicture, Viewer } from "./viewer/viewer";
 
+// What a missed contact breaks first, then what else is claimed, then laws.
+const claims = ["free-sound", "not-late", "total", "first-time", "first-pairs", "all-pairs", "no-spurious", "deterministic"];
+
+function bySeverity(list: Failure[]): Failure[] {
+  const rank = (f: Failure): number => {
+    const at = claims.indexOf(f.signature.split(":")[0]!);
+    return at < 0 ? claims.length : at;
+  };
+  return [...list].sort((a, b) => rank(a) - rank(b) || b.met - a.met);
+}
+
 export interface FailuresView {
   element: HTMLElement;
   viewer: () => Viewer | null;
@@ -21,7 +32,7 @@ export function failures(run: Run): FailuresView {
     viewer?.close();
     viewer = null;
     for (const button of buttons) button.setAttribute("aria-pressed", String(button === chosen));
-    detail.replaceChildren(html("h3", {}, failure.signature), html("p", {}, failure.what));
+    detail.replaceChildren(html("h3", {}, failure.signature), html("p", {}, failure.now ?? failure.what));
     const scene = failure.scene;
     if (!scene || scene.steps.length === 0) {
       detail.append(html("p", { class: "note" }, `Not shown: ${failure.not_shown ?? "it has no step"}.`));
@@ -36,10 +47,10 @@ export function failures(run: Run): FailuresView {
       detail.append(sets.element, pairTable(scene, (step, pair) => viewer?.showPair(step, pair)));
       sets.show(scene.shown.step);
     }
-    detail.append(failureFacts(run, failure));
+    detail.append(failureFacts(failure));
   };
 
-  for (const failure of run.failures) {
+  for (const failure of bySeverity(run.failures)) {
     const button = html(
       "button",
       { type: "button", "aria-pressed": "false", click: () => show(failure, button) },

@@ -10,6 +10,9 @@ function verdict(f: Fault): string {
   return f.found ? "FOUND, but equivalent" : "survives, rightly";
 }
 
+const details = (title: string, content: HTMLElement): HTMLElement =>
+  html("details", {}, html("summary", {}, title), content);
+
 export function faults(run: Run): HTMLElement {
   const title = "Planted faults";
   const canary = run.canary
@@ -20,6 +23,7 @@ export function faults(run: Run): HTMLElement {
   const list = run.faults;
   if (!list) return section("faults", title, html("p", {}, canary, " No faults were planted in this run."));
   const planted = list.filter((f) => f.status === "planted");
+  const lost = planted.filter((f) => !f.found);
   const shrunk = list.filter((f) => f.shrunk);
   return section(
     "faults",
@@ -30,6 +34,7 @@ export function faults(run: Run): HTMLElement {
       `${canary} ${planted.filter((f) => f.found).length} of ${planted.length} planted faults were found: ` +
         "detectors that are wrong on purpose, each in one stage. The cases that each takes say how sharp the harness is.",
     ),
+    lost.length === 0 ? null : html("p", {}, `Not found: ${lost.map((f) => f.name).join(", ")}.`),
     logPlot(
       "Cases until each planted fault showed (median over seeds)",
       [...planted]
@@ -42,7 +47,7 @@ export function faults(run: Run): HTMLElement {
           words: f.median_cases === null ? (f.found ? "found under some seeds" : "not found") : counted(f.median_cases, "case"),
         })),
     ),
-    table(
+    details(`All ${list.length} faults, with those that are equivalent or open`, table(
       "Faults, and the cases that each took",
       [
         { head: "fault", cell: (f: Fault) => html("span", { title: f.about }, f.name) },
@@ -52,7 +57,7 @@ export function faults(run: Run): HTMLElement {
         { head: "verdict", cell: verdict },
       ],
       list,
-    ),
+    )),
     shrunk.length === 0
       ? html("p", { class: "note" }, "This campaign does not shrink what planted faults show.")
       : table(

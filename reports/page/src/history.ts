@@ -17,7 +17,7 @@ const sum = (run: Run, of: (s: Run["strata"][number]) => number): number => {
 function kinds(runs: Run[]): HTMLElement | null {
   const all = [...new Set(runs.flatMap((r) => Object.keys(r.signatures)))].sort();
   if (all.length === 0) return null;
-  return table(
+  const counts = table(
     "How often each kind of failure was met",
     [
       { head: "kind", cell: (k: string) => k },
@@ -29,6 +29,7 @@ function kinds(runs: Run[]): HTMLElement | null {
     ],
     all,
   );
+  return html("details", { open: all.length <= 12 }, html("summary", {}, `${all.length} kinds of failure, by run`), counts);
 }
 
 export function history(runs: Run[], choose: (index: number) => void): HTMLElement {

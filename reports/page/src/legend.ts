@@ -28,8 +28,10 @@ export function legend(scene: Scene): { element: HTMLElement; show: (time: numbe
       if (size === 0) return [];
       return [html("li", {}, html("span", { class: `swatch ${setClass(name)}` }), `${meaning[name]}: ${size}`)];
     });
+    const ghosts = scene.steps[step]!.views?.ghosts.length ?? 0;
     list.replaceChildren(
       ...items,
+      ...(ghosts ? [html("li", {}, html("span", { class: "swatch ghost" }), `ghosts that close the mesh: ${ghosts}`)] : []),
       html("li", {}, html("span", { class: "swatch pair" }), "the pair"),
       html("li", {}, html("span", { class: "swatch exact" }), "exact contact"),
       html("li", {}, html("span", { class: "swatch detector" }), "the detector's"),

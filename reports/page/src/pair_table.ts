@@ -49,11 +49,12 @@ export function pairTable(scene: Scene, choose: (step: number, pair: [number, nu
     [
       {
         head: "pair",
+        short: true,
         cell: (r: Row) =>
           html("button", { type: "button", class: "plain", click: () => choose(r.step, r.pair) }, `${r.pair[0]} and ${r.pair[1]}`),
       },
       { head: "step", cell: (r: Row) => String(r.step + 1), number: true },
-      { head: "feature", cell: (r: Row) => r.exact?.feature ?? "\u2013" },
+      { head: "feature", cell: (r: Row) => r.exact?.feature ?? "\u2013", short: true },
       { head: "exact time", cell: (r: Row) => (r.exact ? time(r.exact.time) : "no contact") },
       { head: "detector's time", cell: (r: Row) => (r.detector ? stated(r.detector) : r.ran ? "not reported" : "\u2013") },
       { head: "difference", cell: difference },

@@ -42,13 +42,17 @@ export function logPlot(title: string, rows: LogRow[]): SVGSVGElement | null {
   const [lo, hi] = decades(rows);
   const x = (n: number): number => labels + ((wide - right - labels) * (Math.log10(n) - lo)) / (hi - lo);
   const plot = frame(title, rows.length);
-  for (let d = lo; d <= hi; ++d) {
-    const at = x(10 ** d);
+  const rule = (n: number, label: string, kind: string): void => {
+    const at = x(n);
     plot.append(
-      svg("line", { class: "grid", x1: at, x2: at, y1: head, y2: head + rows.length * rowHeight }),
-      svg("text", { x: at, y: 16, class: "tick-label" }, d === 0 ? "1" : `10${power(d)}`),
+      svg("line", { class: kind, x1: at, x2: at, y1: head, y2: head + rows.length * rowHeight }),
+      svg("text", { x: at, y: 16, class: "tick-label" }, label),
     );
-  }
+  };
+  for (let d = lo; d <= hi; ++d) rule(10 ** d, d === 0 ? "1" : `10${power(d)}`, "grid");
+  // Few decades: their inner lines help.
+  if (hi - lo <= 2)
+    for (let d = lo; d < hi; ++d) for (const digit of [2, 5]) rule(digit * 10 ** d, `${Number((digit * 10 ** d).toPrecision(1))}`, "grid fine");
   rows.forEach((row, i) => {
     const y = yOf(i);
     plot.append(svg("text", { x: labels - 10, y: y + 4, class: "row-label" }, row.label));

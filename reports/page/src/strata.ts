@@ -1,5 +1,5 @@
 // Strata with their counts and bounds.
-import { section, table } from "./dom";
+import { html, section, table } from "./dom";
 import { scope } from "./overview";
 import { logPlot } from "./plots";
 import type { Run, Stratum } from "./report";
@@ -26,6 +26,7 @@ export function strata(run: Run): HTMLElement {
     "Strata and bounds",
     scope(run),
     plot,
+    html("p", { class: "note" }, "A disc or a diamond: the bound; a diamond where there is a defect or the bound is above what is wanted; an upright bar: the bound wanted."),
     table(
       "Trials and bounds by stratum",
       [
@@ -48,8 +49,6 @@ export function strata(run: Run): HTMLElement {
 
 function configurations(run: Run): HTMLElement[] {
   if (run.detector.configurations.length < 2) return [];
-  const line = document.createElement("p");
-  line.className = "note";
-  line.textContent = `The ${counted(run.detector.configurations.length, "configuration")}: ${run.detector.configurations.join(", ")}.`;
-  return [line];
+  const names = run.detector.configurations;
+  return [html("p", { class: "note" }, `The ${counted(names.length, "configuration")}: ${names.join(", ")}.`)];
 }

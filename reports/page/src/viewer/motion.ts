@@ -7,6 +7,7 @@ export class Motion {
   private readonly largest: number;
   private readonly centre: Point;
   private readonly extent: number;
+  readonly isOnePlace: boolean; // all vertices, at all times
 
   constructor(readonly scene: Scene) {
     this.length = scene.steps.length;
@@ -25,7 +26,9 @@ export class Motion {
           high[k] = Math.max(high[k]!, x);
         }
     this.centre = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2];
-    this.extent = Math.max(high[0] - low[0], high[1] - low[1], high[2] - low[2]) || 1;
+    const extent = Math.max(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    this.isOnePlace = extent === 0;
+    this.extent = extent || 1;
   }
 
   // The step that is under way, from 0, and how much of it is over.

@@ -11,7 +11,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Point } from "../report";
 
-const distance = 2.4;
+const distance = 2.15;
 
 export class Stage {
   private readonly renderer: WebGLRenderer;

@@ -38,7 +38,8 @@ export class Viewer {
     this.marks = new Marks(this.motion);
     const frame = html("div", { class: "frame" }, this.canvas, this.marks.element);
     this.controls = new TimeControls(this.motion.length, () => this.refresh());
-    this.element.append(frame, this.controls.element, this.toggles());
+    const note = html("p", { class: "note" }, "All vertices of this mesh stand at one place, at all times.");
+    this.element.append(frame, this.motion.isOnePlace ? note : "", this.controls.element, this.toggles());
     this.stage = new Stage(this.canvas, this.solids.group, () => this.drawMarks());
     this.canvas.addEventListener("keydown", (event) => this.turnByKey(event));
     onSchemeChange(() => {
