@@ -50,7 +50,7 @@ export function faults(run: Run): HTMLElement {
     details(`All ${list.length} faults, with those that are equivalent or open`, table(
       "Faults, and the cases that each took",
       [
-        { head: "fault", cell: (f: Fault) => html("span", { title: f.about }, f.name) },
+        { head: "fault", cell: (f: Fault) => (f.about ? html("span", { title: f.about }, f.name) : f.name) },
         { head: "law", cell: (f: Fault) => f.law },
         { head: "cases (median)", cell: (f: Fault) => (f.median_cases === null ? "\u2013" : count(f.median_cases)), number: true },
         { head: "curated case", cell: (f: Fault) => (f.by_curated === null ? "\u2013" : f.by_curated ? "shows it" : "does not show it") },
@@ -68,7 +68,7 @@ export function faults(run: Run): HTMLElement {
             { head: "to vertices", cell: (f: Fault) => count(f.shrunk!.vertices), number: true },
             { head: "smallest known", cell: (f: Fault) => (f.known_vertices === null ? "\u2013" : count(f.known_vertices)), number: true },
             { head: "runs", cell: (f: Fault) => count(f.shrunk!.calls), number: true },
-            { head: "seconds", cell: (f: Fault) => f.shrunk!.seconds.toFixed(1), number: true },
+            { head: "seconds", cell: (f: Fault) => f.shrunk!.seconds?.toFixed(1) ?? "\u2013", number: true },
           ],
           shrunk,
         ),

@@ -37,6 +37,9 @@ export function overview(run: Run): HTMLElement {
         `campaign ${run.campaign}, seed ${run.seed}${shards}; ` +
         `${count(run.trials.done)} of ${count(run.trials.planned)} trials.`,
     ),
+    run.certificate === null
+      ? html("p", { class: "note" }, "No certificate stands beside this run: assay certify issues one.")
+      : null,
   );
 }
 

@@ -86,7 +86,7 @@ export interface Stratum {
 
 export interface Fault {
   name: string;
-  about: string;
+  about: string | null;
   law: string;
   status: "planted" | "open" | "equivalent";
   found: boolean;
@@ -101,7 +101,7 @@ export interface Fault {
     triangles: number;
     steps: number;
     calls: number;
-    seconds: number;
+    seconds: number | null;
   } | null;
 }
 
@@ -117,6 +117,43 @@ export interface Law {
   close: number;
   broken: number;
   wanted_premise: number;
+}
+
+export interface CorpusRow {
+  input: string;
+  configuration: string;
+  cases: number;
+  left_out: number;
+  steps: number;
+  collisions: number;
+  pairs: number;
+  defects: number;
+  failed: { case: string; signature: string; what: string; waived: boolean }[];
+}
+
+export interface Waiver {
+  signature: string;
+  reason: string;
+  link: string;
+  expires: string;
+  expired: boolean;
+  met: number;
+}
+
+// What a certificate (assay-certificate/1) says beyond the run.
+export interface Certificate {
+  subject: { name: string; digest: Record<string, string> }[];
+  versions: { assay: string; commit: string | null; libraries: string } | null;
+  issued: string | null;
+  seconds: number | null;
+  speaks_of: string;
+  self_test: { queries: number; contradictions: number; complete: boolean } | null;
+  corpus: CorpusRow[] | null;
+  waivers: Waiver[];
+  worlds: { world: string; complete: boolean; classes: number | null; motions: number | null; counterexample: string | null }[];
+  speed: { what: string; median: number; lo: number; hi: number; limit: number | null }[];
+  digests: Record<string, string | null>;
+  replay: string[];
 }
 
 export interface Run {
@@ -140,6 +177,7 @@ export interface Run {
   canary: { fault: string; found_after: number | null } | null;
   faults: Fault[] | null;
   signatures: Record<string, number>;
+  certificate: Certificate | null;
   failures: Failure[];
 }
 
