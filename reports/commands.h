@@ -110,8 +110,11 @@ struct ReportRequest {
 };
 int run_report(const ReportRequest& request);
 
-// what: scenes, laws, faults, campaigns, failures (of the run stored in `folder`).
-int run_list(const std::string& what, const std::string& folder);
+struct ListRequest {
+  std::string what = "scenes";  // scenes, laws, faults, campaigns, failures
+  std::string folder;           // of a run, for failures
+};
+int run_list(const ListRequest& request);
 
 // "assay 0.1.0 (CGAL 5.5.1, GMP ..., ...)"
 std::string version_text();

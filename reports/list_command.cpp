@@ -77,7 +77,8 @@ int list_failures(const std::string& folder) {
 
 }  // namespace
 
-int run_list(const std::string& what, const std::string& folder) {
+int run_list(const ListRequest& request) {
+  const auto& [what, folder] = request;
   if (what == "failures") {
     return folder.empty() ? refuse("list failures needs the folder of a run")
                           : list_failures(folder);

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "corpus/case_file.h"
+#include "properties/campaign/clean_starts.h"
+#include "properties/generators/families.h"
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
@@ -32,6 +34,33 @@ TEST(Replay, ByFileTakesTheFilesOptions) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "view-point: holds")) << outcome.out;
   EXPECT_FALSE(contains(outcome.out, "bvh: ")) << outcome.out;
+}
+
+TEST(Replay, GivesTheStartAsTheCampaignDid) {
+  const std::string line = "\nas in the campaign, the detector is given its start as clean\n";
+  int told = 0, clean_but_even = 0, odd_but_not_clean = 0;
+  for (const std::string name : {"closed-generic", "broken"}) {
+    for (std::uint64_t index = 0; index < 6; ++index) {
+      const std::string id = "tiny:1:" + name + ":" + std::to_string(index);
+      SCOPED_TRACE(id);
+      bool clean = false;
+      for (const auto& family : properties::families()) {
+        if (family.name == name) clean = properties::starts_clean(make_case(family, id).c);
+      }
+      const bool odd = index % 2 == 1;
+      EXPECT_EQ(contains(run_assay("replay " + id).out, line), odd && clean);
+      told += odd && clean;
+      clean_but_even += !odd && clean;
+      odd_but_not_clean += odd && !clean;
+      if (told == 1 && odd && clean) {
+        EXPECT_FALSE(contains(
+            run_assay("replay " + id + " --detector " + plugin("wrapped_builtin")).out, line));
+      }
+    }
+  }
+  EXPECT_GT(told, 0);
+  EXPECT_GT(clean_but_even, 0);
+  EXPECT_GT(odd_but_not_clean, 0);
 }
 
 TEST(Replay, OfAPlugInShowsItsDefect) {

@@ -1,0 +1,45 @@
+// A small campaign as the tests of its parts run it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "properties/campaign/runner.h"
+#include "properties/faults/fault.h"
+
+namespace assay::properties::test {
+
+// Two strata, the second of half as many cases.
+inline CampaignRequest request_of(std::uint64_t cases, int jobs = 1, Shard shard = {}) {
+  CampaignRequest request;
+  request.plan.name = "test";
+  request.plan.strata = {{"closed-generic", cases, 0}, {"broken", cases / 2, 0}};
+  request.plan.seconds = 60;
+  request.plan.laws_every = 2;
+  request.seed = 3;
+  request.jobs = jobs;
+  request.shard = shard;
+  request.detector = built_in_detector();
+  request.worker = ASSAY_WORKER;
+  return request;
+}
+
+// The built-in detector with a fault in it, in the first configuration.
+inline CampaignRequest faulty(std::string_view name, std::uint64_t cases) {
+  auto request = request_of(cases);
+  const Fault* fault = find_fault(name);
+  EXPECT_TRUE(fault) << name;
+  request.detector.configurations = {{"faulty", fault->options, std::string(name)},
+                                     {"bvh", {detector::Culling::bvh}}};
+  request.plan.laws_every = 1;
+  return request;
+}
+
+inline RunDeadline in_a_minute() {
+  return std::chrono::steady_clock::now() + std::chrono::minutes(1);
+}
+
+}  // namespace assay::properties::test

@@ -1,0 +1,167 @@
+// What a campaign is to do: plans of files and of names, and what is refused of them.
+#include "properties/campaign/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "corpus/json_text.h"
+#include "properties/generators/families.h"
+#include "tests/reports/program.h"
+
+namespace assay::properties {
+namespace {
+
+using nlohmann::ordered_json;
+using tests::Scratch;
+
+const char* const whole_plan = R"({"schema": "assay-campaign/1", "name": "tiny-1.a",
+  "strata": [{"family": "closed-generic", "cases": 12, "bound": 0.5},
+             {"family": "broken", "cases": 5}],
+  "seconds": 30, "case_seconds": 2.5, "laws_every": 3, "law_premises": 4, "fault_cases": 7,
+  "fault_seeds": 2, "shrink_faults": true, "tetrahedron_seconds": 1.5, "shrink_share": 0.25})";
+
+class Plans : public testing::Test {
+ protected:
+  corpus::Expected<CampaignPlan> read(const std::string& text) const {
+    return find_plan(scratch.write("plan.json", text));
+  }
+  // The plan with one field changed (null: taken away) is refused, in one line that names the file
+  // and says why.
+  void expect_wrong(const char* pointer, const ordered_json& value, const std::string& why) const {
+    auto json = ordered_json::parse(whole_plan);
+    json[ordered_json::json_pointer(pointer)] = value;
+    SCOPED_TRACE(pointer + value.dump());
+    expect_refused(json.dump(), why);
+  }
+  void expect_refused(const std::string& text, const std::string& why) const {
+    const auto plan = read(text);
+    ASSERT_FALSE(plan);
+    const auto& message = plan.error().message;
+    EXPECT_NE(message.find("plan.json"), std::string::npos) << message;
+    EXPECT_NE(message.find(why), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+  Scratch scratch;
+};
+
+TEST_F(Plans, AFileSaysAllOfIt) {
+  const auto read_plan = read(whole_plan);
+  ASSERT_TRUE(read_plan) << read_plan.error().message;
+  const auto& plan = read_plan.value();
+  EXPECT_EQ(plan.name, "tiny-1.a");
+  ASSERT_EQ(plan.strata.size(), 2u);
+  EXPECT_EQ(plan.strata[0].family, "closed-generic");
+  EXPECT_EQ(plan.strata[0].cases, 12u);
+  EXPECT_EQ(plan.strata[0].wanted_bound, .5);
+  EXPECT_EQ(plan.strata[1].wanted_bound, 0);
+  EXPECT_EQ(plan.seconds, 30);
+  EXPECT_EQ(plan.case_seconds, 2.5);
+  EXPECT_EQ(plan.laws_every, 3u);
+  EXPECT_EQ(plan.law_premises, 4u);
+  EXPECT_EQ(plan.fault_cases, 7u);
+  EXPECT_EQ(plan.fault_seeds, 2);
+  EXPECT_TRUE(plan.shrink_faults);
+  EXPECT_EQ(plan.tetrahedron_seconds, 1.5);
+  EXPECT_EQ(plan.shrink_share, .25);
+}
+
+TEST_F(Plans, SurviveTheirText) {
+  auto plans = named_plans();
+  plans.push_back(read(whole_plan).value());
+  std::set<std::string> texts;
+  for (const auto& plan : plans) {
+    const std::string text = plan_text(plan);
+    const auto again = read(text);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(plan_text(again.value()), text);
+    EXPECT_EQ(again.value().strata.size(), plan.strata.size());
+    texts.insert(text);
+  }
+  EXPECT_EQ(texts.size(), plans.size());
+}
+
+TEST_F(Plans, EveryFieldIsPartOfTheText) {
+  const auto known = ordered_json::parse(plan_text(read(whole_plan).value()));
+  const auto stated = ordered_json::parse(whole_plan);
+  for (const auto& [key, value] : stated.items()) {
+    EXPECT_TRUE(known.contains(key)) << key;
+    if (key != "strata") {
+      EXPECT_EQ(known[key], value) << key;
+    }
+  }
+}
+
+TEST_F(Plans, AWrongFieldIsOneClearLine) {
+  expect_wrong("/schema", "assay-campaign/2", "assay-campaign/1 expected");
+  expect_wrong("/name", "", "name");
+  expect_wrong("/name", "a:b", "name");
+  expect_wrong("/name", "../up", "name");
+  expect_wrong("/name", "two words", "name");
+  expect_wrong("/name", 7, "name: a text expected");
+  expect_wrong("/strata", 7, "strata: an array expected");
+  expect_wrong("/strata/0", 7, "strata[0]");
+  expect_wrong("/strata/0/family", "closed", "strata[0].family: no family of this name");
+  expect_wrong("/strata/1/family", "closed-generic", "strata[1].family: this family is there");
+  expect_wrong("/strata/0/cases", -1, "strata[0].cases");
+  expect_wrong("/strata/0/cases", 1.5, "strata[0].cases: a whole number expected");
+  expect_wrong("/strata/0/cases", 1'000'000'001, "strata[0].cases");
+  expect_wrong("/strata/0/bound", 1, "strata[0].bound: 0 <= bound < 1");
+  expect_wrong("/strata/0/bound", -.1, "strata[0].bound");
+  expect_wrong("/strata/0/bounds", .1, "strata[0]: no field 'bounds'");
+  expect_wrong("/seconds", 0, "seconds above 0");
+  expect_wrong("/seconds", -1, "seconds: a number of at least 0");
+  expect_wrong("/seconds", "ten", "seconds: a number expected");
+  expect_wrong("/second", 10, "no field 'second'");
+  expect_wrong("/case_seconds", 0, "case_seconds above 0");
+  expect_wrong("/shrink_share", 1.5, "shrink_share");
+  expect_wrong("/shrink_faults", 1, "shrink_faults: true or false");
+  expect_wrong("/laws_every", -1, "laws_every");
+  expect_wrong("/law_premises", "many", "law_premises");
+  expect_wrong("/fault_seeds", 0, "fault_cases and fault_seeds");
+  expect_wrong("/fault_cases", 0, "fault_cases and fault_seeds");
+  expect_wrong("/tetrahedron_seconds", -1, "tetrahedron_seconds");
+  expect_refused("{\"schema\": ", "plan.json");
+  expect_refused("[]", "an object expected");
+  expect_refused("", "empty");
+  for (const char* key : {"schema", "name", "strata"}) {
+    auto json = ordered_json::parse(whole_plan);
+    json.erase(key);
+    expect_refused(json.dump(), std::string(key) + " is missing");
+  }
+  auto without = ordered_json::parse(whole_plan);
+  without.erase("seconds");
+  expect_refused(without.dump(), "seconds above 0");
+  expect_refused(
+      R"({"schema": "assay-campaign/1", "name": "a", "strata": [{"family": "broken", "cases": 0}],
+          "seconds": 1})",
+      "nothing to do");
+}
+
+TEST_F(Plans, NamedOnesListKnownFamiliesOnce) {
+  std::set<std::string> names;
+  for (const auto& plan : named_plans()) {
+    names.insert(plan.name);
+    std::set<std::string> families_of_plan;
+    for (const auto& stratum : plan.strata) {
+      const auto known = families();
+      EXPECT_TRUE(std::any_of(known.begin(), known.end(), [&](const Family& f) {
+        return f.name == stratum.family;
+      })) << stratum.family;
+      families_of_plan.insert(stratum.family);
+    }
+    EXPECT_EQ(families_of_plan.size(), plan.strata.size());
+    EXPECT_LE(plan.strata.size(), 24u);
+    EXPECT_GT(plan.seconds, 0);
+    EXPECT_FALSE(plan.about.empty());
+    EXPECT_EQ(find_plan(plan.name).value().seconds, plan.seconds);
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"smoke", "quick", "nightly", "release", "faults"}));
+  const auto missing = find_plan("no-such-campaign");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("no-such-campaign"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace assay::properties

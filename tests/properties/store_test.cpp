@@ -1,0 +1,173 @@
+// The store of a campaign: what is kept, across kills and damage, and whose it is.
+#include "properties/campaign/store.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tests/reports/program.h"
+
+namespace assay::properties {
+namespace {
+
+using tests::Scratch;
+
+class Stores : public testing::Test {
+ protected:
+  Scratch scratch;
+  std::string file = scratch / "trials.sqlite";
+  Store open(const std::string& binding = "one") const {
+    std::string problem;
+    auto store = Store::open(file, binding, problem);
+    EXPECT_TRUE(store) << problem;
+    return std::move(*store);
+  }
+  static std::string problem_of_open(const std::string& path, const std::string& binding) {
+    std::string problem;
+    EXPECT_FALSE(Store::open(path, binding, problem));
+    EXPECT_NE(problem.find(path), std::string::npos) << problem;
+    EXPECT_EQ(problem.find('\n'), std::string::npos) << problem;
+    return problem;
+  }
+  static std::string problem_of_read(const std::string& path) {
+    std::string problem;
+    EXPECT_FALSE(Store::read(path, problem));
+    EXPECT_NE(problem.find(path), std::string::npos) << problem;
+    return problem;
+  }
+  static StoredFailure failure(const std::string& id, const std::string& signature) {
+    return {id, "view-point", signature, "what", "mesh of " + id, "", false};
+  }
+  static TrialRecord record(std::uint64_t i) {
+    return {"p:1:broken:" + std::to_string(i), "broken", i, "HD", 1, 2, 3, 4, 5, 6, {{"tag:x", i}}};
+  }
+};
+
+TEST_F(Stores, KeepWhatIsAdded) {
+  {
+    Store store = open();
+    for (const std::uint64_t i : {10u, 2u, 0u}) store.add(record(i));
+    store.add(failure("b", "s"));
+    auto shown = failure("a", "s");
+    shown.flaky = true;
+    store.add(shown);
+    shown.smallest = "small";
+    store.set_smallest(shown);
+    store.count_signature("s");
+    store.count_signature("s");
+    store.count_signature("t");
+    store.set_note("key", "old");
+    store.set_note("key", "new");
+  }
+  const Store store = open();
+  std::vector<std::uint64_t> places;
+  store.for_each_trial([&](const TrialRecord& r) {
+    places.push_back(r.index);
+    const auto expected = record(r.index);
+    EXPECT_EQ(r.id, expected.id);
+    EXPECT_EQ(r.family, "broken");
+    EXPECT_EQ(r.outcomes, "HD");
+    EXPECT_EQ(r.triangles, 1u);
+    EXPECT_EQ(r.steps, 2u);
+    EXPECT_EQ(r.collisions, 3u);
+    EXPECT_EQ(r.pairs, 4u);
+    EXPECT_EQ(r.oracle_us, 5u);
+    EXPECT_EQ(r.detector_us, 6u);
+    EXPECT_EQ(r.counts, expected.counts);
+  });
+  EXPECT_EQ(places, (std::vector<std::uint64_t>{0, 2, 10}));
+  EXPECT_EQ(store.trial_count(), 3u);
+  EXPECT_TRUE(store.has_trial("p:1:broken:2"));
+  EXPECT_FALSE(store.has_trial("p:1:broken:1"));
+  const auto failures = store.failures();
+  ASSERT_EQ(failures.size(), 2u);
+  EXPECT_EQ(failures[0].id, "a");
+  EXPECT_EQ(failures[0].smallest, "small");
+  EXPECT_TRUE(failures[0].flaky);
+  EXPECT_EQ(failures[1].id, "b");
+  EXPECT_EQ(failures[1].mesh, "mesh of b");
+  EXPECT_TRUE(failures[1].smallest.empty());
+  EXPECT_FALSE(failures[1].flaky);
+  EXPECT_EQ(store.signatures(), (Counts{{"s", 2}, {"t", 1}}));
+  EXPECT_EQ(store.note("key"), "new");
+  EXPECT_EQ(store.note("none"), std::nullopt);
+  EXPECT_EQ(store.binding(), "one");
+}
+
+TEST_F(Stores, TheSameTrialAgainCountsOnce) {
+  Store store = open();
+  store.add(record(1));
+  store.add(record(1));
+  store.add(failure("a", "s"));
+  store.add(failure("a", "s"));
+  EXPECT_EQ(store.trial_count(), 1u);
+  EXPECT_EQ(store.failures().size(), 1u);
+}
+
+TEST_F(Stores, ATrialIsStoredWithItsFailuresOrNotAtAll) {
+  // A process that is killed at once after each of its trials: nothing of them is lost or half
+  // there.
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      Store store = open();
+      store.add(record(i), {failure("f" + std::to_string(i), "s")}, {"s", "s"});
+      raise(SIGKILL);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    const Store store = open();
+    EXPECT_EQ(store.trial_count(), i + 1);
+    EXPECT_EQ(store.failures().size(), i + 1);
+    EXPECT_EQ(store.signatures(), (Counts{{"s", 2 * (i + 1)}}));
+  }
+}
+
+TEST_F(Stores, OfAnotherRunAreRefused) {
+  { open("one"); }
+  EXPECT_NE(problem_of_open(file, "two").find("another run"), std::string::npos);
+  EXPECT_EQ(open("one").binding(), "one");
+}
+
+TEST_F(Stores, AreForOneRunAtATime) {
+  const Store store = open();
+  EXPECT_NE(problem_of_open(file, "one").find("another run is writing it"), std::string::npos);
+  std::string problem;
+  EXPECT_TRUE(Store::read(file, problem)) << problem;
+}
+
+TEST_F(Stores, ThatAreNoneAreRefused) {
+  EXPECT_NE(problem_of_read(file).find("no such file"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(file));
+  const auto text = scratch.write("text.sqlite", std::string(5000, 'x'));
+  EXPECT_NE(problem_of_open(text, "one").find("not a database"), std::string::npos);
+  EXPECT_NE(problem_of_read(text).find("not a database"), std::string::npos);
+  EXPECT_EQ(tests::read_text(text), std::string(5000, 'x'));
+  // A database of somebody else, and one without anything, are read by nobody and left alone.
+  const auto empty = scratch.write("empty.sqlite", "");
+  problem_of_read(empty);
+  EXPECT_EQ(std::filesystem::file_size(empty), 0u);
+  problem_of_open(scratch / "no/such/folder.sqlite", "one");
+  std::filesystem::create_directory(scratch / "folder.sqlite");
+  problem_of_open(scratch / "folder.sqlite", "one");
+}
+
+TEST_F(Stores, DamageIsSeen) {
+  {
+    Store store = open();
+    for (std::uint64_t i = 0; i < 400; ++i) store.add(record(i));
+  }
+  const std::string whole = tests::read_text(file);
+  ASSERT_GT(whole.size(), 20'000u);
+  std::string hole = whole;
+  std::fill(hole.begin() + 8192, hole.begin() + 16384, '\x5a');
+  problem_of_open(scratch.write("hole.sqlite", hole), "one");
+  problem_of_open(scratch.write("cut.sqlite", whole.substr(0, whole.size() / 2)), "one");
+}
+
+}  // namespace
+}  // namespace assay::properties

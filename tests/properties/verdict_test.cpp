@@ -1,0 +1,178 @@
+// Verdicts on hand-made runs of a case.
+#include <gtest/gtest.h>
+
+#include "properties/campaign/runner.h"
+#include "properties/case_check.h"
+#include "tests/properties/small_case.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Answer;
+using detector::Culling;
+using detector::Pairs;
+using detector::Start;
+
+class Verdicts : public testing::Test {
+ protected:
+  Verdicts() {
+    for (std::uint64_t i = 0; truth.empty() || truth[0].pairs.size() < 2; ++i) {
+      c = test::small_case(7, i);
+      truth = judge_case(c);
+    }
+    right = run_case(c, configuration);
+    plugin.name = "plug-in";
+    plugin.built_in = false;
+    plugin.claims = claims_of({});
+    plugin.configurations = {configuration};
+  }
+  Verdict judge(const CaseRun& run, const DetectorUnderTest& detector,
+                const CaseRun* again = nullptr) const {
+    return judge_trial(c, truth, run, configuration, detector, again);
+  }
+  static CaseRun ended(RunEnd end, const std::string& what) { return {end, what, {}}; }
+  void expect_failure(const CaseRun& run, const DetectorUnderTest& detector, Claim claim,
+                      const std::string& signature) const {
+    const auto verdict = judge(run, detector);
+    EXPECT_EQ(verdict.outcome, Outcome::defect);
+    ASSERT_TRUE(verdict.failure);
+    EXPECT_EQ(verdict.failure->claim, claim) << name_of(verdict.failure->claim);
+    EXPECT_EQ(verdict.failure->signature(), signature);
+    EXPECT_EQ(verdict.failure->configuration, "bvh");
+    EXPECT_EQ(verdict.failure->step, 0u);
+    EXPECT_FALSE(verdict.failure->what.empty());
+    EXPECT_EQ(verdict.failure->what.find('\n'), std::string::npos);
+  }
+  std::string feature_of_first() const { return name_of(truth[0].pairs[0].feature.kind); }
+
+  corpus::Case c;
+  std::vector<oracle::StepJudgement> truth;
+  CaseRun right;
+  Configuration configuration{"bvh", {Culling::bvh, Start::verified, Pairs::all}};
+  DetectorUnderTest built_in = built_in_detector(), plugin;
+};
+
+TEST_F(Verdicts, ARightRunHolds) {
+  for (const auto* detector : {&built_in, &plugin}) {
+    const auto verdict = judge(right, *detector, &right);
+    EXPECT_EQ(verdict.outcome, Outcome::holds);
+    EXPECT_FALSE(verdict.failure);
+  }
+}
+
+TEST_F(Verdicts, ACrashBreaksTotal) {
+  const auto crash = ended(RunEnd::crashed, "killed by signal 11 (Segmentation fault)");
+  for (const auto* detector : {&built_in, &plugin}) {
+    expect_failure(crash, *detector, Claim::total, "total: crashed");
+    EXPECT_EQ(judge(crash, *detector).failure->what, crash.what);
+  }
+  plugin.claims.total = false;
+  EXPECT_EQ(judge(crash, plugin).outcome, Outcome::error);
+  EXPECT_FALSE(judge(crash, plugin).failure);
+}
+
+TEST_F(Verdicts, ARefusalOfAValidMeshBreaksTotal) {
+  expect_failure(ended(RunEnd::refused, "too many"), plugin, Claim::total, "total: refused");
+  c.expected.answer = Answer::error;
+  EXPECT_EQ(judge(ended(RunEnd::refused, "as it must"), plugin).outcome, Outcome::holds);
+}
+
+TEST_F(Verdicts, AHangIsUndecided) {
+  for (const auto end : {RunEnd::hung, RunEnd::out_of_memory}) {
+    EXPECT_EQ(judge(ended(end, "no answer in 10 s"), plugin).outcome, Outcome::undecided);
+    EXPECT_FALSE(judge(ended(end, "no answer in 10 s"), built_in).failure);
+  }
+  EXPECT_EQ(judge(ended(RunEnd::not_run, "no worker"), plugin).outcome, Outcome::error);
+}
+
+TEST_F(Verdicts, AMissingPair) {
+  auto wrong = right;
+  wrong.steps[0].pairs.erase(wrong.steps[0].pairs.begin());
+  // The stage is found by running the built-in again, which has no fault here: the last one.
+  expect_failure(
+      wrong, built_in, Claim::all_pairs,
+      "all-pairs: missing at " +
+          stage_that_lost(c.triangles, c.frames[0], c.frames[1], truth[0].pairs[0].pair) + ", " +
+          feature_of_first());
+  expect_failure(wrong, plugin, judge(wrong, plugin).failure->claim,
+                 std::string(name_of(judge(wrong, plugin).failure->claim)) + ": missing, " +
+                     feature_of_first());
+  const auto verdict = judge(wrong, plugin);
+  EXPECT_EQ(verdict.failure->pair, truth[0].pairs[0].pair);
+}
+
+TEST_F(Verdicts, FreeAgainstAContact) {
+  auto wrong = right;
+  wrong.steps[0].answer = Answer::free;
+  wrong.steps[0].pairs.clear();
+  expect_failure(wrong, plugin, Claim::free_sound, "free-sound: missing, " + feature_of_first());
+}
+
+TEST_F(Verdicts, ALatePair) {
+  auto wrong = right;
+  auto& contact = wrong.steps[0].pairs[0];
+  if (contact.time.hi == 1) GTEST_FAIL() << "choose a case whose first pair meets before t = 1";
+  contact.time = {1, 1};
+  const auto failure = judge(wrong, built_in).failure;
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->kind, "late");
+  EXPECT_EQ(failure->pair, contact.pair);
+  EXPECT_NE(failure->what.find("oracle"), std::string::npos);
+  EXPECT_EQ(failure->signature(), std::string(name_of(failure->claim)) + ": late");
+}
+
+TEST_F(Verdicts, ASpuriousPair) {
+  corpus::Case quiet;
+  for (std::uint64_t i = 0;; ++i) {
+    quiet = test::small_case(9, i);
+    if (judge_case(quiet)[0].pairs.empty() && quiet.triangles.rows() > 1) break;
+  }
+  c = quiet;
+  truth = judge_case(c);
+  auto wrong = run_case(c, configuration);
+  ASSERT_EQ(judge(wrong, plugin).outcome, Outcome::holds);
+  wrong.steps[0].answer = Answer::collision;
+  wrong.steps[0].first = {0, 1};
+  detector::PairContact contact;
+  contact.pair = {0, 1};
+  contact.time = {0, 1};
+  wrong.steps[0].pairs = {contact};
+  const auto failure = judge(wrong, plugin).failure;
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->kind, "spurious");
+  EXPECT_EQ(failure->pair, (detector::TrianglePair{0, 1}));
+}
+
+TEST_F(Verdicts, TwoRunsThatDiffer) {
+  auto other = right;
+  ++other.steps[0].counts.closure_rounds;
+  ASSERT_FALSE(same_answers(right, other));
+  const auto verdict = judge(right, plugin, &other);
+  EXPECT_EQ(verdict.outcome, Outcome::defect);
+  ASSERT_TRUE(verdict.failure);
+  EXPECT_EQ(verdict.failure->signature(), "deterministic: two runs differ");
+  plugin.claims.deterministic = false;
+  EXPECT_EQ(judge(right, plugin, &other).outcome, Outcome::holds);
+}
+
+TEST_F(Verdicts, TheCaseOfAFailureSaysWhatItIs) {
+  c.id = "test:1:broken:7";
+  auto wrong = right;
+  wrong.steps[0].pairs.erase(wrong.steps[0].pairs.begin());
+  const auto failure = judge(wrong, built_in).failure;
+  ASSERT_TRUE(failure);
+  const auto failing = failing_case(c, configuration, built_in, *failure);
+  EXPECT_EQ(failing.id, "test-1-broken-7");
+  EXPECT_EQ(failing.source, "campaign case test:1:broken:7, detector built-in, bvh");
+  EXPECT_NE(failing.about.find(failure->signature()), std::string::npos);
+  EXPECT_EQ(options_of(failing).culling, Culling::bvh);
+  EXPECT_EQ(options_of(failing).pairs, Pairs::all);
+  const auto again = corpus::parse_case(corpus::case_text(failing), "again");
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again.value().frames, c.frames);
+  EXPECT_EQ(again.value().triangles, c.triangles);
+  EXPECT_TRUE(failing_case(c, configuration, plugin, *failure).options.empty());
+}
+
+}  // namespace
+}  // namespace assay::properties
