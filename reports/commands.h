@@ -104,6 +104,12 @@ struct BenchRequest {
 bool is_bench_suite(std::string_view name);
 int run_bench(const BenchRequest& request);
 
+struct ReportRequest {
+  std::vector<std::string> folders;  // of runs, oldest first
+  std::string out;                   // one HTML file
+};
+int run_report(const ReportRequest& request);
+
 struct ListRequest {
   std::string what = "scenes";  // scenes, laws, faults, campaigns, failures
   std::string folder;           // of a run, for failures

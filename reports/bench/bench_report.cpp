@@ -78,10 +78,40 @@ std::string text_of(const BenchReport& report) {
                         measured, row.wanted ? text_of(*row.wanted) : "-", name_of(row.outcome()),
                         row.note.empty() ? "" : "  " + row.note);
   }
-  if (!report.variants.empty()) text += fmt::format("\n{}\n", text_of(std::span(report.variants)));
+  if (!report.variants.empty()) {
+    text += fmt::format("\n{}\n{}\n", families_text(report.families),
+                        text_of(std::span(report.variants)));
+  }
   for (const auto& line : report.wrong_answers) text += "WRONG ANSWER: " + line + "\n";
   return text;
 }
+
+namespace {
+
+Json heat_json(const std::vector<StabilityCell>& heat) {
+  Json cells = Json::array();
+  for (const auto& c : heat) {
+    cells.push_back({{"family", c.family},
+                     {"arithmetic", c.arithmetic},
+                     {"strength", c.strength},
+                     {"exponent", c.touches ? Json() : Json(c.exponent)},
+                     {"knob", c.knob},
+                     {"cases", c.cases},
+                     {"right", c.right},
+                     {"share_right", c.share_right()},
+                     {"exactly_right", c.exactly_right},
+                     {"missed", c.missed},
+                     {"late", c.late},
+                     {"early", c.early},
+                     {"spurious", c.spurious},
+                     {"wrong_signs", c.wrong_signs},
+                     {"time_errors", c.time_errors},
+                     {"time_errors_ulps", c.time_errors_ulps}});
+  }
+  return cells;
+}
+
+}  // namespace
 
 Json to_json(const BenchReport& report) {
   Json rows = Json::array(), scatter = Json::array();
@@ -113,6 +143,7 @@ Json to_json(const BenchReport& report) {
           {"suite", report.suite},
           {"rows", rows},
           {"scatter", scatter},
+          {"heat", heat_json(report.heat)},
           {"variants", to_json(std::span(report.variants))},
           {"families", to_json(std::span(report.families))},
           {"wrong_answers", report.wrong_answers}};

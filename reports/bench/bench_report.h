@@ -9,6 +9,7 @@
 
 #include "reports/bench/error_summary.h"
 #include "reports/bench/estimate.h"
+#include "reports/bench/stability_cell.h"
 
 namespace assay::reports {
 
@@ -58,6 +59,7 @@ struct BenchReport {
   std::vector<std::string> wrong_answers;
   std::vector<ScatterPoint> scatter;
   std::vector<GrowthPoint> growth;  // by what, then by triangles
+  std::vector<StabilityCell> heat;  // of suite stability
   // Of suite speed-error.
   std::vector<JudgedStep> steps;
   std::vector<FamilySummary> families;

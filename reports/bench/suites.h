@@ -33,6 +33,8 @@ BenchReport view_suite(const BenchSettings& settings, Progress& progress);
 BenchReport growth_suite(const BenchSettings& settings, Progress& progress);
 // What the thesis says of costs, the whole step against culling bvh, the break-even share of V+.
 BenchReport claims_suite(const BenchSettings& settings, Progress& progress);
+// Where each arithmetic breaks, in the corpus's hard families.
+BenchReport stability_suite(const BenchSettings& settings, Progress& progress);
 // Every arithmetic, culling and kind of pairs on the same steps: time, and error against the
 // oracle.
 BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress);
