@@ -31,7 +31,7 @@ std::string tics(const char* axis, const std::vector<std::string>& names) {
 // Colours run from dark (never right) to light (always): told apart by lightness alone.
 constexpr const char* palette =
     "set palette defined (0 '#2d1160', 0.5 '#b5367a', 0.8 '#fb8761', 1 '#fcfdda')\n";
-constexpr double dark_below = 0.6;  // where words must be light
+constexpr double dark_below = 0.7;  // where words must be light
 
 std::string words_of(const Total& total) {
   const double share = static_cast<double>(total.right) / total.cases;
