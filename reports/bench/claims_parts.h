@@ -35,6 +35,9 @@ void count_traversals_of_free_steps(const BenchSettings& settings, BenchReport& 
 void time_whole_steps(const std::vector<NamedStep>& steps, bool has_rod_twist,
                       const BenchSettings& settings, BenchReport& report);
 
+// thick-cloth and codim-ipc-kick: candidates and times of view-auto beside those of bvh.
+void compare_on_unclosed_data(const BenchSettings& settings, BenchReport& report);
+
 // The scatter of time over bvh's against the share of V+, and the break-even share. rod_twist: may
 // be null.
 void measure_break_even(const NamedStep* rod_twist, const BenchSettings& settings,

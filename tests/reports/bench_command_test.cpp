@@ -254,7 +254,8 @@ TEST_F(Suites, Claims) {
   for (const char* row :
        {"box tests of the vBVHs over bvh's, dented-sphere", "box tests with skipping over without",
         "time of a child count over a box test", "marking's share of a step, crumpling-sphere",
-        "looks at the tree in free steps, view-line", "rod-twist", "exact over double, whole step",
+        "looks at the tree in free steps, view-line", "rod-twist", "unclosed, thick-cloth",
+        "unclosed, codim-ipc-kick", "exact over double, whole step",
         "largest time over bvh's, view-line",
         "break-even share of V+, view-point, last crossing"}) {
     EXPECT_TRUE(has(report, row)) << row;
