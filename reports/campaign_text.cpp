@@ -14,7 +14,11 @@ using properties::FaultStatus;
 
 double bound_of(const properties::StratumTally::Outcomes& outcomes,
                 const properties::CampaignRequest& request) {
-  const auto bounds = request.plan.strata.size() * request.detector.configurations.size();
+  // Every claim is counted (certificate/strata_section.cpp).
+  std::uint64_t claims = 0;
+  for (const auto& configuration : request.detector.configurations)
+    claims += properties::list_of(request.detector.claims_in(configuration)).size();
+  const auto bounds = request.plan.strata.size() * claims;
   const auto trials = outcomes.holds + outcomes.defects + outcomes.undecided + outcomes.errors;
   return upper_bound(trials - outcomes.holds, trials, risk_of_each(bounds));
 }

@@ -255,6 +255,30 @@ void add_shrink(CLI::App& app, reports::ShrinkRequest& request) {
   verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
 }
 
+void add_merge(CLI::App& app, reports::MergeRequest& request) {
+  auto* verb = app.add_subcommand("merge", "The stores of several shards become one");
+  verb->add_option("folders", request.folders, "Folders of `assay run`, or of `assay merge`")
+      ->required();
+  verb->add_option("--out", request.out, "Folder for merged.sqlite and the failing meshes")
+      ->required();
+}
+
+void add_certify(CLI::App& app, reports::CertifyRequest& request) {
+  auto* verb = app.add_subcommand(
+      "certify", "Corpus, campaign, planted faults, self-test, speed: a certificate, or a defect");
+  verb->add_option("--campaign", request.campaign,
+                   "smoke, quick, nightly, release, or a campaign file (.json)")
+      ->capture_default_str();
+  verb->add_option("--seed", request.seed, "Of all random cases; a fresh one a night")
+      ->check(whole_number())
+      ->capture_default_str();
+  verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
+  verb->add_option("--out", request.out,
+                   "Folder for the certificate; shards that it holds are taken")
+      ->required();
+  add_jobs(verb, request.jobs);
+}
+
 void add_bench(CLI::App& app, reports::BenchRequest& request) {
   const char* data = std::getenv("ASSAY_DATA");
   request.data = data && *data ? data : "../shared/data";
@@ -285,6 +309,8 @@ int run(int argc, char** argv) {
   reports::ReplayRequest replay;
   reports::ShrinkRequest shrink;
   reports::BenchRequest bench;
+  reports::MergeRequest merge;
+  reports::VerifyRequest verify;
   std::string listed = "scenes", listed_folder;
   check.jobs = certify.jobs = self_test.jobs = campaign.jobs =
       static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -296,14 +322,14 @@ int run(int argc, char** argv) {
   add_replay(app, replay);
   add_shrink(app, shrink);
   add_bench(app, bench);
+  add_merge(app, merge);
   auto* list = app.add_subcommand("list", "List scenes, laws, faults, campaigns, or failures");
   list->add_option("what", listed, "scenes, laws, faults, campaigns, failures")
       ->check(CLI::IsMember({"scenes", "laws", "faults", "campaigns", "failures"}));
   list->add_option("folder", listed_folder, "Of a run, for failures");
-  auto* certify_verb =
-      app.add_subcommand("certify", "The shipped corpus and scenes through detector and oracle");
-  certify_verb->add_option("--out", certify.out, "Folder for certify.json")->required();
-  add_jobs(certify_verb, certify.jobs);
+  add_certify(app, certify);
+  auto* verify_verb = app.add_subcommand("verify", "A certificate against the files beside it");
+  verify_verb->add_option("certificate", verify.certificate, "OUT/certificate.json")->required();
 
   try {
     app.parse(argc, argv);
@@ -329,6 +355,8 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("run")) return reports::run_campaign(campaign);
   if (app.got_subcommand("self-test")) return reports::run_self_test(self_test);
   if (app.got_subcommand("replay")) return reports::run_replay(replay);
+  if (app.got_subcommand("verify")) return reports::run_verify(verify);
+  if (app.got_subcommand("merge")) return reports::run_merge(merge);
   if (app.got_subcommand("bench")) return reports::run_bench(bench);
   if (app.got_subcommand("shrink")) return reports::run_shrink(shrink);
   return reports::run_list(listed, listed_folder);

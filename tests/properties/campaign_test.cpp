@@ -8,6 +8,7 @@
 #include <set>
 
 #include "corpus/json_text.h"
+#include "properties/campaign/binding.h"
 #include "properties/campaign/campaign_facts.h"
 #include "properties/campaign/case_tally.h"
 #include "properties/campaign/runner.h"
@@ -34,7 +35,8 @@ const char* const whole_plan = R"({"schema": "assay-campaign/1", "name": "tiny-1
   "strata": [{"family": "closed-generic", "cases": 12, "bound": 0.5},
              {"family": "broken", "cases": 5}],
   "seconds": 30, "case_seconds": 2.5, "laws_every": 3, "law_premises": 4, "fault_cases": 7,
-  "fault_seeds": 2, "shrink_faults": true, "tetrahedron_seconds": 1.5, "shrink_share": 0.25})";
+  "fault_seeds": 2, "shrink_faults": true, "tetrahedron_seconds": 1.5, "shrink_share": 0.25,
+  "policy": {"power": 0.5, "self_test_queries": 9, "speed_limits": {"exact-over-double": 1.5}}})";
 
 class Plans : public testing::Test {
  protected:
@@ -79,6 +81,11 @@ TEST_F(Plans, AFileSaysAllOfIt) {
   EXPECT_TRUE(plan.shrink_faults);
   EXPECT_EQ(plan.tetrahedron_seconds, 1.5);
   EXPECT_EQ(plan.shrink_share, .25);
+  EXPECT_EQ(plan.policy.power, .5);
+  EXPECT_EQ(plan.policy.self_test_queries, 9u);
+  ASSERT_EQ(plan.policy.speed_limits.size(), 1u);
+  EXPECT_EQ(plan.policy.speed_limits[0].what, "exact-over-double");
+  EXPECT_EQ(plan.policy.speed_limits[0].limit, 1.5);
 }
 
 TEST_F(Plans, SurviveTheirText) {
@@ -136,6 +143,14 @@ TEST_F(Plans, AWrongFieldIsOneClearLine) {
   expect_wrong("/fault_seeds", 0, "fault_cases and fault_seeds");
   expect_wrong("/fault_cases", 0, "fault_cases and fault_seeds");
   expect_wrong("/tetrahedron_seconds", -1, "tetrahedron_seconds");
+  expect_wrong("/policy", 1, "policy: an object expected");
+  expect_wrong("/policy/power", 0, "policy.power: 0 < power <= 1");
+  expect_wrong("/policy/power", 1.01, "policy.power");
+  expect_wrong("/policy/powers", 1, "policy: no field 'powers'");
+  expect_wrong("/policy/self_test_queries", -1, "policy.self_test_queries");
+  expect_wrong("/policy/speed_limits", 2, "policy.speed_limits: an object expected");
+  expect_wrong("/policy/speed_limits/slow", 2, "policy.speed_limits: no figure 'slow'");
+  expect_wrong("/policy/speed_limits/exact-over-double", 0, "speed_limits.exact-over-double");
   expect_refused("{\"schema\": ", "plan.json");
   expect_refused("[]", "an object expected");
   expect_refused("", "empty");
@@ -275,7 +290,8 @@ class Stores : public testing::Test {
     return {id, "view-point", signature, "what", "mesh of " + id, "", false};
   }
   static TrialRecord record(std::uint64_t i) {
-    return {"p:1:broken:" + std::to_string(i), "broken", i, "HD", 1, 2, 3, 4, 5, 6, {{"tag:x", i}}};
+    return {
+        "p:1:broken:" + std::to_string(i), "broken", i, "HD", 1, 2, 3, 4, 5, 6, {{"tag:x", i}}, ~i};
   }
 };
 
@@ -289,9 +305,7 @@ TEST_F(Stores, KeepWhatIsAdded) {
     store.add(shown);
     shown.smallest = "small";
     store.set_smallest(shown);
-    store.count_signature("s");
-    store.count_signature("s");
-    store.count_signature("t");
+    store.add(record(7), {}, {{"one", "s"}, {"two", "s"}, {"three", "t"}});
     store.set_note("key", "old");
     store.set_note("key", "new");
   }
@@ -310,9 +324,10 @@ TEST_F(Stores, KeepWhatIsAdded) {
     EXPECT_EQ(r.oracle_us, 5u);
     EXPECT_EQ(r.detector_us, 6u);
     EXPECT_EQ(r.counts, expected.counts);
+    EXPECT_EQ(r.mesh, expected.mesh);
   });
-  EXPECT_EQ(places, (std::vector<std::uint64_t>{0, 2, 10}));
-  EXPECT_EQ(store.trial_count(), 3u);
+  EXPECT_EQ(places, (std::vector<std::uint64_t>{0, 2, 7, 10}));
+  EXPECT_EQ(store.trial_count(), 4u);
   EXPECT_TRUE(store.has_trial("p:1:broken:2"));
   EXPECT_FALSE(store.has_trial("p:1:broken:1"));
   const auto failures = store.failures();
@@ -347,7 +362,7 @@ TEST_F(Stores, ATrialIsStoredWithItsFailuresOrNotAtAll) {
     const pid_t child = fork();
     if (child == 0) {
       Store store = open();
-      store.add(record(i), {failure("f" + std::to_string(i), "s")}, {"s", "s"});
+      store.add(record(i), {failure("f" + std::to_string(i), "s")}, {{"one", "s"}, {"two", "s"}});
       raise(SIGKILL);
     }
     int status = 0;
