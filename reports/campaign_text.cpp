@@ -90,9 +90,10 @@ std::string distribution_text(const properties::Tally& tally) {
   std::string out;
   for (const auto& [family, t] : tally.strata) {
     out += fmt::format(
-        "{}: {} steps of {} cases, {:.0f} % collide\n  triangles {}\n  pairs in "
+        "{}: {} steps of {} cases ({} distinct, {} discarded), {:.0f} % collide\n  triangles {}\n  "
+        "pairs in "
         "contact {}\n",
-        family, t.steps, t.trials,
+        family, t.steps, t.trials, t.meshes.size(), t.discards,
         t.steps ? 100.0 * static_cast<double>(t.collisions) / static_cast<double>(t.steps) : 0.0,
         histogram(t.sizes), histogram(t.contacts));
   }

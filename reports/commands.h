@@ -65,7 +65,7 @@ struct CertifyRequest {
 int run_certify(const CertifyRequest& request);
 
 struct VerifyRequest {
-  std::string certificate;
+  std::vector<std::string> certificates;  // several: nights, pooled
 };
 int run_verify(const VerifyRequest& request);
 

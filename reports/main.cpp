@@ -329,7 +329,10 @@ int run(int argc, char** argv) {
   list->add_option("folder", listed_folder, "Of a run, for failures");
   add_certify(app, certify);
   auto* verify_verb = app.add_subcommand("verify", "A certificate against the files beside it");
-  verify_verb->add_option("certificate", verify.certificate, "OUT/certificate.json")->required();
+  verify_verb
+      ->add_option("certificate", verify.certificates,
+                   "OUT/certificate.json; several nights of one detector are pooled")
+      ->required();
 
   try {
     app.parse(argc, argv);

@@ -6,6 +6,7 @@
 #include "properties/campaign/binding.h"
 #include "properties/worker/worker_process.h"
 #include "reports/campaign_run.h"
+#include "reports/certificate/run_report.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"
 #include "reports/detector_choice.h"
@@ -142,6 +143,7 @@ int run_campaign(const RunCommandRequest& command) {
     CampaignResults results;
     if (const auto wrong = run_phases(request, *store, command.out, results))
       return refuse(*wrong + go_on);
+    if (const auto wrong = write_run_report(request, command.out)) return refuse(*wrong);
     return Conclusion(command, request, results).conclude();
   } catch (const properties::StoreProblem& broken) {
     return refuse(std::string(broken.what()) + go_on);

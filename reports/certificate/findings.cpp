@@ -59,6 +59,10 @@ class Reader {
     std::error_code ignored;
     if (std::filesystem::exists(checks_file(folder), ignored)) files.push_back(checks_file(folder));
     std::sort(files.begin(), files.end());
+    return read(files);
+  }
+
+  Findings read(const std::vector<std::filesystem::path>& files) {
     for (const auto& file : files) add(file);
     for (auto& [kind, list] : found_.evidence) {
       std::sort(list.begin(), list.end(), [](const Evidence& a, const Evidence& b) {
@@ -183,16 +187,30 @@ std::filesystem::path checks_file(const std::filesystem::path& out) {
   return out / "checks.sqlite";
 }
 
-std::optional<Findings> read_findings(const std::filesystem::path& folder, std::string& problem) {
+namespace {
+
+template <class Source>
+std::optional<Findings> read_from(const Source& source, const std::filesystem::path& name,
+                                  std::string& problem) {
   try {
-    return Reader().read(folder);
+    return Reader().read(source);
   } catch (const StoreProblem& failure) {
     problem = failure.what();
   } catch (const std::exception& failure) {
     // Numbers and JSON inside of a store that somebody changed.
-    problem = fmt::format("{}: not what a run stores: {}", folder.string(), failure.what());
+    problem = fmt::format("{}: not what a run stores: {}", name.string(), failure.what());
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Findings> read_one_store(const std::filesystem::path& file, std::string& problem) {
+  return read_from(std::vector{file}, file, problem);
+}
+
+std::optional<Findings> read_findings(const std::filesystem::path& folder, std::string& problem) {
+  return read_from(folder, folder, problem);
 }
 
 }  // namespace assay::reports

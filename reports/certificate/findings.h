@@ -38,6 +38,9 @@ struct Findings {
 // OUT/checks.sqlite: what `assay certify` finds out by itself.
 std::filesystem::path checks_file(const std::filesystem::path& out);
 
+// Of one store alone.
+std::optional<Findings> read_one_store(const std::filesystem::path& file, std::string& problem);
+
 // Reads merged.sqlite where there is one, else every shard-*.sqlite, and checks.sqlite. One line in
 // `problem` where there is nothing, a file cannot be read, two are of different runs, or a trial is
 // none that its shard plans.

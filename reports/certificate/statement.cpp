@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "corpus/digest.h"
-#include "properties/campaign/plan.h"
 #include "reports/certificate/gates.h"
 #include "reports/certificate/sections.h"
 #include "reports/shell_word.h"
@@ -41,8 +40,10 @@ Json subject_json(const Findings& findings) {
   const bool built_in = binding["detector"]["built_in"].get<bool>();
   digest["sha256"] = binding["digests"][built_in ? "worker" : "plugin"];
   const Json commit = or_null(findings.facts("subject", "versions"), "commit");
-  // Of a plug-in only its owner knows the commit.
-  if (built_in && !commit.is_null()) digest["gitCommit"] = commit;
+  // Of a plug-in only its owner knows the commit; changed files have none.
+  constexpr std::size_t digits = 40;
+  if (built_in && commit.is_string() && commit.get<std::string>().size() == digits)
+    digest["gitCommit"] = commit;
   return Json::array({{{"name", binding["detector"]["name"]}, {"digest", std::move(digest)}}});
 }
 
@@ -84,7 +85,17 @@ void mark_waived(Json& corpus, const Json& waivers) {
   }
 }
 
-Json predicate_json(const Findings& findings, const properties::CampaignPlan& plan,
+}  // namespace
+
+std::filesystem::path certificate_file(const std::filesystem::path& out) {
+  return out / "certificate.json";
+}
+
+std::filesystem::path campaign_file(const std::filesystem::path& out) {
+  return out / "campaign.json";
+}
+
+Json make_predicate(const Findings& findings, const properties::CampaignPlan& plan,
                     const std::string& campaign_digest) {
   Json problems = Json::array();
   for (const auto& row : findings.of("problem")) problems.push_back(Json::parse(row.facts)["what"]);
@@ -123,16 +134,6 @@ Json predicate_json(const Findings& findings, const properties::CampaignPlan& pl
   return predicate;
 }
 
-}  // namespace
-
-std::filesystem::path certificate_file(const std::filesystem::path& out) {
-  return out / "certificate.json";
-}
-
-std::filesystem::path campaign_file(const std::filesystem::path& out) {
-  return out / "campaign.json";
-}
-
 std::optional<Json> make_statement(const std::filesystem::path& folder, std::string& problem) {
   const auto digest = corpus::sha256_of_file(campaign_file(folder));
   if (!digest) {
@@ -154,7 +155,7 @@ std::optional<Json> make_statement(const std::filesystem::path& folder, std::str
     return Json{{"_type", statement_type},
                 {"subject", subject_json(*findings)},
                 {"predicateType", predicate_type},
-                {"predicate", predicate_json(*findings, plan.value(), digest.value())}};
+                {"predicate", make_predicate(*findings, plan.value(), digest.value())}};
   } catch (const nlohmann::json::exception& wrong) {
     problem = fmt::format("{}: not what a run stores: {}", folder.string(), wrong.what());
     return std::nullopt;

@@ -50,6 +50,7 @@ inline std::vector<std::string> trials_of(const std::string& out,
          << ' ' << r.pairs << ' ' << properties::counts_text(r.counts);
     lines.push_back(line.str());
   });
+  std::sort(lines.begin(), lines.end());
   return lines;
 }
 
