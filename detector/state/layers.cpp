@@ -57,27 +57,46 @@ class Flood {
   const std::vector<std::uint8_t>& clean_;
 };
 
-// The winding number outside of the piece's triangles, which have it in common. Nothing when it is
-// not known: the piece stays dirty.
-std::optional<int> winding_outside(const TouchedSurface& instant, std::size_t c,
-                                   std::span<const std::int32_t> piece) {
+// The first triangle from the place `next` on that a ray may leave; `next` is then behind it.
+std::optional<std::int32_t> representative(const TouchedSurface& instant,
+                                           const std::vector<std::int32_t>& piece,
+                                           std::size_t& next) {
   const Topology& all = instant.surface.all();
-  const auto& cycle = all.components[c].triangles;
-  const PositionsView& x = instant.x;
-  const Arithmetic arithmetic = instant.arithmetic;
-  if (arithmetic == Arithmetic::exact) {
-    const auto with_area = std::find_if(piece.begin(), piece.end(),
-                                        [&](std::int32_t t) { return !has_zero_area(all, x, t); });
-    if (with_area == piece.end()) return std::nullopt;
-    return winding_number_outside(all, cycle, x, *with_area);
-  }
-  std::size_t attempts = most_attempts;
-  for (const auto t : piece) {
-    if (has_equal_corners(all, x, t)) continue;
-    if (const auto outside = winding_number_outside(all, cycle, x, t, arithmetic)) return outside;
-    if (--attempts == 0) break;
+  while (next < piece.size()) {
+    const auto t = piece[next++];
+    const bool unfit = instant.arithmetic == Arithmetic::exact
+                           ? has_zero_area(all, instant.x, t)
+                           : has_equal_corners(all, instant.x, t);
+    if (!unfit) return t;
   }
   return std::nullopt;
+}
+
+// The winding number outside of each piece's triangles, which have it in common. Nothing where it
+// is not known: such a piece stays dirty.
+std::vector<std::optional<int>> windings_outside(
+    const TouchedSurface& instant, std::size_t c,
+    const std::vector<const std::vector<std::int32_t>*>& pieces) {
+  const Topology& all = instant.surface.all();
+  std::vector<std::optional<int>> winding(pieces.size());
+  std::vector<std::size_t> next(pieces.size(), 0);
+  const std::size_t attempts = instant.arithmetic == Arithmetic::exact ? 1 : most_attempts;
+  for (std::size_t attempt = 0; attempt < attempts; ++attempt) {
+    std::vector<std::size_t> open;
+    std::vector<std::int32_t> asked;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (winding[i]) continue;
+      const auto t = representative(instant, *pieces[i], next[i]);
+      if (!t) continue;
+      open.push_back(i);
+      asked.push_back(*t);
+    }
+    if (asked.empty()) break;
+    const auto found = winding_numbers_outside(all, all.components[c].triangles, instant.x, asked,
+                                               instant.arithmetic);
+    for (std::size_t k = 0; k < open.size(); ++k) winding[open[k]] = found[k];
+  }
+  return winding;
 }
 
 // The layer that most untouched triangles have, by its winding number outside.
@@ -121,26 +140,25 @@ std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
     }
   }
   if (alone.empty()) return 0;
-  std::uint64_t winding_numbers = alone.size();
-  std::map<int, std::vector<std::int32_t>> by_layer;  // key: winding number outside
-  for (const auto& piece : alone) {
-    const auto outside = winding_outside(at_instant, c, piece.triangles);
-    if (!outside) continue;  // stays dirty
-    auto& of_layer = by_layer[*outside];
-    of_layer.insert(of_layer.end(), piece.triangles.begin(), piece.triangles.end());
-  }
-  std::optional<int> common;
+  std::vector<const std::vector<std::int32_t>*> asked;
+  for (const auto& piece : alone) asked.push_back(&piece.triangles);
+  // All clean ones share the common layer, also those that were released just now.
+  std::vector<std::int32_t> some;
   if (some_clean) {
-    // All clean ones share it, also those that were released just now.
-    std::vector<std::int32_t> some;
     for (std::size_t i = 0; i < own.size() && some.size() < most_attempts; ++i) {
       if (clean[at(own[i])]) some.push_back(own[i]);
     }
-    common = winding_outside(at_instant, c, some);
-    ++winding_numbers;
-  } else {
-    common = most_common(by_layer);
+    asked.push_back(&some);
   }
+  const auto windings = windings_outside(at_instant, c, asked);
+  const std::uint64_t winding_numbers = asked.size();
+  std::map<int, std::vector<std::int32_t>> by_layer;  // key: winding number outside
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    if (!windings[i]) continue;
+    auto& of_layer = by_layer[*windings[i]];
+    of_layer.insert(of_layer.end(), alone[i].triangles.begin(), alone[i].triangles.end());
+  }
+  const auto common = some_clean ? windings.back() : most_common(by_layer);
   if (!common) return winding_numbers;
   if (const auto found = by_layer.find(*common); found != by_layer.end()) release(found->second);
   return winding_numbers;

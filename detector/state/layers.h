@@ -32,9 +32,9 @@ struct TouchedSurface {
 // index). "Connected" would not be enough: two tetrahedra, one inside the other, may share an edge
 // (case L9_shared_edge_two_layers).
 //
-// `seen` is scratch by mesh triangle, 0 for those of the component. Costs the triangles in doubt;
-// O(component) for each piece without a clean triangle, and once for the common layer where there
-// is such a piece. Returns how many winding numbers it took.
+// `seen` is scratch by mesh triangle, 0 for those of the component. Costs the triangles in doubt
+// and, where there is a piece without a clean triangle, a few passes over the component for the
+// winding numbers of all such pieces together. Returns how many of these it took.
 std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
                              std::span<const std::int32_t> in_doubt,
                              std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& clean);

@@ -1,215 +1,182 @@
 // Along a ray the winding number drops by 1 across a triangle in the direction of its normal and
 // is 0 at the end: w(origin) is the sum, over the triangles crossed, of the sign of ray . normal.
-// With A, B, C the corners less the origin and r the direction, the line crosses the triangle's
-// inside where det(A,B,r), det(B,C,r), det(C,A,r) have one strict sign, which is then that of
-// r . normal (their sum); the crossing is ahead of the origin when det(A,B,C) has that sign too.
 // A direction that meets an edge or a corner is given up for the next one.
 //
-// Coordinates are taken 4 times as large, so that the origin (2 p0 + p1 + p2) / 4, inside a
-// triangle, is exact as well. Filter: A_k = 4 (a_k - o_k) is computed as a sum of differences
-// 2 (a - p0) + (a - p1) + (a - p2), each off by u times its size, two sums rounded: off by less
-// than 8u W_k + 2 * 4u W_k, W_k the largest |a_k - p_k| involved, while |A_k| <= 4 W_k. For entries
-// of size 4 W with error 16 u W = 4u (4W): a determinant is off by at most 6 * 3 * 4u V (entries) +
-// 30u V (arithmetic), V = product of the 4 W_k: less than 128u V.
-//
-// Where the filter cannot tell: exact arithmetic asks integers; bounded arithmetic leaves the sign
-// 0, which gives a direction up or the count altogether, never counts wrongly.
+// All rays of a call have the same direction r or its opposite, so that one pass over the triangles
+// serves them all: seen along r, the surface is a plane figure, and a line can meet only triangles
+// whose boxes in that plane hold the line's point. The plane's coordinates are
+//   u = (r1 x - r0 y) 2^-20, v = (r2 x - r0 z) 2^-20,
+// constant along r; 2^-20 keeps them finite. Rounding: with S = reach 2^-20 (X + Y + Z), reach the
+// largest |r_k| and X, Y, Z the largest coordinates, two products and a difference are off by less
+// than 2.1 u S and 2^-1074, and an origin's (2 u0 + u1 + u2) / 4 by less than 4 u S and 2^-1073
+// (two more sums and a quarter): a margin of 8 u S + 2^-1071 around the boxes rejects no triangle
+// that the line meets. What is not rejected is decided by crossing_signs.
 #include "detector/state/winding.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "detector/bernstein/bernstein.h"
 #include "detector/exact/integer.h"
+#include "detector/state/crossing_signs.h"
 
 namespace assay::detector {
 namespace {
 
-constexpr double least_size = 0x1p-290, greatest_size = 0x1p290;
+constexpr int reach = 1000;
 
-using Origin = std::array<Point, 3>;  // (2 o[0] + o[1] + o[2]) / 4
-using Direction = std::array<int, 3>;
-
-// Directions from a fixed recurrence: the same on every machine, never parallel to many edges.
-Direction direction_number(int n) {
+// From a fixed recurrence: the same on every machine, never parallel to many edges.
+RayDirection direction_number(int n) {
   std::uint32_t state = 0x9e3779b9u * static_cast<std::uint32_t>(n + 1);
-  Direction r{};
+  RayDirection r{};
   for (int& component : r) {
     state ^= state << 13;
     state ^= state >> 17;
     state ^= state << 5;
-    constexpr int reach = 1000;
     component = static_cast<int>(state % (2 * reach + 1)) - reach;
   }
   return r;
 }
 
-template <class T>
-T determinant(const std::array<T, 3>& a, const std::array<T, 3>& b, const std::array<T, 3>& c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-// Signs of det(A,B,r), det(B,C,r), det(C,A,r), det(A,B,C).
-using Signs = std::array<int, 4>;
-
-template <class T>
-std::array<T, 4> determinants(const std::array<std::array<T, 3>, 3>& corners,
-                              const std::array<T, 3>& r) {
-  const auto& [a, b, c] = corners;
-  return {determinant(a, b, r), determinant(b, c, r), determinant(c, a, r), determinant(a, b, c)};
-}
-
-Signs exact_signs(const std::array<Point, 3>& corners, const Origin& o, const Direction& r) {
-  std::array<double, 18> values;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      values[3 * i + k] = corners[i][k];
-      values[9 + 3 * i + k] = o[i][k];
-    }
-  }
-  std::array<Integer, 18> x;
-  to_common_integers(values, x);
-  std::array<std::array<Integer, 3>, 3> from_origin;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      from_origin[i][k] = 4 * x[3 * i + k] - 2 * x[9 + k] - x[12 + k] - x[15 + k];
-    }
-  }
-  Signs signs{};
-  const auto dets =
-      determinants<Integer>(from_origin, {Integer(r[0]), Integer(r[1]), Integer(r[2])});
-  for (std::size_t i = 0; i < signs.size(); ++i) signs[i] = dets[i].sign();
-  return signs;
-}
-
-// 0 where doubles cannot tell, or where a plain number is 0.
-template <class Rounding>
-Signs filtered_signs(const std::array<Point, 3>& corners, const Origin& o, const Direction& r) {
-  using Number = typename Rounding::Number;
-  std::array<VectorOf<Number>, 3> a{};
-  VectorOf<Number> w = {0, 0, 0};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto x = static_cast<Number>(corners[i][k]);
-      const Number d0 = x - static_cast<Number>(o[0][k]), d1 = x - static_cast<Number>(o[1][k]),
-                   d2 = x - static_cast<Number>(o[2][k]);
-      a[i][k] = 2 * d0 + d1 + d2;
-      w[k] = std::max({w[k], 4 * std::abs(d0), 4 * std::abs(d1), 4 * std::abs(d2)});
-    }
-  }
-  if constexpr (Rounding::proved) {
-    const bool in_range = std::all_of(w.begin(), w.end(),
-                                      [](Number m) { return m > least_size && m < greatest_size; });
-    if (!in_range) return {};
-  }
-  const VectorOf<Number> direction = {static_cast<Number>(r[0]), static_cast<Number>(r[1]),
-                                      static_cast<Number>(r[2])};
-  const VectorOf<Number> reach = {std::abs(direction[0]), std::abs(direction[1]),
-                                  std::abs(direction[2])};
-  const auto dets = determinants<Number>(a, direction);
-  // The direction is exact and each of its coordinates has its own size: V by terms.
-  constexpr Number error = 128 * Rounding::unit;
-  const Number along =
-      error * (w[0] * w[1] * reach[2] + w[1] * w[2] * reach[0] + w[2] * w[0] * reach[1]);
-  const Number volume = error * (w[0] * w[1] * w[2]);
-  return {sign_beyond(dets[0], along), sign_beyond(dets[1], along), sign_beyond(dets[2], along),
-          sign_beyond(dets[3], volume)};
-}
-
-// What differs by arithmetic. zero_area: sure that the triangle is a segment or a point.
-struct ExactSigns {
-  static constexpr int max_directions = 100;
-  static Signs of(const std::array<Point, 3>& corners, const Origin& o, const Direction& r) {
-    const Signs signs = filtered_signs<ProvedBounds>(corners, o, r);
-    const bool all_known =
-        std::all_of(signs.begin(), signs.end(), [](int sign) { return sign != 0; });
-    return all_known ? signs : exact_signs(corners, o, r);
-  }
-  static bool zero_area(const Topology& mesh, const PositionsView& x, std::int32_t triangle) {
-    return has_zero_area(mesh, x, triangle);
-  }
+struct Shadow {
+  double u, v;
 };
 
-template <class Rounding>
-struct FilteredSigns {
-  static constexpr int max_directions = 16;
-  static Signs of(const std::array<Point, 3>& corners, const Origin& o, const Direction& r) {
-    return filtered_signs<Rounding>(corners, o, r);
+// The plane seen along a direction.
+class Plane {
+ public:
+  explicit Plane(const RayDirection& r) {
+    for (std::size_t k = 0; k < 3; ++k) r_[k] = std::ldexp(r[k], -20);
   }
-  static bool zero_area(const Topology& mesh, const PositionsView& x, std::int32_t triangle) {
-    return has_equal_corners(mesh, x, triangle);
+  Shadow of(const Point& p) const {
+    return {r_[1] * p[0] - r_[0] * p[1], r_[2] * p[0] - r_[0] * p[2]};
   }
+  Shadow of(const RayOrigin& o) const {
+    const Shadow a = of(o[0]), b = of(o[1]), c = of(o[2]);
+    return {(2 * a.u + b.u + c.u) * 0.25, (2 * a.v + b.v + c.v) * 0.25};
+  }
+
+ private:
+  std::array<double, 3> r_{};
 };
 
-enum class RayOutcome { counted, bad_direction, on_surface };
+struct Ray {
+  RayOrigin origin;
+  std::int32_t outward_of = -1;  // the triangle whose outside is asked for
+  std::optional<int> winding;
 
-template <class SignRule>
-RayOutcome count_along(const Topology& mesh, std::span<const std::int32_t> triangles,
-                       const PositionsView& x, const Origin& origin, const Direction& r,
-                       std::int32_t skipped, int& winding) {
-  winding = 0;
-  for (const auto t : triangles) {
-    if (t == skipped) continue;
-    const auto& v = mesh.triangles[static_cast<std::size_t>(t)];
-    const Signs s =
-        SignRule::of({point_of(x, v[0]), point_of(x, v[1]), point_of(x, v[2])}, origin, r);
+  // In the direction tried.
+  Shadow shadow{};
+  bool reversed = false, met_edge = false, on_surface = false;
+  int sum = 0;
+};
+
+// The surface and how it is asked.
+class Crossings {
+ public:
+  Crossings(const Topology& mesh, std::span<const std::int32_t> triangles, const PositionsView& x,
+            Arithmetic arithmetic)
+      : mesh_(mesh), triangles_(triangles), x_(x), arithmetic_(arithmetic) {
+    Point largest = {0, 0, 0};
+    for (const auto t : triangles) {
+      for (const auto& corner : corners(t)) {
+        for (std::size_t k = 0; k < 3; ++k) largest[k] = std::max(largest[k], std::abs(corner[k]));
+      }
+    }
+    constexpr double scale = 0x1p-20 * reach;
+    margin_ = 0x1p-50 * (largest[0] * scale + largest[1] * scale + largest[2] * scale) + 0x1p-1071;
+  }
+
+  std::array<Point, 3> corners(std::int32_t t) const {
+    const auto& v = mesh_.triangles[static_cast<std::size_t>(t)];
+    return {point_of(x_, v[0]), point_of(x_, v[1]), point_of(x_, v[2])};
+  }
+
+  // Answers those of the rays that this direction can answer; the others are left in `rays`.
+  void answer(const RayDirection& r, std::vector<Ray*>& rays) const {
+    std::vector<Ray*> tried;
+    const Plane plane(r);
+    for (Ray* ray : rays) {
+      ray->met_edge = !aim(r, *ray);
+      if (ray->met_edge) continue;
+      ray->shadow = plane.of(ray->origin);
+      tried.push_back(ray);
+    }
+    std::sort(tried.begin(), tried.end(),
+              [](const Ray* a, const Ray* b) { return a->shadow.u < b->shadow.u; });
+    for (const auto t : triangles_) cast(r, plane, t, tried);
+    for (Ray* ray : tried) {
+      if (!ray->met_edge && !ray->on_surface) ray->winding = ray->sum;
+    }
+    std::erase_if(rays, [](const Ray* ray) { return !ray->met_edge || ray->on_surface; });
+  }
+
+ private:
+  // A ray that asks for a triangle's outside leaves strictly on the side of its normal; the
+  // triangle's own corners give r . normal as the sum of the three (equal) signs.
+  bool aim(const RayDirection& r, Ray& ray) const {
+    ray.sum = 0;
+    ray.reversed = false;
+    if (ray.outward_of < 0) return true;
+    const auto s = crossing_signs(corners(ray.outward_of), ray.origin, r, arithmetic_);
+    ray.reversed = s[0] < 0;
+    return s[0] != 0 && s[0] == s[1] && s[1] == s[2];
+  }
+
+  void cast(const RayDirection& r, const Plane& plane, std::int32_t t,
+            const std::vector<Ray*>& tried) const {
+    const auto triangle = corners(t);
+    const Shadow a = plane.of(triangle[0]), b = plane.of(triangle[1]), c = plane.of(triangle[2]);
+    const double u_lo = std::min({a.u, b.u, c.u}) - margin_;
+    const double u_hi = std::max({a.u, b.u, c.u}) + margin_;
+    const double v_lo = std::min({a.v, b.v, c.v}) - margin_;
+    const double v_hi = std::max({a.v, b.v, c.v}) + margin_;
+    auto next = std::lower_bound(tried.begin(), tried.end(), u_lo,
+                                 [](const Ray* ray, double u) { return ray->shadow.u < u; });
+    for (; next != tried.end() && (*next)->shadow.u <= u_hi; ++next) {
+      Ray& ray = **next;
+      if (ray.shadow.v < v_lo || ray.shadow.v > v_hi || ray.outward_of == t || ray.met_edge ||
+          ray.on_surface) {
+        continue;
+      }
+      cross(t, crossing_signs(triangle, ray.origin, r, arithmetic_), ray);
+    }
+  }
+
+  void cross(std::int32_t t, const CrossingSigns& s, Ray& ray) const {
     const bool some_positive = s[0] > 0 || s[1] > 0 || s[2] > 0;
     const bool some_negative = s[0] < 0 || s[1] < 0 || s[2] < 0;
-    if (some_positive && some_negative) continue;  // the line passes by
+    if (some_positive && some_negative) return;  // the line passes by
     const bool all_zero = s[0] == 0 && s[1] == 0 && s[2] == 0;
     // Nothing is crossed there; where the line meets what is left of it, it meets an edge of a
     // neighbour too, which gives the direction up. A point would give up every direction.
-    if (all_zero && SignRule::zero_area(mesh, x, t)) continue;
-    const bool strictly_inside = s[0] != 0 && s[1] != 0 && s[2] != 0;
-    if (!strictly_inside) return RayOutcome::bad_direction;
-    if (s[3] == 0) return RayOutcome::on_surface;
-    if (s[3] == s[0]) winding += s[0];
-  }
-  return RayOutcome::counted;
-}
-
-template <class SignRule>
-std::optional<int> count_crossings(const Topology& mesh, std::span<const std::int32_t> triangles,
-                                   const PositionsView& x, const Origin& origin, int outward_of) {
-  for (int n = 0; n < SignRule::max_directions; ++n) {
-    Direction r = direction_number(n);
-    int skipped = -1;
-    if (outward_of >= 0) {
-      // Only rays that leave strictly on the side of the normal count the layer outside; the
-      // triangle's own corners give r . normal as the sum of the three (equal) signs.
-      const auto& v = mesh.triangles[static_cast<std::size_t>(outward_of)];
-      const Signs s =
-          SignRule::of({point_of(x, v[0]), point_of(x, v[1]), point_of(x, v[2])}, origin, r);
-      if (s[0] == 0 || s[0] != s[1] || s[1] != s[2]) continue;
-      if (s[0] < 0) r = {-r[0], -r[1], -r[2]};
-      skipped = outward_of;
+    if (all_zero && sure_of_zero_area(t)) return;
+    if (s[0] == 0 || s[1] == 0 || s[2] == 0) {
+      ray.met_edge = true;
+    } else if (s[3] == 0) {
+      ray.on_surface = true;
+    } else if (s[3] == (ray.reversed ? -s[0] : s[0])) {
+      ray.sum += s[3];
     }
-    int winding = 0;
-    const RayOutcome outcome =
-        count_along<SignRule>(mesh, triangles, x, origin, r, skipped, winding);
-    if (outcome == RayOutcome::counted) return winding;
-    if (outcome == RayOutcome::on_surface) return std::nullopt;
   }
-  return std::nullopt;
-}
 
-std::optional<int> count_crossings(const Topology& mesh, std::span<const std::int32_t> triangles,
-                                   const PositionsView& x, const Origin& origin, int outward_of,
-                                   Arithmetic arithmetic) {
-  switch (arithmetic) {
-    case Arithmetic::bounded:
-      return count_crossings<FilteredSigns<ProvedBounds>>(mesh, triangles, x, origin, outward_of);
-    case Arithmetic::double_precision:
-      return count_crossings<FilteredSigns<NoBounds<double>>>(mesh, triangles, x, origin,
-                                                              outward_of);
-    case Arithmetic::single_precision:
-      return count_crossings<FilteredSigns<NoBounds<float>>>(mesh, triangles, x, origin,
-                                                             outward_of);
-    case Arithmetic::exact:
-      break;
+  bool sure_of_zero_area(std::int32_t t) const {
+    return arithmetic_ == Arithmetic::exact ? has_zero_area(mesh_, x_, t)
+                                            : has_equal_corners(mesh_, x_, t);
   }
-  return count_crossings<ExactSigns>(mesh, triangles, x, origin, outward_of);
+
+  const Topology& mesh_;
+  std::span<const std::int32_t> triangles_;
+  const PositionsView& x_;
+  Arithmetic arithmetic_;
+  double margin_ = 0;
+};
+
+void count_crossings(const Crossings& surface, std::vector<Ray>& rays, Arithmetic arithmetic) {
+  const int directions = arithmetic == Arithmetic::exact ? 100 : 16;
+  std::vector<Ray*> open;
+  for (Ray& ray : rays) open.push_back(&ray);
+  for (int n = 0; n < directions && !open.empty(); ++n) surface.answer(direction_number(n), open);
 }
 
 }  // namespace
@@ -240,17 +207,27 @@ bool has_equal_corners(const Topology& mesh, const PositionsView& x, std::int32_
 std::optional<int> winding_number(const Topology& mesh, std::span<const std::int32_t> triangles,
                                   const PositionsView& x, const Point& point,
                                   Arithmetic arithmetic) {
-  return count_crossings(mesh, triangles, x, {point, point, point}, -1, arithmetic);
+  std::vector<Ray> ray(1);
+  ray[0].origin = {point, point, point};
+  count_crossings({mesh, triangles, x, arithmetic}, ray, arithmetic);
+  return ray[0].winding;
 }
 
-std::optional<int> winding_number_outside(const Topology& mesh,
-                                          std::span<const std::int32_t> triangles,
-                                          const PositionsView& x, std::int32_t triangle,
-                                          Arithmetic arithmetic) {
-  const auto& v = mesh.triangles[static_cast<std::size_t>(triangle)];
-  return count_crossings(mesh, triangles, x,
-                         {point_of(x, v[0]), point_of(x, v[1]), point_of(x, v[2])}, triangle,
-                         arithmetic);
+std::vector<std::optional<int>> winding_numbers_outside(const Topology& mesh,
+                                                        std::span<const std::int32_t> triangles,
+                                                        const PositionsView& x,
+                                                        std::span<const std::int32_t> asked,
+                                                        Arithmetic arithmetic) {
+  const Crossings surface(mesh, triangles, x, arithmetic);
+  std::vector<Ray> rays(asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    rays[i].origin = surface.corners(asked[i]);
+    rays[i].outward_of = asked[i];
+  }
+  count_crossings(surface, rays, arithmetic);
+  std::vector<std::optional<int>> winding;
+  for (const Ray& ray : rays) winding.push_back(ray.winding);
+  return winding;
 }
 
 }  // namespace assay::detector

@@ -77,8 +77,8 @@ struct LowestLayerIsCommon : ReleaseRule {
       for (const auto t : work.own_triangles(c)) {
         work.clean[at(t)] = 0;
         if (touched[at(t)]) continue;
-        const auto outside = detector::winding_number_outside(
-            work.surface.all(), work.component(c).triangles, work.x_t0, t);
+        const auto outside = detector::winding_numbers_outside(
+            work.surface.all(), work.component(c).triangles, work.x_t0, {{t}})[0];
         if (!common) common = outside;
         work.clean[at(t)] = outside && outside == common;
       }

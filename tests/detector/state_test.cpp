@@ -4,7 +4,6 @@
 
 #include "detector/state/layers.h"
 #include "detector/state/release_rule.h"
-#include "detector/state/winding.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
@@ -33,33 +32,6 @@ TEST(Topology, OneTriangleFlippedIsNoCycle) {
   EXPECT_FALSE(make_topology(all, 6).components[0].is_cycle);
 }
 
-TEST(Winding, InsideOutsideAndInward) {
-  const Positions x = octahedron_positions(2);
-  Triangles t = octahedron();
-  const Topology mesh = make_topology(t, 6);
-  const auto& all = mesh.components[0].triangles;
-  EXPECT_EQ(winding_number(mesh, all, x, {0, 0, 0}), 1);
-  EXPECT_EQ(winding_number(mesh, all, x, {.5, .25, -.125}), 1);
-  EXPECT_EQ(winding_number(mesh, all, x, {3, 0, 0}), 0);
-  EXPECT_EQ(winding_number(mesh, all, x, {1, 1, 1}), 0);
-  EXPECT_EQ(winding_number(mesh, all, x, {1, .5, .5}), std::nullopt) << "on the surface";
-  for (std::int32_t i = 0; i < 8; ++i) EXPECT_EQ(winding_number_outside(mesh, all, x, i), 0);
-  t.col(1).swap(t.col(2));
-  const Topology inward = make_topology(t, 6);
-  EXPECT_EQ(winding_number(inward, all, x, {0, 0, 0}), -1);
-  EXPECT_EQ(winding_number_outside(inward, all, x, 3), -1);
-}
-
-TEST(Winding, FarFromTheOriginAndTiny) {
-  const Topology mesh = make_topology(octahedron(), 6);
-  Positions x = octahedron_positions(1);
-  x.array() += 0x1p50;
-  EXPECT_EQ(winding_number(mesh, mesh.components[0].triangles, x, {0x1p50, 0x1p50, 0x1p50}), 1);
-  const Positions tiny = octahedron_positions(0x1p-1070);
-  EXPECT_EQ(winding_number(mesh, mesh.components[0].triangles, tiny, {0, 0, 0}), 1);
-  EXPECT_EQ(winding_number(mesh, mesh.components[0].triangles, tiny, {0x1p-1000, 0, 0}), 0);
-}
-
 // Two outward tetrahedra that share an edge, one inside the other: connected, embedded, but two
 // pieces of different layers.
 TEST(Layers, L9_PiecesNotConnectionDecide) {
@@ -82,18 +54,6 @@ TEST(Layers, L9_TouchedTrianglesStayDirty) {
   touched[2] = 1;
   mark_clean_by_layers({surface, octahedron_positions(1), touched}, 0, seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 1, 1, 1}));
-}
-
-// A triangle that has become a point crosses no ray, and must not spoil every one.
-TEST(Winding, CollapsedTrianglesDoNotCount) {
-  const Topology mesh = make_topology(octahedron(), 6);
-  Positions x = octahedron_positions(2);
-  x.row(0) = x.row(2) = x.row(4);  // triangle 0 is a point, its neighbours are segments
-  const auto& all = mesh.components[0].triangles;
-  EXPECT_TRUE(has_zero_area(mesh, x, 0));
-  EXPECT_FALSE(has_zero_area(mesh, x, 6));
-  EXPECT_EQ(winding_number(mesh, all, x, {-.1, -.1, 0}), 1);
-  EXPECT_EQ(winding_number(mesh, all, x, {-5, 0, 0}), 0);
 }
 
 // A step that stays at x, before its stages have run.

@@ -1,0 +1,74 @@
+// Hard cases are made on a grid of integers and then bent out of the axes, without any rounding.
+//
+// Each family is built where its answer is plain to see: a face in the plane z = 0, a vertex that
+// comes down on it. There double arithmetic would be right for free, since most products are 0. So
+// an integer map of determinant 1 (three shears, a cyclic change of axes, a shift) is applied at
+// the end: contacts, their times and the view signs of a point are those of any affine map, and the
+// coordinates stay integers below 2^53, that is exact doubles that fill the mantissa. At last each
+// axis is scaled by a power of two.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "corpus/case_file.h"
+#include "corpus/hard/variation.h"
+
+namespace assay::corpus {
+
+// In units of the grid.
+struct GridPoint {
+  std::int64_t x = 0, y = 0, z = 0;
+  friend GridPoint operator+(const GridPoint& a, const GridPoint& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+};
+
+struct GridVertex {
+  GridPoint t0, t1;
+};
+inline GridVertex at_rest(const GridPoint& p) { return {p, p}; }
+// p carried along by the motion of `tip`, whose offset from it is constant.
+inline GridVertex carried(const GridVertex& tip, const GridPoint& offset) {
+  return {tip.t0 + offset, tip.t1 + offset};
+}
+
+struct GridMesh {
+  std::vector<GridVertex> vertices;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<GridVertex> view;  // none, a point, or the two ends of a line
+
+  std::int32_t add(const GridVertex& vertex);
+  // Of its own three vertices; anticlockwise as given.
+  void add_triangle(const std::array<GridVertex, 3>& corners);
+  // Of its own four vertices, outward at t=0; its i-th triangle lies opposite to corner i.
+  void add_tetrahedron(const std::array<GridVertex, 4>& corners);
+};
+
+// x -> shift + C S3 S2 S1 x, with shears S and a cyclic change of axes C. No coordinate grows by
+// more than `growth` before the shift.
+struct GridMap {
+  static constexpr std::int64_t growth = 37;
+
+  std::array<std::array<std::int64_t, 2>, 3> shears{};  // each in -2 .. 2
+  int turns = 0;                                        // of the axes
+  GridPoint shift;
+
+  // Shears that leave no coefficient 0.
+  static GridMap any(Variation& vary);
+  // For view-lines, whose nearest points no shear keeps: a change of axes alone.
+  static GridMap of_axes(Variation& vary);
+  GridPoint operator()(GridPoint p) const;
+};
+
+// What the family knows. first_time, view_signs: by construction, where stated.
+using KnownFacts = ExpectedStep;
+
+// One step of the mapped mesh; coordinate i is multiplied by 2^exponents[i]. The process ends where
+// that would not be exact (the tests make every case).
+Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3>& exponents,
+               KnownFacts known);
+
+}  // namespace assay::corpus
