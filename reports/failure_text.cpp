@@ -17,9 +17,29 @@ std::filesystem::path store_file(const std::filesystem::path& out, const propert
   return out / fmt::format("shard-{}-of-{}.sqlite", shard.index, shard.count);
 }
 
-namespace {
+std::filesystem::path merged_file(const std::filesystem::path& out) {
+  return out / "merged.sqlite";
+}
 
-constexpr const char* failures_folder = "failures";
+std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& folder,
+                                                 std::string& problem) {
+  std::error_code error;
+  std::vector<std::filesystem::path> stores;
+  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = file.path().filename().string();
+    const bool is_shard = name.starts_with("shard-") && name.ends_with(".sqlite");
+    if (is_shard || name == merged_file("").filename()) stores.push_back(file.path());
+  }
+  if (error) {
+    problem = fmt::format("{}: {}", folder.string(), error.message());
+  } else if (stores.empty()) {
+    problem = fmt::format("{}: no run is stored here", folder.string());
+  }
+  std::sort(stores.begin(), stores.end());
+  return stores;
+}
+
+namespace {
 
 // The same in every run that finds it: "tiny-1-broken-3-view-point-first".
 std::string file_stem(const properties::StoredFailure& failure) {
@@ -32,6 +52,21 @@ std::string file_stem(const properties::StoredFailure& failure) {
   return stem;
 }
 
+}  // namespace
+
+std::filesystem::path failure_file(const properties::StoredFailure& failure, bool smallest) {
+  return std::filesystem::path("failures") /
+         (file_stem(failure) + (smallest ? "-smallest.json" : "-original.json"));
+}
+
+std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
+                        const std::string& plugin) {
+  return fmt::format("assay replay {}{}", shell_word((out / file).string()),
+                     detector_words(plugin));
+}
+
+namespace {
+
 std::string size_of_mesh(const std::string& text) {
   const auto c = corpus::parse_case(text, "stored failure");
   return c ? properties::size_text(properties::size_of(c.value())) : "unreadable";
@@ -39,57 +74,42 @@ std::string size_of_mesh(const std::string& text) {
 
 }  // namespace
 
-std::filesystem::path original_file(const std::filesystem::path& out,
-                                    const properties::StoredFailure& failure) {
-  return out / failures_folder / (file_stem(failure) + "-original.json");
-}
-
-std::filesystem::path smallest_file(const std::filesystem::path& out,
-                                    const properties::StoredFailure& failure) {
-  return out / failures_folder / (file_stem(failure) + "-smallest.json");
-}
-
-std::string replay_line(const std::filesystem::path& out, const properties::StoredFailure& failure,
-                        const std::string& library) {
-  const auto file =
-      failure.smallest.empty() ? original_file(out, failure) : smallest_file(out, failure);
-  return "assay replay " + shell_word(file.string()) + detector_words(library);
-}
-
 FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
-                             const properties::CampaignRequest& request) {
+                             const std::string& plugin) {
   FailureReport report;
   auto failures = store.failures();
   if (failures.empty()) return report;
   std::stable_partition(failures.begin(), failures.end(),
                         [](const auto& failure) { return !failure.smallest.empty(); });
-  const auto folder = out / failures_folder;
+  const auto folder = out / "failures";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
     report.problem = fmt::format("{}: cannot be made: {}", folder.string(), error.message());
     return report;
   }
-  SceneMaker scenes(request.plugin ? request.plugin->string() : "");
+  SceneMaker scenes(plugin);
   const auto met = store.signatures();
   std::set<std::string> told;
   for (const auto& failure : failures) {
-    for (const auto& [path, text] : {std::pair(original_file(out, failure), failure.mesh),
-                                     std::pair(smallest_file(out, failure), failure.smallest)}) {
+    const auto original = out / failure_file(failure, false);
+    const auto smallest = out / failure_file(failure, true);
+    for (const auto& [path, text] :
+         {std::pair(original, failure.mesh), std::pair(smallest, failure.smallest)}) {
       if (text.empty()) continue;
       if (const auto written = corpus::write_file_atomically(path, text); !written) {
         report.problem = written.error().message;
         return report;
       }
     }
-    if (!told.insert(failure.signature).second) continue;
     const bool is_shrunk = !failure.smallest.empty();
-    const auto shown_file = is_shrunk ? smallest_file(out, failure) : original_file(out, failure);
+    if (!told.insert(failure.signature).second) continue;
+    const auto shown_file = (is_shrunk ? smallest : original).string();
     const auto shown =
         corpus::parse_case(is_shrunk ? failure.smallest : failure.mesh, "stored failure");
     if (shown) {
-      report.problem = scenes.write_picture(shown_file.string(), shown.value(),
-                                            failure.configuration, failure.signature);
+      report.problem =
+          scenes.write_picture(shown_file, shown.value(), failure.configuration, failure.signature);
       if (report.problem) return report;
     }
     const auto count = met.find(failure.signature);
@@ -99,8 +119,7 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
         failure.what, failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
-        picture_file(shown_file.string()),
-        replay_line(out, failure, request.plugin ? request.plugin->string() : ""));
+        picture_file(shown_file), replay_line(out, failure_file(failure, is_shrunk), plugin));
   }
   return report;
 }

@@ -49,7 +49,7 @@ class CampaignRun {
     explore_world();
     const auto tally = sum();
     print_tables(tally);
-    const auto failures = write_failures(store_, command_.out, request_);
+    const auto failures = write_failures(store_, command_.out, command_.detector);
     fmt::print("{}", failures.text);
     if (failures.problem) return refuse(*failures.problem);
     return conclude(tally);
