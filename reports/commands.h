@@ -56,10 +56,18 @@ int run_scene(const SceneRequest& request);
 int run_list_scenes();
 
 struct CertifyRequest {
+  std::string campaign = "smoke";  // a name or a file
+  std::uint64_t seed = 1;
+  std::string detector;  // a plug-in's library; empty: the built-in detector
   std::string out;
   int jobs = 1;
 };
 int run_certify(const CertifyRequest& request);
+
+struct VerifyRequest {
+  std::vector<std::string> certificates;  // several: nights, pooled
+};
+int run_verify(const VerifyRequest& request);
 
 struct SelfTestRequest {
   std::uint64_t seed = 1;
@@ -81,6 +89,12 @@ struct RunCommandRequest {
 };
 int run_campaign(const RunCommandRequest& request);
 
+struct MergeRequest {
+  std::vector<std::string> folders;
+  std::string out;
+};
+int run_merge(const MergeRequest& request);
+
 struct ReplayRequest {
   std::string id_or_file;
   std::string export_folder;  // empty: none
@@ -97,9 +111,9 @@ struct ShrinkRequest {
 int run_shrink(const ShrinkRequest& request);
 
 struct BenchRequest {
-  std::string suite;                // is_bench_suite
-  std::string data;                 // folder of the public data
-  std::string json_file, svg_file;  // empty: none
+  std::string suite;                          // is_bench_suite
+  std::string data;                           // folder of the public data
+  std::string json_file, csv_file, svg_file;  // empty: none
 };
 bool is_bench_suite(std::string_view name);
 int run_bench(const BenchRequest& request);

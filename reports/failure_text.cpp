@@ -41,6 +41,8 @@ std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& fo
 
 namespace {
 
+constexpr const char* failures_folder = "failures";
+
 // The same in every run that finds it: "tiny-1-broken-3-view-point-first".
 std::string file_stem(const properties::StoredFailure& failure) {
   std::string stem = fmt::format("{}-{}", failure.id, failure.configuration);
@@ -55,7 +57,7 @@ std::string file_stem(const properties::StoredFailure& failure) {
 }  // namespace
 
 std::filesystem::path failure_file(const properties::StoredFailure& failure, bool smallest) {
-  return std::filesystem::path("failures") /
+  return std::filesystem::path(failures_folder) /
          (file_stem(failure) + (smallest ? "-smallest.json" : "-original.json"));
 }
 
@@ -81,7 +83,7 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
   if (failures.empty()) return report;
   std::stable_partition(failures.begin(), failures.end(),
                         [](const auto& failure) { return !failure.smallest.empty(); });
-  const auto folder = out / "failures";
+  const auto folder = out / failures_folder;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
@@ -92,24 +94,23 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
   const auto met = store.signatures();
   std::set<std::string> told;
   for (const auto& failure : failures) {
-    const auto original = out / failure_file(failure, false);
-    const auto smallest = out / failure_file(failure, true);
     for (const auto& [path, text] :
-         {std::pair(original, failure.mesh), std::pair(smallest, failure.smallest)}) {
+         {std::pair(out / failure_file(failure, false), failure.mesh),
+          std::pair(out / failure_file(failure, true), failure.smallest)}) {
       if (text.empty()) continue;
       if (const auto written = corpus::write_file_atomically(path, text); !written) {
         report.problem = written.error().message;
         return report;
       }
     }
-    const bool is_shrunk = !failure.smallest.empty();
     if (!told.insert(failure.signature).second) continue;
-    const auto shown_file = (is_shrunk ? smallest : original).string();
+    const bool is_shrunk = !failure.smallest.empty();
+    const auto shown_file = failure_file(failure, is_shrunk);
     const auto shown =
         corpus::parse_case(is_shrunk ? failure.smallest : failure.mesh, "stored failure");
     if (shown) {
-      report.problem =
-          scenes.write_picture(shown_file, shown.value(), failure.configuration, failure.signature);
+      report.problem = scenes.write_picture((out / shown_file).string(), shown.value(),
+                                            failure.configuration, failure.signature);
       if (report.problem) return report;
     }
     const auto count = met.find(failure.signature);
@@ -119,7 +120,7 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
         failure.what, failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
-        picture_file(shown_file), replay_line(out, failure_file(failure, is_shrunk), plugin));
+        picture_file((out / shown_file).string()), replay_line(out, shown_file, plugin));
   }
   return report;
 }

@@ -12,22 +12,22 @@ Case bent(const GridMesh& mesh, Variation& vary, KnownFacts known) {
   return grid_case(mesh, GridMap::any(vary), to_size_one, std::move(known));
 }
 
-// Spikes side by side over one face: all through it at half time, all touching it at the end, all
-// stopping one unit above.
+// Spikes side by side over one face: all through it at half time, all stopping well above, all
+// touching it at the end.
 Case simultaneous(Variation& vary, int exponent, int kind) {
   const int spikes = 1 << exponent;
   constexpr int columns = 8;
   constexpr std::int64_t cell = size / 64, drop = size / 16;
   GridMesh mesh;
   add_block(mesh, vary, size, size);
-  const std::int64_t end[] = {-drop, 0, 1};
+  const std::int64_t end[] = {-drop, drop / 4, 0};
   for (int i = 0; i < spikes; ++i) {
     const GridPoint place{cell * (i % columns - columns / 2), cell * (i / columns - columns / 2),
                           0};
     add_spike(mesh, vary, falling(place, drop, end[kind]), cell / 4, size / 8, Side::all_around);
   }
-  constexpr double first[] = {0.5, 1};
-  return bent(mesh, vary, kind < 2 ? known_collision(first[kind]) : known_free());
+  constexpr double first[] = {0.5, 0, 1};
+  return bent(mesh, vary, kind == 1 ? known_free() : known_collision(first[kind]));
 }
 
 // A triangle that tilts, and a copy of it with vertices of its own, above it by z_t0 to z_t1: while
@@ -48,8 +48,8 @@ Case copies(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts kn
 
 Case duplicates(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
-  const std::int64_t start[] = {gap, 0, gap, gap}, end[] = {gap, 0, -gap, 0};
-  constexpr double first[] = {0, 0, 0.5, 1};
+  const std::int64_t start[] = {gap, gap, 0, gap}, end[] = {gap, -gap, 0, 0};
+  constexpr double first[] = {0, 0.5, 0, 1};
   if (kind < 4) {
     return copies(vary, start[kind], end[kind],
                   kind == 0 ? known_free() : known_collision(first[kind]));
@@ -95,18 +95,21 @@ Case coplanar_sheet(Variation& vary, int exponent, int kind) {
       mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
     }
   }
-  return bent(mesh, vary, kind == 0 ? known_free() : known_collision(0.5));
+  Case c = bent(mesh, vary, kind == 0 ? known_free() : known_collision(0.5));
+  // From a chosen primitive every ghost of a flat sheet is swept against every triangle: n^1.5.
+  c.options["culling"] = "view-auto";
+  return c;
 }
 
 }  // namespace
 
 std::vector<HardFamily> crowd_families() {
-  return {{"simultaneous", "spikes that reach one face together: through, touching, one ulp above",
-           "contacts at one time", "", 0, 1, 6, 3, simultaneous},
-          {"duplicates", "a triangle and its copy: apart, together, through, meeting; an open seam",
-           "distance of the copies", "ulp", 40, -1, 40, 5, duplicates},
+  return {{"simultaneous", "spikes that come to one face together: through, or not to it",
+           "contacts at one time", "", 0, 1, 6, 2, 1, simultaneous},
+          {"duplicates", "a triangle and its copy: apart, through each other",
+           "distance of the copies", "ulp", 40, -1, 40, 2, 3, duplicates},
           {"coplanar", "a sheet that stays in its plane, or one vertex of it that folds over",
-           "triangles", "", 5, 1, 7, 2, coplanar_sheet}};
+           "triangles", "", 5, 1, 7, 2, 0, coplanar_sheet}};
 }
 
 }  // namespace assay::corpus

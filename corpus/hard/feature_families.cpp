@@ -21,17 +21,17 @@ Case near_coplanar(Variation& vary, int exponent, int kind) {
   GridMesh mesh;
   add_block(mesh, vary, size, 2 * gap);
   const GridPoint place = under_the_face(vary, size, 0);
-  const std::int64_t end[] = {-gap, 0, gap, gap};
-  GridVertex tip = falling(place, kind == 2 ? 2 * gap : gap, end[kind]);
-  if (kind == 3) tip.t1.x += size / 16;  // it glides over the face
+  const std::int64_t end[] = {-gap, gap, gap, 0};
+  GridVertex tip = falling(place, kind == 1 ? 2 * gap : gap, end[kind]);
+  if (kind == 2) tip.t1.x += size / 16;  // it glides over the face
   add_spike(mesh, vary, tip, size / 2, gap, Side::all_around);
-  constexpr double first[] = {0.5, 1};
-  return bent(mesh, vary, kind < 2 ? known_collision(first[kind]) : known_free());
+  constexpr double first[] = {0.5, 0, 0, 1};
+  return bent(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
 }
 
 // The lower edge of one tetrahedron over the upper edge of another. They cross over the origin at
-// an angle of about gap / size; kind 3: they would cross only beyond their ends, and the plane
-// y = gap lies between the two, with one unit to spare.
+// an angle of about gap / size; kind 2: they would cross only beyond their ends, and y is at most
+// gap in the one and at least twice that in the other.
 Case near_parallel(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   const auto some = [&](std::int64_t n) { return vary.between(n / 2, n); };
@@ -40,20 +40,20 @@ Case near_parallel(Variation& vary, int exponent, int kind) {
   mesh.add_tetrahedron({at_rest({-reach, -gap, 0}), at_rest({reach, gap, 0}),
                         at_rest({-some(size), -some(size / 2), -some(size)}),
                         at_rest({some(size), gap - some(size / 2), -some(size)})});
-  const bool beside = kind == 3;
-  const std::int64_t y = beside ? gap + 1 : 0;
-  const std::int64_t end[] = {-drop, 0, 1, -drop};
-  const GridVertex left = falling({-some(size / 2), y, 0}, drop, end[kind]);
+  const bool beside = kind == 2;
+  const std::int64_t y = beside ? 2 * gap : 0;
+  const std::int64_t end[] = {-drop, gap, -drop, 0};
+  const GridVertex left = falling({-some(size / 2), y, 0}, kind == 1 ? 2 * gap : drop, end[kind]);
   mesh.add_tetrahedron(
       {left, carried(left, {some(size / 2) + size / 2, 0, 0}),
        carried(left, {0, some(size / 2), some(size)}),
        carried(left, {some(size), beside ? some(size) : -some(size), some(size)})});
-  constexpr double first[] = {0.5, 1};
-  return bent(mesh, vary, kind < 2 ? known_collision(first[kind]) : known_free());
+  constexpr double first[] = {0.5, 0, 0, 1};
+  return bent(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
 }
 
-// A face of this width and the usual length, and a spike that comes down through it, on its long
-// edge, one unit beside that, or on its far corner.
+// A face of this width and the usual length, and a spike that comes down through it, as far beside
+// its long edge, on that edge, or on its far corner.
 Case slivers(Variation& vary, int exponent, int kind) {
   const std::int64_t width = two_to(exponent);
   const auto far = [&] { return vary.between(size / 2, size); };
@@ -62,8 +62,8 @@ Case slivers(Variation& vary, int exponent, int kind) {
                         at_rest({0, width, -far()})});
   const std::int64_t on_the_edge = vary.between(-size / 4, size / 4);
   const GridPoint places[] = {
-      {0, (width + 1) / 2, 0}, {on_the_edge, 0, 0}, {on_the_edge, -1, 0}, {0, width, 0}};
-  const bool misses = kind == 2;
+      {0, (width + 1) / 2, 0}, {on_the_edge, -width, 0}, {on_the_edge, 0, 0}, {0, width, 0}};
+  const bool misses = kind == 1;
   add_spike(mesh, vary, falling(places[kind], drop, -drop), size / 2, far(),
             misses ? Side::negative_y : Side::all_around);
   return bent(mesh, vary, misses ? known_free() : known_collision(0.5));
@@ -100,24 +100,22 @@ Case edge_passes(Variation& vary, std::int64_t x) {
 
 Case grazing(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
-  const std::int64_t places[] = {gap, -gap, 0};
-  return kind < 3 ? vertex_passes(vary, places[kind]) : edge_passes(vary, places[kind - 3]);
+  const std::int64_t places[] = {gap, -gap, gap, -gap, 0, 0};
+  const bool is_vertex = kind < 2 || kind == 4;
+  return is_vertex ? vertex_passes(vary, places[kind]) : edge_passes(vary, places[kind]);
 }
 
 }  // namespace
 
 std::vector<HardFamily> feature_families() {
-  return {
-      {"near-coplanar",
-       "two flat tetrahedra face to face: through, touching, turning back, gliding over",
-       "height of each over the plane", "ulp", 44, -1, 44, 4, near_coplanar},
-      {"near-parallel",
-       "two edges that all but line up: through, touching, one ulp above, one ulp beside",
-       "angle of the edges, as height over 2^45 ulp", "ulp", 44, -1, 44, 4, near_parallel},
-      {"slivers", "a vertex through a sliver: inside, on the edge, one ulp beside, on the corner",
-       "width of a triangle 2^45 ulp long", "ulp", 44, -1, 44, 4, slivers},
-      {"grazing", "vertex past an edge, edge past an end: just missing, just touching, on it",
-       "gap", "ulp", 40, -1, 40, 6, grazing}};
+  return {{"near-coplanar", "two flat tetrahedra face to face: through, turning back, gliding over",
+           "height of each over the plane", "ulp", 44, -1, 44, 3, 1, near_coplanar},
+          {"near-parallel", "two edges that all but line up: through, turning back, beside",
+           "angle of the edges, as height over 2^45 ulp", "ulp", 44, -1, 44, 3, 1, near_parallel},
+          {"slivers", "a vertex through a sliver, or as far beside it as it is wide",
+           "width of a triangle 2^45 ulp long", "ulp", 44, -1, 44, 2, 2, slivers},
+          {"grazing", "vertex past an edge, edge past an end: just missing, just meeting", "gap",
+           "ulp", 40, -1, 40, 4, 2, grazing}};
 }
 
 }  // namespace assay::corpus

@@ -20,7 +20,13 @@ std::span<const HardFamily> hard_families() {
 
 Case hard_case(const HardFamily& family, int strength, int variant) {
   Variation vary(family.name, strength, variant);
-  Case c = family.make(vary, family.exponent(strength), variant % family.kinds);
+  const int kind = variant % family.kinds_at(strength);
+  // What touches does so among features of every size.
+  Case c =
+      family.touches(strength)
+          ? family.make(vary, family.exponent(static_cast<int>(vary.between(0, family.strongest))),
+                        family.kinds + kind)
+          : family.make(vary, family.exponent(strength), kind);
   c.id = fmt::format("{}-s{}-v{}", family.name, strength, variant);
   c.about = family.about;
   c.source = "corpus/hard";

@@ -4,7 +4,8 @@
 // The strength turns one knob, and a greater strength is harder: at strength s the knob stands at
 // 2^(exponent_at_0 + slope * s), a gap in units of the grid, an offset over the size, a scale, a
 // number. One unit of the grid is an ulp of a coordinate of 2^52 units; coordinates are below 2^53
-// (grid_mesh.h).
+// (grid_mesh.h). Where something can touch, the strength after the strongest is the end of the
+// scale: exact touching, a gap of 0.
 #pragma once
 
 #include <span>
@@ -22,19 +23,23 @@ struct HardFamily {
   std::string_view unit;   // of the knob; may be empty
   int exponent_at_0;
   int slope;
-  int strongest;  // strengths are 0 .. strongest
+  int strongest;  // strengths with a knob are 0 .. strongest
   int kinds;      // variants v and v + kinds are of one kind and differ in numbers only
-  // The frames and what is known of them; no id.
+  int touching;   // kinds of exact touching; 0: none
+  // The frames and what is known of them; no id. Kinds from `kinds` on are those of touching.
   Case (*make)(Variation& vary, int exponent, int kind);
 
   int exponent(int strength) const { return exponent_at_0 + slope * strength; }
+  bool touches(int strength) const { return strength > strongest; }
+  int last_strength() const { return touching > 0 ? strongest + 1 : strongest; }
+  int kinds_at(int strength) const { return touches(strength) ? touching : kinds; }
 };
 
 std::span<const HardFamily> hard_families();
 
 // id ("grazing-s12-v3"), about, one step, its expected answer; first time and view signs where the
-// construction tells them. REQUIRES a strength in range, variant >= 0. Small cases: at most 4,100
-// triangles, mostly 8.
+// construction tells them. REQUIRES 0 <= strength <= last_strength(), variant >= 0. Small cases: at
+// most 4,100 triangles, mostly 8.
 Case hard_case(const HardFamily& family, int strength, int variant);
 
 }  // namespace assay::corpus

@@ -55,7 +55,7 @@ Case scaled(Variation& vary, int kind, const std::array<int, 3>& exponents) {
   return grid_case(mesh, GridMap::any(vary), of_units, known_of(kind));
 }
 
-// Kinds 0 to 3 larger, 4 to 7 smaller. (The knob's exponent is the family's strength here.)
+// Kinds 0 to 3 larger, 4 to 7 smaller.
 Case scales(Variation& vary, int exponent, int kind) {
   const int e = kind < 4 ? exponent : -exponent;
   return scaled(vary, kind % 4, {e, e, e});
@@ -76,14 +76,15 @@ Case denormals(Variation& vary, int exponent, int kind) {
 }  // namespace
 
 std::vector<HardFamily> number_families() {
-  return {{"far-offset", "a motion of one to four ulp, far from the origin",
-           "distance from the origin over 64 times the size", "", 0, 1, 40, 4, far_offset},
-          {"scales", "an easy case, made larger or smaller", "factor, or one over it", "", 0, 10,
-           50, 8, scales},
-          {"mixed-scales", "an easy case, one axis stretched and another shrunk",
-           "factor of one axis, and one over that of another", "", 0, 10, 50, 4, mixed_scales},
-          {"denormals", "an easy case whose coordinates lose their normal range",
-           "unit of the coordinates, which have up to 27 bits", "", -1022, -4, 13, 4, denormals}};
+  return {
+      {"far-offset", "a motion of one to four ulp, far from the origin",
+       "distance from the origin over 64 times the size", "", 0, 1, 40, 4, 0, far_offset},
+      {"scales", "an easy case, made larger or smaller", "factor, or one over it", "", 0, 10, 50, 8,
+       0, scales},
+      {"mixed-scales", "an easy case, one axis stretched and another shrunk",
+       "factor of one axis, and one over that of another", "", 0, 10, 50, 4, 0, mixed_scales},
+      {"denormals", "an easy case whose coordinates lose their normal range",
+       "unit of the coordinates, which have up to 27 bits", "", -1022, -4, 13, 4, 0, denormals}};
 }
 
 }  // namespace assay::corpus

@@ -26,15 +26,15 @@ Case spike_falls(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFac
 
 // It starts above, on or inside the block and leaves. What is inside is pierced at t=0.
 Case at_the_start(Variation& vary, int exponent, int kind) {
-  const std::int64_t gap = two_to(exponent), start[] = {gap, 0, -gap};
+  const std::int64_t gap = two_to(exponent), start[] = {gap, -gap, 0};
   return spike_falls(vary, start[kind], start[kind] + size / 4,
                      kind == 0 ? known_free() : known_collision(0));
 }
 
 // It comes from 2^44 - gap and stops above, on or inside the block: t* = 1 - gap / 2^44.
 Case at_the_end(Variation& vary, int exponent, int kind) {
-  const std::int64_t gap = two_to(exponent), end[] = {gap, 0, -gap};
-  const double first = kind == 1 ? 1 : 1 - std::ldexp(1, exponent - 44);
+  const std::int64_t gap = two_to(exponent), end[] = {gap, -gap, 0};
+  const double first = kind == 2 ? 1 : 1 - std::ldexp(1, exponent - 44);
   return spike_falls(vary, two_to(44) - gap, end[kind],
                      kind == 0 ? known_free() : known_collision(first));
 }
@@ -46,7 +46,7 @@ Case at_the_end(Variation& vary, int exponent, int kind) {
 // it, is at least W / 2 above the face; the block's fourth corner is below it on the axis.
 Case double_root(Variation& vary, int exponent, int kind) {
   constexpr std::int64_t path = std::int64_t{1} << 44;
-  const std::int64_t gap = two_to(exponent), dips[] = {gap, 0, -gap};
+  const std::int64_t gap = two_to(exponent), dips[] = {gap, -gap, 0};
   const std::int64_t dip = dips[kind];
   GridMesh mesh;
   std::array<GridVertex, 4> block;
@@ -58,8 +58,8 @@ Case double_root(Variation& vary, int exponent, int kind) {
   mesh.add_tetrahedron(block);
   const std::int64_t y = vary.between(-size / 16, size / 16);
   add_spike(mesh, vary, {{-path, y, -dip}, {path, y, -dip}}, path / 2, path, Side::all_around);
-  const double first = kind == 1 ? 0.5 : (1 - std::ldexp(1, exponent / 2 - 22)) / 2;
-  return bent(mesh, vary, kind == 2 ? known_free() : known_collision(first));
+  const double first = kind == 2 ? 0.5 : (1 - std::ldexp(1, exponent / 2 - 22)) / 2;
+  return bent(mesh, vary, kind == 1 ? known_free() : known_collision(first));
 }
 
 // A vertex at the origin and a triangle with F(tau) = tau^3 + c2 tau^2 - c1 tau + c0, tau = t -
@@ -70,10 +70,10 @@ Case double_root(Variation& vary, int exponent, int kind) {
 Case triple_root(Variation& vary, int exponent, int kind) {
   constexpr std::int64_t one = std::int64_t{1} << 43;
   const std::int64_t d2 = two_to(43 + 2 * exponent);  // the square of the distance of roots
-  // three at one place; at -d, 0, d; 0 beside a complex pair; 2 beside a complex pair
-  const std::int64_t c0 = kind == 3 ? -2 * d2 : 0;
-  const std::int64_t c1 = kind == 0 ? 0 : kind == 1 ? d2 : -d2;
-  const std::int64_t c2 = kind == 3 ? -2 * one : 0;
+  // at -d, 0, d; 0 beside a complex pair; 2 beside a complex pair; three at one place
+  const std::int64_t c0 = kind == 2 ? -2 * d2 : 0;
+  const std::int64_t c1 = kind == 3 ? 0 : kind == 0 ? d2 : -d2;
+  const std::int64_t c2 = kind == 2 ? -2 * one : 0;
   const GridPoint rows[] = {
       {0, one, 0}, {one, one, one}, {-one + c0 + c2, -2 * one + c1 + c2, -one + c2}};
   const std::int64_t half = one / 2;
@@ -88,56 +88,55 @@ Case triple_root(Variation& vary, int exponent, int kind) {
   const auto near = [&] { return vary.between(0, one / 64); };
   mesh.add_triangle({at_rest({0, 0, 0}), at_rest({one / 2 + near(), near(), -one / 2}),
                      at_rest({one / 2, near() - one / 16, -one / 2 - near()})});
-  const double first = kind == 1 ? 0.5 - std::ldexp(1, exponent) : 0.5;
-  return bent(mesh, vary, kind == 3 ? known_free() : known_collision(first));
+  const double first = kind == 0 ? 0.5 - std::ldexp(1, exponent) : 0.5;
+  return bent(mesh, vary, kind == 2 ? known_free() : known_collision(first));
 }
 
-// Solids far smaller than the way that the spike goes: into the face at half time, through, or past
-// it with one unit to spare.
+// Solids far smaller than the way that the spike goes: through the face, past it, or onto it.
 Case long_step(Variation& vary, int exponent, int kind) {
   const std::int64_t reach = two_to(usual_exponent - exponent), way = size;
-  const bool misses = kind == 2;
+  const bool misses = kind == 1;
   GridMesh mesh;
   std::array<GridVertex, 4> block;
-  auto face = wide_face(vary, reach);
+  const auto face = wide_face(vary, reach);
   // For a miss all of it lies in y <= 0.
   for (std::size_t i = 0; i < 3; ++i)
     block[i] = at_rest(misses ? face[i] + GridPoint{0, -reach} : face[i]);
   block[3] = at_rest({0, misses ? -reach / 2 : 0, -reach});
   mesh.add_tetrahedron(block);
   GridPoint place = under_the_face(vary, reach, 0);
-  if (misses) place.y = 1;
-  GridVertex tip = falling(place, way, kind == 1 ? 0 : -way);
+  if (misses) place.y = reach / 8;
+  GridVertex tip = falling(place, way, kind == 2 ? 0 : -way);
   const std::int64_t slant = vary.between(-way, way);
   tip.t0.x -= slant;
-  if (kind != 1) tip.t1.x += slant;
+  if (kind != 2) tip.t1.x += slant;
   add_spike(mesh, vary, tip, reach / 2, reach / 2, misses ? Side::positive_y : Side::all_around);
   return bent(mesh, vary, misses ? known_free() : known_collision(kind == 0 ? 0.5 : 1));
 }
 
 Case short_step(Variation& vary, int exponent, int kind) {
   const std::int64_t way = two_to(exponent);
-  const std::int64_t start[] = {way, way, 2 * way, 0}, end[] = {-way, 0, way, way};
-  constexpr double first[] = {0.5, 1, 0, 0};
+  const std::int64_t start[] = {way, 2 * way, way, 0}, end[] = {-way, way, 0, way};
+  constexpr double first[] = {0.5, 0, 1, 0};
   return spike_falls(vary, start[kind], end[kind],
-                     kind == 2 ? known_free() : known_collision(first[kind]));
+                     kind == 1 ? known_free() : known_collision(first[kind]));
 }
 
 }  // namespace
 
 std::vector<HardFamily> time_families() {
-  return {{"contact-at-start", "a spike leaves a face: from just above, on it, just inside",
-           "distance at t=0", "ulp", 40, -1, 40, 3, at_the_start},
-          {"contact-at-end", "a spike reaches a face: just not, exactly, just before the end",
-           "distance at t=1", "ulp", 40, -1, 40, 3, at_the_end},
-          {"double-root", "height over a turning face is a square, less or plus a little, or not",
-           "least height", "ulp", 40, -2, 20, 3, double_root},
-          {"triple-root", "three roots together, nearly together, one beside a complex pair, none",
-           "distance of the roots", "of the step", -2, -1, 19, 4, triple_root},
-          {"long-steps", "a spike through a face, onto it, or past it by one ulp",
-           "length of the motion over the size", "", 0, 1, 40, 3, long_step},
-          {"short-steps", "a spike into a face, onto it, toward it, away from it",
-           "length of the motion", "ulp", 44, -1, 44, 4, short_step}};
+  return {{"contact-at-start", "a spike leaves a face: from just above, from just inside",
+           "distance at t=0", "ulp", 40, -1, 40, 2, 1, at_the_start},
+          {"contact-at-end", "a spike reaches a face: just not, just before the end",
+           "distance at t=1", "ulp", 40, -1, 40, 2, 1, at_the_end},
+          {"double-root", "height over a turning face is a square, less or plus a little",
+           "least height", "ulp", 40, -2, 20, 2, 1, double_root},
+          {"triple-root", "three roots nearly together, one beside a complex pair, none",
+           "distance of the roots", "of the step", -2, -1, 19, 3, 1, triple_root},
+          {"long-steps", "a spike through a face, or past it", "length of the motion over the size",
+           "", 0, 1, 40, 2, 1, long_step},
+          {"short-steps", "a spike into a face, or toward it", "length of the motion", "ulp", 44,
+           -1, 44, 2, 2, short_step}};
 }
 
 }  // namespace assay::corpus

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reports/bench/error_output.h"
 #include "reports/commands.h"
 
 namespace assay::reports {
@@ -77,9 +78,37 @@ std::string text_of(const BenchReport& report) {
                         measured, row.wanted ? text_of(*row.wanted) : "-", name_of(row.outcome()),
                         row.note.empty() ? "" : "  " + row.note);
   }
+  if (!report.variants.empty()) text += fmt::format("\n{}\n", text_of(std::span(report.variants)));
   for (const auto& line : report.wrong_answers) text += "WRONG ANSWER: " + line + "\n";
   return text;
 }
+
+namespace {
+
+Json heat_json(const std::vector<StabilityCell>& heat) {
+  Json cells = Json::array();
+  for (const auto& c : heat) {
+    cells.push_back({{"family", c.family},
+                     {"arithmetic", c.arithmetic},
+                     {"strength", c.strength},
+                     {"exponent", c.touches ? Json() : Json(c.exponent)},
+                     {"knob", c.knob},
+                     {"cases", c.cases},
+                     {"right", c.right},
+                     {"share_right", c.share_right()},
+                     {"exactly_right", c.exactly_right},
+                     {"missed", c.missed},
+                     {"late", c.late},
+                     {"early", c.early},
+                     {"spurious", c.spurious},
+                     {"wrong_signs", c.wrong_signs},
+                     {"time_errors", c.time_errors},
+                     {"time_errors_ulps", c.time_errors_ulps}});
+  }
+  return cells;
+}
+
+}  // namespace
 
 Json to_json(const BenchReport& report) {
   Json rows = Json::array(), scatter = Json::array();
@@ -102,11 +131,45 @@ Json to_json(const BenchReport& report) {
     scatter.push_back({{"scene", p.scene},
                        {"culling", p.culling},
                        {"view_positive_share", p.share},
-                       {"time_over_bvh", p.ratio}});
+                       {"over", p.over},
+                       {"time_over", p.ratio},
+                       {"interval", {p.lo, p.hi}}});
   }
-  return {{"schema", "assay-bench/1"}, {"version", version_text()},
-          {"suite", report.suite},     {"rows", rows},
-          {"scatter", scatter},        {"wrong_answers", report.wrong_answers}};
+  return {{"schema", "assay-bench/1"},
+          {"version", version_text()},
+          {"suite", report.suite},
+          {"rows", rows},
+          {"scatter", scatter},
+          {"heat", heat_json(report.heat)},
+          {"variants", to_json(std::span(report.variants))},
+          {"families", to_json(std::span(report.families))},
+          {"wrong_answers", report.wrong_answers}};
+}
+
+namespace {
+
+// A field of CSV: in quotes, for words hold commas.
+std::string quoted(const std::string& words) {
+  std::string text(1, '"');
+  for (const char c : words) text.append(c == '"' ? 2 : 1, c);
+  text += '"';
+  return text;
+}
+
+}  // namespace
+
+std::string csv_of(const BenchReport& report) {
+  if (!report.steps.empty()) return csv_of(std::span(report.steps));
+  std::string text = "suite,what,unit,sample,value\n";
+  for (const auto& row : report.rows) {
+    if (!row.measured) continue;
+    int sample = 0;
+    for (const double value : row.measured->samples) {
+      text += fmt::format("{},{},{},{},{}\n", report.suite, quoted(row.what), quoted(row.unit),
+                          ++sample, value);
+    }
+  }
+  return text;
 }
 
 }  // namespace assay::reports

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "reports/bench/error_summary.h"
 #include "reports/bench/estimate.h"
+#include "reports/bench/stability_cell.h"
 
 namespace assay::reports {
 
@@ -37,8 +39,17 @@ struct BenchRow {
 struct ScatterPoint {
   std::string scene;
   std::string culling;
-  double share = 0;  // of V+ among all triangles
-  double ratio = 0;  // time of the step over that of culling bvh
+  double share = 0;          // of V+ among all triangles
+  double ratio = 0;          // time of the step over that of culling `over`
+  double lo = 0, hi = 0;     // interval of the ratio
+  std::string over = "bvh";  // or normal-cone
+};
+
+// A time of suite growth.
+struct GrowthPoint {
+  std::string what;
+  double triangles = 0;
+  Estimate ms;
 };
 
 struct BenchReport {
@@ -47,6 +58,12 @@ struct BenchReport {
   // One line each. Times are noisy, answers are not: any of these fails the run.
   std::vector<std::string> wrong_answers;
   std::vector<ScatterPoint> scatter;
+  std::vector<StabilityCell> heat;  // of suite stability
+  std::vector<GrowthPoint> growth;  // by what, then by triangles
+  // Of suite speed-error.
+  std::vector<JudgedStep> steps;
+  std::vector<FamilySummary> families;
+  std::vector<VariantSummary> variants;
 
   void add(std::string what, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});
@@ -59,5 +76,7 @@ std::string text_of(const Wanted& wanted);
 // A table, a line a row.
 std::string text_of(const BenchReport& report);
 nlohmann::ordered_json to_json(const BenchReport& report);
+// A line a raw sample; of suite speed-error a line a step and variant (error_output.h).
+std::string csv_of(const BenchReport& report);
 
 }  // namespace assay::reports

@@ -1,4 +1,5 @@
-// The suites of `assay bench`. Each takes at most three minutes at its default size on one core.
+// The suites of `assay bench`. Each takes at most four minutes at its default size on one core, all
+// together fifteen.
 #pragma once
 
 #include <functional>
@@ -32,5 +33,13 @@ BenchReport view_suite(const BenchSettings& settings, Progress& progress);
 BenchReport growth_suite(const BenchSettings& settings, Progress& progress);
 // What the thesis says of costs, the whole step against culling bvh, the break-even share of V+.
 BenchReport claims_suite(const BenchSettings& settings, Progress& progress);
+// Where each arithmetic breaks, in the corpus's hard families.
+BenchReport stability_suite(const BenchSettings& settings, Progress& progress);
+// Every arithmetic, culling and kind of pairs on the same steps: time, and error against the
+// oracle.
+BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress);
+
+// What judging costs: the oracle on a real step and on queries, a campaign's steps a second.
+BenchReport harness_suite(const BenchSettings& settings, Progress& progress);
 
 }  // namespace assay::reports

@@ -1,0 +1,28 @@
+// The deforming meshes of the public data, as sequences of frames.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/mesh_reader.h"
+#include "reports/bench/suites.h"
+
+namespace assay::reports {
+
+struct RealSequence {
+  std::string name;
+  corpus::Sequence frames;
+  bool starts_clean = false;  // in no contact at its first frame, and closed
+};
+
+// rod-twist, thick-cloth, kick, and the bunny as scene `bend` bends it. What is not there is left
+// out and named in `missing`. Throws UnusableData.
+std::vector<RealSequence> real_sequences(const BenchSettings& settings,
+                                         std::vector<std::string>& missing);
+
+// The step of rod-twist alone, which DESIGN's table asks for; nothing where it is not there. Throws
+// UnusableData.
+std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings);
+
+}  // namespace assay::reports

@@ -1,0 +1,83 @@
+/* A long run in C that is saved half way and taken up by another handle, as after a restart. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "detector/plugin/assay_builtin_detector.h"
+
+enum { vertices = 4, steps = 40 };
+
+static const int32_t triangles[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+
+/* A tetrahedron whose top goes up and down, each time a little lower; at last through the base. */
+static void place(double* x, int frame) {
+  static const double rest[3 * vertices] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 2};
+  memcpy(x, rest, sizeof rest);
+  x[11] = frame % 2 ? 2.0 : 2.0 - frame / 16.0;
+}
+
+static assay_handle* make(void) {
+  assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
+  assay_builtin_error error;
+  assay_handle* handle = NULL;
+  double x[3 * vertices];
+  options.culling = ASSAY_CULLING_VIEW_POINT;
+  place(x, 0);
+  if (assay_builtin_create(triangles, 4, x, vertices, &options, &handle, &error) != ASSAY_OK) {
+    printf("%s: %s\n", assay_builtin_error_name(error.code), error.message);
+    exit(1);
+  }
+  return handle;
+}
+
+/* Answers, and what is dirty, of the steps from `begin` on. */
+static void play(assay_handle* handle, int begin, int end, int32_t* answers, uint64_t* dirty) {
+  for (int s = begin; s < end; ++s) {
+    double x_t0[3 * vertices], x_t1[3 * vertices];
+    assay_result result = {0};
+    assay_builtin_sets sets;
+    place(x_t0, s);
+    place(x_t1, s + 1);
+    if (assay_builtin_evaluate(handle, x_t0, x_t1, NULL, 0, NULL, NULL, NULL) != ASSAY_OK) exit(2);
+    assay_builtin_detector()->result(handle, &result);
+    assay_builtin_get_sets(handle, &sets);
+    answers[s] = result.answer;
+    dirty[s] = sets.dirty;
+    if (assay_builtin_commit(handle, NULL) != ASSAY_OK) exit(3);
+  }
+}
+
+int main(void) {
+  int32_t answers[steps], again[steps];
+  uint64_t dirty[steps], dirty_again[steps], size = 0, written = 0;
+  const int half = 35; /* the top has been through the base: some triangles are dirty */
+  assay_builtin_error error;
+  assay_handle *first = make(), *second = make();
+  unsigned char* bytes;
+  int collisions = 0;
+
+  play(first, 0, half, answers, dirty);
+  if (assay_builtin_save(first, NULL, 0, &size, &error) != ASSAY_OK) return 4;
+  bytes = malloc((size_t)size);
+  if (!bytes || assay_builtin_save(first, bytes, size, &written, &error) != ASSAY_OK) return 5;
+  play(first, half, steps, answers, dirty);
+
+  bytes[30] ^= 1;
+  if (assay_builtin_restore(second, bytes, size, &error) != ASSAY_REFUSED ||
+      error.code != ASSAY_BUILTIN_DAMAGED_STATE) {
+    return 6;
+  }
+  bytes[30] ^= 1;
+  if (assay_builtin_restore(second, bytes, size, &error) != ASSAY_OK) return 7;
+  play(second, half, steps, again, dirty_again);
+  for (int s = 0; s < steps; ++s) collisions += answers[s] == ASSAY_COLLISION;
+  for (int s = half; s < steps; ++s) {
+    if (answers[s] != again[s] || dirty[s] != dirty_again[s]) return 8;
+  }
+  printf("%d of %d steps collide; %d bytes of state, %d dirty after them\n", collisions, steps,
+         (int)size, (int)dirty[half]);
+  free(bytes);
+  assay_builtin_detector()->destroy(first);
+  assay_builtin_detector()->destroy(second);
+  return collisions > 0 && dirty[half] > 0 ? 0 : 9;
+}
