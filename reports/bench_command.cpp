@@ -16,11 +16,9 @@ struct Suite {
   std::string_view name;
   BenchReport (*run)(const BenchSettings&, Progress&);
 };
-constexpr Suite suites[] = {{"elementary", elementary_suite},
-                            {"view", view_suite},
-                            {"growth", growth_suite},
-                            {"claims", claims_suite},
-                            {"stability", stability_suite}};
+constexpr Suite suites[] = {{"elementary", elementary_suite}, {"view", view_suite},
+                            {"growth", growth_suite},         {"claims", claims_suite},
+                            {"stability", stability_suite},   {"speed-error", speed_error_suite}};
 
 }  // namespace
 
@@ -32,7 +30,7 @@ bool is_bench_suite(std::string_view name) {
 }
 
 int run_bench(const BenchRequest& request) try {
-  for (const auto* file : {&request.json_file, &request.svg_file}) {
+  for (const auto* file : {&request.json_file, &request.csv_file, &request.svg_file}) {
     if (auto problem = cannot_write(*file, {})) return refuse(*problem);
   }
   if (!request.svg_file.empty() && request.suite != "claims") {
@@ -54,6 +52,9 @@ int run_bench(const BenchRequest& request) try {
   if (!request.json_file.empty()) {
     const auto text = to_json(report).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (auto problem = write(request.json_file, text + "\n")) return refuse(*problem);
+  }
+  if (!request.csv_file.empty()) {
+    if (auto problem = write(request.csv_file, csv_of(report))) return refuse(*problem);
   }
   if (!request.svg_file.empty()) {
     if (auto problem = write(request.svg_file, scatter_svg(report.scatter))) {

@@ -97,12 +97,18 @@ struct ShrinkRequest {
 int run_shrink(const ShrinkRequest& request);
 
 struct BenchRequest {
-  std::string suite;                // is_bench_suite
-  std::string data;                 // folder of the public data
-  std::string json_file, svg_file;  // empty: none
+  std::string suite;                          // is_bench_suite
+  std::string data;                           // folder of the public data
+  std::string json_file, csv_file, svg_file;  // empty: none
 };
 bool is_bench_suite(std::string_view name);
 int run_bench(const BenchRequest& request);
+
+struct ReportRequest {
+  std::vector<std::string> folders;  // of runs, oldest first
+  std::string out;                   // one HTML file
+};
+int run_report(const ReportRequest& request);
 
 struct ListRequest {
   std::string what = "scenes";  // scenes, laws, faults, campaigns, failures

@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   reports::ReplayRequest replay;
   reports::ShrinkRequest shrink;
   reports::BenchRequest bench;
+  reports::ReportRequest report;
   reports::ListRequest list;
   check.jobs = certify.jobs = self_test.jobs = campaign.jobs =
       static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -44,6 +45,7 @@ int run(int argc, char** argv) {
   reports::add_replay(app, replay);
   reports::add_shrink(app, shrink);
   reports::add_bench(app, bench);
+  reports::add_report(app, report);
   reports::add_list(app, list);
   reports::add_certify(app, certify);
 
@@ -73,6 +75,7 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("replay")) return reports::run_replay(replay);
   if (app.got_subcommand("bench")) return reports::run_bench(bench);
   if (app.got_subcommand("shrink")) return reports::run_shrink(shrink);
+  if (app.got_subcommand("report")) return reports::run_report(report);
   return reports::run_list(list);
 }
 

@@ -15,6 +15,7 @@
 #include "reports/detector_choice.h"
 #include "reports/failure_text.h"
 #include "reports/interruption.h"
+#include "reports/page_data/run_notes.h"
 #include "reports/plain_progress.h"
 #include "reports/plugin_text.h"
 #include "reports/shell_word.h"
@@ -38,6 +39,8 @@ class CampaignRun {
 
   int run() {
     announce();
+    note_detector(store_, request_);
+    note_end(store_, {});
     meet_canary();
     run_trials();
     if (!trials_.store_problem.empty()) return refuse(trials_.store_problem + go_on);
@@ -87,6 +90,7 @@ class CampaignRun {
     fmt::print("canary {}: {}\n", canary_.fault,
                canary_.found_after ? fmt::format("found after {} cases", *canary_.found_after)
                                    : "NOT FOUND: the harness sees nothing");
+    note_canary(store_, canary_);
     std::fflush(stdout);
   }
 
@@ -119,6 +123,7 @@ class CampaignRun {
       constexpr double seconds_each = 60;
       properties::shrink_faults(faults_, {seconds_each, 1'000'000}, request_.jobs, after(1), show);
     }
+    note_faults(store_, faults_);
   }
 
   void explore_world() {
@@ -171,7 +176,7 @@ class CampaignRun {
     if (!worlds_.empty()) fmt::print("\n{}", worlds_text(worlds_));
   }
 
-  int conclude(const properties::Tally& tally) const {
+  int conclude(const properties::Tally& tally) {
     const auto harness = harness_faults(tally);
     for (const auto& line : harness) fmt::print("HARNESS: {}\n", line);
     std::uint64_t defects = 0, unsettled = 0;
@@ -214,6 +219,7 @@ class CampaignRun {
                               : "undecided: a bound is above what is wanted";
       code = exit_undecided;
     }
+    note_end(store_, {outcome, harness, bounds_met});
     fmt::print("\n{}: {} trials with a defect, {} undecided, {} laws broken, in {:.0f} s\n",
                outcome, defects, unsettled, broken_laws, seconds());
     if (code != exit_holds) fmt::print("next: {}\n", next);

@@ -10,6 +10,7 @@
 #include "reports/detector_choice.h"
 #include "reports/interruption.h"
 #include "reports/json_output.h"
+#include "reports/picture/scene_maker.h"
 #include "reports/plain_progress.h"
 #include "reports/shell_word.h"
 
@@ -89,11 +90,16 @@ int run_shrink(const ShrinkRequest& request) {
   if (!problem) {
     problem = write_text_file(request.out, corpus::case_text(reduction.smallest));
   }
+  if (!problem) {
+    SceneMaker scenes(request.detector);
+    problem = scenes.write_picture(request.out, reduction.smallest, failing->configuration.name,
+                                   failing->signature);
+  }
   if (problem) return refuse(*problem);
-  fmt::print("{}; {} runs, {:.1f} s{}\nreplay: assay replay {}{}\n",
+  fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: assay replay {}{}\n",
              properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
              reduction.calls, reduction.seconds, reduction.fixed_point ? "" : "; the time was over",
-             shell_word(request.out), detector_words(request.detector));
+             picture_file(request.out), shell_word(request.out), detector_words(request.detector));
   return exit_defect;
 }
 

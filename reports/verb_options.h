@@ -16,6 +16,7 @@ void add_certify(CLI::App& app, CertifyRequest& request);
 void add_run(CLI::App& app, RunCommandRequest& request);
 void add_replay(CLI::App& app, ReplayRequest& request);
 void add_shrink(CLI::App& app, ShrinkRequest& request);
+void add_report(CLI::App& app, ReportRequest& request);
 void add_list(CLI::App& app, ListRequest& request);
 void add_scene(CLI::App& app, SceneRequest& request);
 void add_bench(CLI::App& app, BenchRequest& request);

@@ -20,12 +20,13 @@ void add_bench(CLI::App& app, BenchRequest& request) {
   request.data = data && *data ? data : "../shared/data";
   auto* verb = app.add_subcommand("bench", "Speeds and memory beside what is wanted");
   verb->add_option("--suite", request.suite, "What to measure")
-      ->check(one_of("elementary, view, growth, claims, stability", is_bench_suite))
+      ->check(one_of("elementary, view, growth, claims, stability, speed-error", is_bench_suite))
       ->required();
   verb->add_option("--data", request.data,
                    "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
                    "what is not there say so");
   verb->add_option("--json", request.json_file, "Write all figures here (assay-bench/1)");
+  verb->add_option("--csv", request.csv_file, "Write the raw samples here");
   verb->add_option("--svg", request.svg_file,
                    "Draw the break-even scatter of suite claims here (SVG)");
 }

@@ -76,6 +76,12 @@ void add_shrink(CLI::App& app, ShrinkRequest& request) {
   verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
 }
 
+void add_report(CLI::App& app, ReportRequest& request) {
+  auto* verb = app.add_subcommand("report", "Runs as one HTML page that works offline");
+  verb->add_option("folders", request.folders, "Folders of runs, the oldest first")->required();
+  verb->add_option("--out", request.out, "The page (.html)")->required();
+}
+
 void add_list(CLI::App& app, ListRequest& request) {
   auto* verb = app.add_subcommand("list", "List scenes, laws, faults, campaigns, or failures");
   verb->add_option("what", request.what, "scenes, laws, faults, campaigns, failures")

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reports/bench/error_output.h"
 #include "reports/commands.h"
 
 namespace assay::reports {
@@ -77,6 +78,7 @@ std::string text_of(const BenchReport& report) {
                         measured, row.wanted ? text_of(*row.wanted) : "-", name_of(row.outcome()),
                         row.note.empty() ? "" : "  " + row.note);
   }
+  if (!report.variants.empty()) text += fmt::format("\n{}\n", text_of(std::span(report.variants)));
   for (const auto& line : report.wrong_answers) text += "WRONG ANSWER: " + line + "\n";
   return text;
 }
@@ -137,7 +139,35 @@ Json to_json(const BenchReport& report) {
           {"rows", rows},
           {"scatter", scatter},
           {"heat", heat_json(report.heat)},
+          {"variants", to_json(std::span(report.variants))},
+          {"families", to_json(std::span(report.families))},
           {"wrong_answers", report.wrong_answers}};
+}
+
+namespace {
+
+// A field of CSV: in quotes, for words hold commas.
+std::string quoted(const std::string& words) {
+  std::string text(1, '"');
+  for (const char c : words) text.append(c == '"' ? 2 : 1, c);
+  text += '"';
+  return text;
+}
+
+}  // namespace
+
+std::string csv_of(const BenchReport& report) {
+  if (!report.steps.empty()) return csv_of(std::span(report.steps));
+  std::string text = "suite,what,unit,sample,value\n";
+  for (const auto& row : report.rows) {
+    if (!row.measured) continue;
+    int sample = 0;
+    for (const double value : row.measured->samples) {
+      text += fmt::format("{},{},{},{},{}\n", report.suite, quoted(row.what), quoted(row.unit),
+                          ++sample, value);
+    }
+  }
+  return text;
 }
 
 }  // namespace assay::reports

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/bench/error_summary.h"
 #include "reports/bench/estimate.h"
 #include "reports/bench/stability_cell.h"
 
@@ -49,6 +50,10 @@ struct BenchReport {
   std::vector<std::string> wrong_answers;
   std::vector<ScatterPoint> scatter;
   std::vector<StabilityCell> heat;  // of suite stability
+  // Of suite speed-error.
+  std::vector<JudgedStep> steps;
+  std::vector<FamilySummary> families;
+  std::vector<VariantSummary> variants;
 
   void add(std::string what, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});
@@ -61,5 +66,7 @@ std::string text_of(const Wanted& wanted);
 // A table, a line a row.
 std::string text_of(const BenchReport& report);
 nlohmann::ordered_json to_json(const BenchReport& report);
+// A line a raw sample; of suite speed-error a line a step and variant (error_output.h).
+std::string csv_of(const BenchReport& report);
 
 }  // namespace assay::reports

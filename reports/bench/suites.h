@@ -1,4 +1,5 @@
-// The suites of `assay bench`. Each takes at most three minutes at its default size on one core.
+// The suites of `assay bench`. Each takes at most four minutes at its default size on one core, all
+// together fifteen.
 #pragma once
 
 #include <functional>
@@ -34,5 +35,8 @@ BenchReport growth_suite(const BenchSettings& settings, Progress& progress);
 BenchReport claims_suite(const BenchSettings& settings, Progress& progress);
 // Where each arithmetic breaks, in the corpus's hard families.
 BenchReport stability_suite(const BenchSettings& settings, Progress& progress);
+// Every arithmetic, culling and kind of pairs on the same steps: time, and error against the
+// oracle.
+BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress);
 
 }  // namespace assay::reports

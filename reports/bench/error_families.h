@@ -1,0 +1,38 @@
+// The sequences that suite speed-error runs, in families.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "corpus/case_file.h"
+#include "corpus/mesh_reader.h"
+#include "detector/options.h"
+#include "reports/bench/suites.h"
+
+namespace assay::reports {
+
+struct TimedCase {
+  corpus::Case c;
+  detector::Start start = detector::Start::verified;
+};
+
+struct ErrorFamily {
+  std::string name;
+  std::string kind;  // scene, generated, hard, real
+  int rounds = 5;
+  std::function<std::vector<TimedCase>()> cases;  // made when they are run
+};
+
+// Scenes of corpus/: the steps around the first contact, where there is one. The random families of
+// the campaigns. Real sequences, as far as they are there: `missing` gets the files that are not.
+// Starts are vouched for where the oracle, or the scene, knows them to be clean; a step's time is
+// then without the verification that only a new start takes.
+std::vector<ErrorFamily> error_families(const BenchSettings& settings,
+                                        std::vector<std::string>& missing);
+
+// The steps of a sequence that are worth judging: up to three before the first contact and two from
+// there on; the first five where there is none.
+corpus::Sequence around_first_contact(const corpus::Sequence& sequence);
+
+}  // namespace assay::reports

@@ -1,0 +1,61 @@
+#include "reports/bench/judged_step.h"
+
+#include <bit>
+#include <cmath>
+
+#include "properties/case_check.h"
+
+namespace assay::reports {
+
+using detector::Arithmetic;
+using detector::Culling;
+using detector::Pairs;
+
+std::vector<Variant> all_variants(bool with_none) {
+  std::vector<Variant> variants = {reference_variant};
+  for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded,
+                                Arithmetic::double_precision, Arithmetic::single_precision}) {
+    for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
+                               Culling::normal_cone, Culling::bvh, Culling::none}) {
+      if (culling == Culling::none && !with_none) continue;
+      for (const auto pairs : {Pairs::all, Pairs::first}) {
+        const Variant variant{arithmetic, culling, pairs};
+        if (variant != reference_variant) variants.push_back(variant);
+      }
+    }
+  }
+  return variants;
+}
+
+const char* name_of(Pairs pairs) { return pairs == Pairs::all ? "all" : "first"; }
+
+std::string name_of(const Variant& variant) {
+  return std::string(properties::name_of(variant.arithmetic)) + " " +
+         properties::name_of(variant.culling) + " " + name_of(variant.pairs);
+}
+
+namespace {
+
+// The place of a finite double among all of them; -0 and 0 are one place.
+std::int64_t ordinal(double x) {
+  const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
+  return x < 0 ? -bits : bits;
+}
+
+}  // namespace
+
+FirstTimeError first_time_error(const detector::TimeEnclosure& reported,
+                                const detector::TimeEnclosure& truth) {
+  FirstTimeError error;
+  const double ulps = std::abs(static_cast<double>(ordinal(reported.lo) - ordinal(truth.lo)));
+  if (reported.lo > truth.lo) {
+    error.late_ulps = ulps;
+    error.late_share = reported.lo - truth.lo;
+  } else if (reported.lo < truth.lo) {
+    error.early_ulps = ulps;
+    error.early_share = truth.lo - reported.lo;
+  }
+  return error;
+}
+
+}  // namespace assay::reports

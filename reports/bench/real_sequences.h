@@ -1,0 +1,23 @@
+// The deforming meshes of the public data, as sequences of frames.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corpus/mesh_reader.h"
+#include "reports/bench/suites.h"
+
+namespace assay::reports {
+
+struct RealSequence {
+  std::string name;
+  corpus::Sequence frames;
+  bool starts_clean = false;  // in no contact at its first frame, and closed
+};
+
+// rod-twist, thick-cloth, kick, and the bunny as scene `bend` bends it. What is not there is left
+// out and named in `missing`. Throws UnusableData.
+std::vector<RealSequence> real_sequences(const BenchSettings& settings,
+                                         std::vector<std::string>& missing);
+
+}  // namespace assay::reports

@@ -1,0 +1,144 @@
+// What a certificate adds to a run: its subject, the corpus, speed, waivers, the checks of the oracle.
+import { html, section, table } from "./dom";
+import { replayLine } from "./failure_facts";
+import type { Certificate, CorpusRow, Run, Waiver } from "./report";
+import { count, counted } from "./words";
+
+// Configurations that agree on an input are one row.
+function together(rows: CorpusRow[]): { row: CorpusRow; who: string }[] {
+  const groups = new Map<string, CorpusRow[]>();
+  for (const row of rows) {
+    const key = [row.input, row.cases, row.left_out, row.steps, row.collisions, row.pairs, row.defects].join("|");
+    groups.set(key, [...(groups.get(key) ?? []), row]);
+  }
+  return [...groups.values()].map((same) => ({
+    row: same[0]!,
+    who: same.length === 1 ? same[0]!.configuration : `each of ${same.length}`,
+  }));
+}
+
+function corpus(rows: CorpusRow[] | null): HTMLElement {
+  if (rows === null) return section("corpus", "Corpus", html("p", {}, "It was not run."));
+  const failed = rows.flatMap((row) => row.failed.map((f) => ({ ...f, row })));
+  type Failed = (typeof failed)[number];
+  type Row = ReturnType<typeof together>[number];
+  return section(
+    "corpus",
+    "Corpus",
+    html("p", {}, "The shipped cases and scenes, judged like the trials; they are no trials, and no bound rests on them."),
+    failed.length === 0
+      ? null
+      : table(
+          "What does not hold",
+          [
+            { head: "case", cell: (f: Failed) => f.case },
+            { head: "configuration", cell: (f: Failed) => f.row.configuration },
+            { head: "what", cell: (f: Failed) => f.what },
+            { head: "waived", cell: (f: Failed) => (f.waived ? "yes" : "no") },
+          ],
+          failed,
+        ),
+    table(
+      "Cases and scenes",
+      [
+        { head: "input", cell: (r: Row) => r.row.input },
+        { head: "configuration", cell: (r: Row) => r.who },
+        { head: "cases", cell: (r: Row) => count(r.row.cases), number: true },
+        { head: "steps", cell: (r: Row) => count(r.row.steps), number: true },
+        { head: "collide", cell: (r: Row) => count(r.row.collisions), number: true },
+        { head: "pairs", cell: (r: Row) => count(r.row.pairs), number: true },
+        { head: "defects", cell: (r: Row) => count(r.row.defects), number: true },
+      ],
+      together(rows),
+    ),
+  );
+}
+
+function speed(c: Certificate): HTMLElement | null {
+  if (c.speed.length === 0) return null;
+  type Figure = Certificate["speed"][number];
+  return section(
+    "speed",
+    "Speed",
+    html("p", {}, "Ratios of processor times of interleaved steps, with an interval that holds the median with 95 % or more."),
+    table(
+      "Speed",
+      [
+        { head: "ratio", cell: (f: Figure) => f.what },
+        { head: "median", cell: (f: Figure) => f.median.toPrecision(3), number: true },
+        { head: "interval", cell: (f: Figure) => `${f.lo.toPrecision(3)} to ${f.hi.toPrecision(3)}`, number: true },
+        { head: "limit", cell: (f: Figure) => (f.limit === null ? "\u2013" : String(f.limit)), number: true },
+      ],
+      c.speed,
+    ),
+  );
+}
+
+function waivers(list: Waiver[]): HTMLElement | null {
+  if (list.length === 0) return null;
+  return section(
+    "waivers",
+    "Waivers",
+    html("p", {}, "Known failures that this certificate leaves aside until the day stated."),
+    table(
+      "Waivers",
+      [
+        { head: "failure", cell: (w: Waiver) => w.signature },
+        { head: "reason", cell: (w: Waiver) => w.reason },
+        { head: "see", cell: (w: Waiver) => w.link },
+        { head: "expires", cell: (w: Waiver) => (w.expired ? `${w.expires}: EXPIRED` : w.expires) },
+        { head: "met", cell: (w: Waiver) => count(w.met), number: true },
+      ],
+      list,
+    ),
+  );
+}
+
+function oracleChecks(c: Certificate): HTMLElement {
+  type World = Certificate["worlds"][number];
+  const selfTest = c.self_test
+    ? `Against other exact methods: ${counted(c.self_test.contradictions, "contradiction")} in ${counted(c.self_test.queries, "query", "queries")}${c.self_test.complete ? "" : ", not all that were planned"}.`
+    : "No self-test of the oracle was run.";
+  return section(
+    "oracle",
+    "The oracle, checked",
+    html("p", {}, selfTest),
+    c.worlds.length === 0
+      ? null
+      : table(
+          "Every motion of a tetrahedron on a grid",
+          [
+            { head: "world", cell: (w: World) => w.world },
+            { head: "classes", cell: (w: World) => (w.classes === null ? "\u2013" : count(w.classes)), number: true },
+            { head: "motions", cell: (w: World) => (w.motions === null ? "\u2013" : count(w.motions)), number: true },
+            { head: "outcome", cell: (w: World) => w.counterexample ?? (w.complete ? "all of it holds" : "the time was over") },
+          ],
+          c.worlds,
+        ),
+  );
+}
+
+function subject(c: Certificate): HTMLElement {
+  const rows = [
+    ...c.subject.flatMap((s) => [
+      ["Detector", s.name] as const,
+      ...Object.entries(s.digest).map(([kind, digest]) => [kind, digest] as const),
+    ]),
+    ...Object.entries(c.digests).flatMap(([kind, digest]) => (digest ? [[`digest of ${kind}`, digest] as const] : [])),
+    ["Issued", c.issued ?? "not stated"] as const,
+    ["Took", c.seconds === null ? "not stated" : `${Math.round(c.seconds)} s`] as const,
+  ];
+  return section(
+    "certificate",
+    "Certificate",
+    html("p", {}, "It speaks of exactly these bytes, and of ", c.speaks_of, "."),
+    html("dl", { class: "digests" }, ...rows.flatMap(([name, value]) => [html("dt", {}, name), html("dd", {}, value)])),
+    html("h3", {}, "To make and to verify it"),
+    ...c.replay.map(replayLine),
+  );
+}
+
+export function certificate(run: Run): (HTMLElement | null)[] {
+  const c = run.certificate;
+  return c === null ? [] : [corpus(c.corpus), oracleChecks(c), speed(c), waivers(c.waivers), subject(c)];
+}

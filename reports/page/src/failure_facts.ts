@@ -1,0 +1,81 @@
+// What is known of a failure besides its picture, and the line that replays it.
+import { html } from "./dom";
+import type { Failure } from "./report";
+import { size, time } from "./words";
+
+export function replayLine(line: string): HTMLElement {
+  const said = html("span", { class: "said", role: "status" });
+  const code = html("code", {}, line);
+  const button = html(
+    "button",
+    {
+      type: "button",
+      class: "copy",
+      click: async () => {
+        said.textContent = (await copy(line)) ? "copied" : "press Ctrl+C: the line is selected";
+        if (said.textContent !== "copied") getSelection()?.selectAllChildren(code);
+      },
+    },
+    "Copy",
+  );
+  return html("div", { class: "replay" }, code, button, said);
+}
+
+// A page from file:// is no secure context in every browser: then the older way is tried.
+async function copy(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    const area = html("textarea", { class: "aside" });
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    const done = document.execCommand("copy");
+    area.remove();
+    return done;
+  }
+}
+
+export function failureFacts(failure: Failure): HTMLElement {
+  const rows: [string, string | null][] = [];
+  const law = failure.configuration.split(", law ")[1];
+  rows.push([law ? "Law" : "Claim", law ?? failure.signature.split(":")[0] ?? null]);
+  rows.push(["Configuration", failure.configuration]);
+  rows.push(["Case", failure.id]);
+  rows.push(["Mesh as met", failure.original ? size(failure.original) : null]);
+  rows.push(["Smallest", failure.smallest ? size(failure.smallest) : "not shrunk"]);
+  rows.push(["Stage that lost it", failure.stage]);
+  const scene = failure.scene;
+  if (scene && scene.steps.length > 0) {
+    const step = scene.steps[scene.shown.step]!;
+    rows.push(["Oracle", `${step.oracle.answer}, first contact ${time(step.oracle.first_time)}`]);
+    rows.push([
+      "Detector",
+      step.detector
+        ? `${step.detector.answer}, first contact ${time(step.detector.first_time)}`
+        : `no answer (${scene.ended ?? "not run"})`,
+    ]);
+  }
+  if (failure.now && failure.now !== failure.what) rows.push(["In the mesh as met", failure.what]);
+  if (failure.flaky) rows.push(["Repeatable", "no: two runs of it differ, a replay may hold"]);
+  const facts = html(
+    "dl",
+    {},
+    ...rows.flatMap(([name, value]) => (value ? [html("dt", {}, name), html("dd", {}, value)] : [])),
+  );
+  const others = failure.others.map((o) =>
+    html("li", {}, `${o.id} (${o.configuration}): ${o.what}`, replayLine(o.replay)),
+  );
+  return html(
+    "div",
+    {},
+    html("h4", {}, "Replay"),
+    replayLine(failure.replay),
+    html("p", { class: "note" }, "Paste it where the campaign was started: paths are as they were named there."),
+    facts,
+    others.length === 0
+      ? null
+      : html("details", {}, html("summary", {}, `${others.length} more of this kind`), html("ul", {}, ...others)),
+  );
+}

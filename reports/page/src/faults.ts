@@ -1,0 +1,76 @@
+// Planted faults: what the harness was shown to find, and how small it made each.
+import { html, section, table } from "./dom";
+import { logPlot } from "./plots";
+import type { Fault, Run } from "./report";
+import { count, counted } from "./words";
+
+function verdict(f: Fault): string {
+  if (f.status === "planted") return f.found ? "found" : "NOT FOUND";
+  if (f.status === "open") return f.found ? "found: no longer open" : "open";
+  return f.found ? "FOUND, but equivalent" : "survives, rightly";
+}
+
+const details = (title: string, content: HTMLElement): HTMLElement =>
+  html("details", {}, html("summary", {}, title), content);
+
+export function faults(run: Run): HTMLElement {
+  const title = "Planted faults";
+  const canary = run.canary
+    ? run.canary.found_after === null
+      ? `The canary (${run.canary.fault}) was NOT FOUND: the harness sees nothing.`
+      : `The canary (${run.canary.fault}) was found after ${counted(run.canary.found_after, "case")}.`
+    : "The store says nothing of a canary.";
+  const list = run.faults;
+  if (!list) return section("faults", title, html("p", {}, canary, " No faults were planted in this run."));
+  const planted = list.filter((f) => f.status === "planted");
+  const lost = planted.filter((f) => !f.found);
+  const shrunk = list.filter((f) => f.shrunk);
+  return section(
+    "faults",
+    title,
+    html(
+      "p",
+      {},
+      `${canary} ${planted.filter((f) => f.found).length} of ${planted.length} planted faults were found: ` +
+        "detectors that are wrong on purpose, each in one stage. The cases that each takes say how sharp the harness is.",
+    ),
+    lost.length === 0 ? null : html("p", {}, `Not found: ${lost.map((f) => f.name).join(", ")}.`),
+    logPlot(
+      "Cases until each planted fault showed (median over seeds)",
+      [...planted]
+        .sort((a, b) => (b.median_cases ?? Infinity) - (a.median_cases ?? Infinity))
+        .map((f) => ({
+          label: f.name,
+          value: f.median_cases,
+          limit: null,
+          bad: !f.found,
+          words: f.median_cases === null ? (f.found ? "found under some seeds" : "not found") : counted(f.median_cases, "case"),
+        })),
+    ),
+    details(`All ${list.length} faults, with those that are equivalent or open`, table(
+      "Faults, and the cases that each took",
+      [
+        { head: "fault", cell: (f: Fault) => (f.about ? html("span", { title: f.about }, f.name) : f.name) },
+        { head: "law", cell: (f: Fault) => f.law },
+        { head: "cases (median)", cell: (f: Fault) => (f.median_cases === null ? "\u2013" : count(f.median_cases)), number: true },
+        { head: "curated case", cell: (f: Fault) => (f.by_curated === null ? "\u2013" : f.by_curated ? "shows it" : "does not show it") },
+        { head: "verdict", cell: verdict },
+      ],
+      list,
+    )),
+    shrunk.length === 0
+      ? html("p", { class: "note" }, "This campaign does not shrink what planted faults show.")
+      : table(
+          "How small each fault's mesh became",
+          [
+            { head: "fault", cell: (f: Fault) => f.name },
+            { head: "triangles, steps from", cell: (f: Fault) => `${f.shrunk!.from_triangles}, ${f.shrunk!.from_steps}`, number: true },
+            { head: "to vertices", cell: (f: Fault) => count(f.shrunk!.vertices), number: true },
+            { head: "smallest known", cell: (f: Fault) => (f.known_vertices === null ? "\u2013" : count(f.known_vertices)), number: true },
+            { head: "runs", cell: (f: Fault) => count(f.shrunk!.calls), number: true },
+            { head: "seconds", cell: (f: Fault) => f.shrunk!.seconds?.toFixed(1) ?? "\u2013", number: true },
+          ],
+          shrunk,
+        ),
+  );
+}

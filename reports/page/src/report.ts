@@ -1,0 +1,188 @@
+// The data of the page: schema assay-report/1, documented in reports/README.md.
+
+export type Point = [number, number, number];
+export type Interval = [number, number];
+export type Moving = [Point, Point];
+export type SetName = "none" | "V+" | "V-" | "V0" | "dirty" | "violated";
+
+export interface Contact {
+  triangles: [number, number];
+  time: Interval;
+  feature: string;
+  vertices: number[];
+  point: Point | null;
+}
+
+export interface Answer {
+  answer: string;
+  first_time: Interval | null;
+  pairs: Contact[];
+}
+
+export interface Views {
+  sets: SetName[];
+  ghosts: [number, number, number][];
+  ghost_sets: SetName[];
+  apexes: Moving[];
+  primitives: { q0: Moving; q1: Moving | null }[];
+}
+
+export interface Step {
+  from: number;
+  to: number;
+  commit: boolean;
+  oracle: Answer;
+  detector: Answer | null;
+  views: Views | null;
+}
+
+export interface Scene {
+  triangles: [number, number, number][];
+  frames: Point[][];
+  steps: Step[];
+  views_by: string | null;
+  ended: string | null;
+  shown: { step: number; pair: [number, number] | null };
+}
+
+export interface Size {
+  triangles: number;
+  vertices: number;
+  steps: number;
+}
+
+export interface Failure {
+  signature: string;
+  configuration: string;
+  id: string;
+  what: string;
+  met: number;
+  flaky: boolean;
+  original: Size | null;
+  smallest: Size | null;
+  replay: string;
+  stage: string | null;
+  now: string | null;
+  scene: Scene | null;
+  svg: string | null;
+  not_shown: string | null;
+  others: { id: string; configuration: string; what: string; replay: string }[];
+}
+
+export interface Stratum {
+  family: string;
+  configurations: string[];
+  planned: number;
+  n: number;
+  holds: number;
+  defects: number;
+  undecided: number;
+  bound: number;
+  wanted: number | null;
+  steps: number;
+  collisions: number;
+  steps_per_second: number | null;
+}
+
+export interface Fault {
+  name: string;
+  about: string | null;
+  law: string;
+  status: "planted" | "open" | "equivalent";
+  found: boolean;
+  median_cases: number | null;
+  cases: (number | null)[];
+  by_curated: boolean | null;
+  known_vertices: number | null;
+  shrunk: {
+    from_triangles: number;
+    from_steps: number;
+    vertices: number;
+    triangles: number;
+    steps: number;
+    calls: number;
+    seconds: number | null;
+  } | null;
+}
+
+export interface Gate {
+  name: string;
+  state: "passed" | "failed" | "not judged";
+  text: string;
+}
+
+export interface Law {
+  name: string;
+  premise: number;
+  close: number;
+  broken: number;
+  wanted_premise: number;
+}
+
+export interface CorpusRow {
+  input: string;
+  configuration: string;
+  cases: number;
+  left_out: number;
+  steps: number;
+  collisions: number;
+  pairs: number;
+  defects: number;
+  failed: { case: string; signature: string; what: string; waived: boolean }[];
+}
+
+export interface Waiver {
+  signature: string;
+  reason: string;
+  link: string;
+  expires: string;
+  expired: boolean;
+  met: number;
+}
+
+// What a certificate (assay-certificate/1) says beyond the run.
+export interface Certificate {
+  subject: { name: string; digest: Record<string, string> }[];
+  versions: { assay: string; commit: string | null; libraries: string } | null;
+  issued: string | null;
+  seconds: number | null;
+  speaks_of: string;
+  self_test: { queries: number; contradictions: number; complete: boolean } | null;
+  corpus: CorpusRow[] | null;
+  waivers: Waiver[];
+  worlds: { world: string; complete: boolean; classes: number | null; motions: number | null; counterexample: string | null }[];
+  speed: { what: string; median: number; lo: number; hi: number; limit: number | null }[];
+  digests: Record<string, string | null>;
+  replay: string[];
+}
+
+export interface Run {
+  folder: string;
+  campaign: string;
+  seed: number;
+  shards: { count: number; present: number[] };
+  detector: { name: string; built_in: boolean; library: string | null; configurations: string[] };
+  verdict: string;
+  certified: boolean;
+  why: string;
+  gates: Gate[];
+  trials: { done: number; planned: number };
+  defect_trials: number;
+  bounds: { confidence: number; together: number };
+  strata: Stratum[];
+  distributions: { family: string; triangles: number[][]; pairs: number[][] }[];
+  set_pairs: { sets: string; contacts: number; first_contacts: number }[];
+  tags: Record<string, number>;
+  laws: Law[];
+  canary: { fault: string; found_after: number | null } | null;
+  faults: Fault[] | null;
+  signatures: Record<string, number>;
+  certificate: Certificate | null;
+  failures: Failure[];
+}
+
+export interface Report {
+  schema: string;
+  version: string;
+  runs: Run[];
+}

@@ -1,0 +1,22 @@
+// Numbers and times as people read them.
+import type { Interval, Size } from "./report";
+
+export const count = (n: number): string => n.toLocaleString("en-US");
+
+export const counted = (n: number, one: string, many = `${one}s`): string =>
+  `${count(n)} ${n === 1 ? one : many}`;
+
+// A share below one, with as many digits as tell bounds apart.
+export function share(p: number): string {
+  if (p >= 1) return "1";
+  return p === 0 ? "0" : p >= 0.01 ? p.toPrecision(2) : p.toExponential(1).replace("e-", "e\u2212");
+}
+
+// One double where it is exact, else both that lie around the time.
+export const time = (t: Interval | null): string =>
+  t === null ? "none" : t[0] === t[1] ? `${t[0]}` : `between ${t[0]} and ${t[1]}`;
+
+export const shortTime = (t: number): string => `${Number(t.toPrecision(6))}`;
+
+export const size = (s: Size): string =>
+  `${counted(s.triangles, "triangle")}, ${counted(s.vertices, "vertex", "vertices")}, ${counted(s.steps, "step")}`;

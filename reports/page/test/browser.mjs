@@ -1,0 +1,32 @@
+// Chromium as the tests use it: without a network, drawn by the processor.
+import { chromium } from "playwright-core";
+
+const drawnByProcessor = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const without3d = ["--disable-3d-apis"];
+
+export async function open(file, { webgl = true, scheme = "light", width = 1280 } = {}) {
+  const browser = await chromium.launch({
+    executablePath: process.env.ASSAY_CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", ...(webgl ? drawnByProcessor : without3d)],
+  });
+  const context = await browser.newContext({
+    colorScheme: scheme,
+    viewport: { width, height: 900 },
+    permissions: ["clipboard-read", "clipboard-write"],
+    reducedMotion: "reduce",
+  });
+  const page = await context.newPage();
+  const seen = { requests: [], problems: [] };
+  page.on("request", (request) => {
+    if (!request.url().startsWith("data:")) seen.requests.push(request.url());
+  });
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type())) seen.problems.push(message.text());
+  });
+  page.on("pageerror", (error) => seen.problems.push(error.message));
+  await page.goto(`file://${file}`);
+  return { browser, page, seen, close: () => browser.close() };
+}
+
+// What the viewer shows now.
+export const state = (page) => page.evaluate(() => window.assayViewerState());

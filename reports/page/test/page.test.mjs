@@ -1,0 +1,185 @@
+// The page in a headless browser. ASSAY_PAGE: a page of two runs, of which the second, of a plug-in
+// whose times are wrong, has failures; see tests/page/run.
+import assert from "node:assert/strict";
+import { after, before, describe, test } from "node:test";
+import { open, state } from "./browser.mjs";
+
+const file = process.env.ASSAY_PAGE;
+
+// The smallest mesh of some failures does not move at all: goes on to one that does.
+async function showOneThatMoves(page) {
+  const slider = page.getByRole("slider", { name: "Time of the motion" });
+  const buttons = page.locator(".failures .list button");
+  for (let i = 0; i < (await buttons.count()); ++i) {
+    await buttons.nth(i).click();
+    const at = [];
+    for (const time of ["0", "1"]) {
+      await slider.fill(time);
+      at.push(JSON.stringify((await state(page)).vertices));
+    }
+    if (at[0] !== at[1]) return;
+  }
+  assert.fail("no failure has a mesh that moves");
+}
+
+describe("the page", () => {
+  let at;
+  before(async () => {
+    at = await open(file);
+    await showOneThatMoves(at.page);
+  });
+  after(async () => {
+    assert.deepEqual(at.seen.problems, [], "nothing went wrong in the console");
+    assert.deepEqual(at.seen.requests, [`file://${file}`], "no request left");
+    await at.close();
+  });
+
+  test("says what the run comes to, and what the bounds speak of", async () => {
+    assert.equal(await at.page.locator(".verdict .word").textContent(), "Defect");
+    assert.equal(await at.page.locator(".gates li").count(), 6);
+    const text = await at.page.locator("#strata").textContent();
+    assert.match(text, /this campaign.s random generator/);
+    assert.match(text, /say nothing of other meshes/);
+    const rows = at.page.locator("#strata tbody tr");
+    assert.ok((await rows.count()) >= 2);
+    assert.ok((await at.page.locator("#strata svg .dot").count()) >= 2);
+  });
+
+  test("shows a failure with its mesh, pair and times", async () => {
+    assert.ok((await at.page.locator(".failures .list button").count()) >= 2);
+    const differences = await at.page.locator(".detail table tbody tr td:last-child").allTextContents();
+    assert.ok(differences.some((d) => ["missing", "spurious", "late", "early"].includes(d)), differences.join());
+    assert.ok((await at.page.locator(".mark-exact, .mark-detector").count()) === 2);
+    assert.ok((await at.page.locator(".tick").count()) >= 1);
+    assert.ok((await at.page.locator(".legend li").count()) >= 3);
+  });
+
+  test("the slider moves the mesh", async () => {
+    const slider = at.page.getByRole("slider", { name: "Time of the motion" });
+    const canvas = at.page.locator("canvas");
+    const look = async (time) => {
+      await slider.fill(String(time));
+      return { ...(await state(at.page)), pixels: (await canvas.screenshot()).toString("base64") };
+    };
+    const start = await look(0);
+    const end = await look(1);
+    const again = await look(0);
+    assert.equal(start.time, 0);
+    assert.equal(end.time, 1);
+    assert.notDeepEqual(start.vertices, end.vertices);
+    assert.notEqual(start.pixels, end.pixels);
+    assert.deepEqual(start, again);
+  });
+
+  test("keys move the slider and turn the mesh", async () => {
+    const slider = at.page.getByRole("slider", { name: "Time of the motion" });
+    await slider.fill("0.5");
+    await slider.press("ArrowRight");
+    assert.ok(Math.abs((await state(at.page)).time - 0.501) < 1e-9);
+    assert.match(await slider.getAttribute("aria-valuetext"), /^step 1 of \d+, t = 0.501$/);
+    const canvas = at.page.locator("canvas");
+    const before_ = (await canvas.screenshot()).toString("base64");
+    await canvas.press("ArrowLeft");
+    assert.notEqual((await canvas.screenshot()).toString("base64"), before_);
+  });
+
+  test("plays, and stops at the exact contact when asked", async () => {
+    await at.page.getByRole("button", { name: "Start", exact: true }).click();
+    await at.page.getByRole("button", { name: "Play" }).click();
+    await at.page.waitForFunction(() => window.assayViewerState().time > 0.05);
+    for (const who of ["exact", "detector"]) {
+      const stop = at.page.locator(`.stop-${who}`);
+      if (!(await stop.isVisible())) continue; // no such contact of this pair
+      await stop.click();
+      const { time } = await state(at.page);
+      await at.page.waitForTimeout(200);
+      assert.equal((await state(at.page)).time, time, "it stands still");
+      assert.ok(await at.page.locator(`.mark-${who}.now`).isVisible());
+    }
+  });
+
+  test("dragging turns the mesh", async () => {
+    const box = await at.page.locator("canvas").boundingBox();
+    const shot = async () => (await at.page.locator("canvas").screenshot()).toString("base64");
+    const before_ = await shot();
+    await at.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await at.page.mouse.down();
+    await at.page.mouse.move(box.x + box.width / 2 + 80, box.y + box.height / 2 + 30, { steps: 4 });
+    await at.page.mouse.up();
+    assert.notEqual(await shot(), before_);
+  });
+
+  test("the view primitive can be hidden", async () => {
+    assert.ok((await at.page.locator(".mark-primitive path").count()) > 0);
+    await at.page.getByLabel("view primitive").uncheck();
+    assert.equal(await at.page.locator(".mark-primitive path").count(), 0);
+    await at.page.getByLabel("view primitive").check();
+  });
+
+  test("the replay line can be copied", async () => {
+    const line = await at.page.locator(".detail .replay code").first().textContent();
+    assert.match(line, /^assay replay \S+-(smallest|original)\.json --detector \S+\.so$/);
+    await at.page.locator(".detail .replay .copy").first().click();
+    await at.page.waitForFunction(() => document.querySelector(".said").textContent !== "");
+    assert.equal(await at.page.locator(".said").first().textContent(), "copied");
+    assert.equal(await at.page.evaluate(() => navigator.clipboard.readText()), line);
+  });
+
+  test("every failure can be shown, one after the other", async () => {
+    const buttons = at.page.locator(".failures .list button");
+    for (let i = 0; i < (await buttons.count()); ++i) {
+      await buttons.nth(i).click();
+      assert.equal(await buttons.nth(i).getAttribute("aria-pressed"), "true");
+      assert.equal(await at.page.locator("canvas").count(), 1);
+      assert.ok((await state(at.page)).vertices.flat().every(Number.isFinite));
+    }
+  });
+
+  test("history: the other run can be chosen", async () => {
+    const rows = at.page.locator("#history table").first().locator("tbody tr");
+    assert.equal(await rows.count(), 2);
+    await rows.first().getByRole("button").click();
+    assert.notEqual(await at.page.locator(".verdict .word").textContent(), "Defect");
+    assert.equal(await at.page.locator("canvas").count(), 0);
+    await at.page.getByLabel("Run", { exact: true }).selectOption("1");
+    assert.equal(await at.page.locator(".verdict .word").textContent(), "Defect");
+    assert.equal(await at.page.locator("canvas").count(), 1);
+  });
+});
+
+test("the page itself forbids every request", async () => {
+  const at = await open(file);
+  const refused = await at.page.evaluate(
+    () =>
+      new Promise((resolve) => {
+        addEventListener("securitypolicyviolation", (event) => resolve(event.effectiveDirective));
+        fetch("http://127.0.0.1:9/").catch(() => {});
+      }),
+  );
+  assert.equal(refused, "connect-src");
+  assert.deepEqual(at.seen.requests, [`file://${file}`]);
+  await at.close();
+});
+
+test("without WebGL there is a message and a picture", async () => {
+  const at = await open(file, { webgl: false });
+  assert.equal(await at.page.locator("canvas").count(), 0);
+  assert.match(await at.page.locator(".static").textContent(), /no WebGL/);
+  const width = await at.page.locator(".static img").evaluate((image) => image.decode().then(() => image.naturalWidth));
+  assert.ok(width > 100);
+  assert.deepEqual(at.seen.requests, [`file://${file}`]);
+  await at.close();
+});
+
+test("dark and light are the reader's choice", async () => {
+  const grounds = [];
+  for (const scheme of ["light", "dark"]) {
+    const at = await open(file, { scheme, width: 390 });
+    grounds.push(await at.page.evaluate(() => getComputedStyle(document.body).backgroundColor));
+    const overflow = await at.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(overflow <= 0, "a narrow window does not scroll sideways");
+    assert.deepEqual(at.seen.problems, []);
+    await at.close();
+  }
+  assert.notEqual(grounds[0], grounds[1]);
+});

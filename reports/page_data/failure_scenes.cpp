@@ -1,0 +1,106 @@
+#include "reports/page_data/failure_scenes.h"
+
+#include <fmt/format.h>
+
+#include "properties/reducer/mesh_size.h"
+#include "reports/failure_text.h"
+#include "reports/page_data/scene_json.h"
+#include "reports/picture/mesh_svg.h"
+#include "reports/picture/scene_maker.h"
+
+namespace assay::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// As SceneMaker takes it.
+std::optional<std::string> library_of(const DetectorNote& detector) {
+  if (!detector.built_in && detector.library.empty()) return std::nullopt;
+  return detector.library;
+}
+
+Json size_json(const corpus::Expected<corpus::Case>& c) {
+  if (!c) return nullptr;
+  const auto size = properties::size_of(c.value());
+  return {{"triangles", size.triangles}, {"vertices", size.vertices}, {"steps", size.steps}};
+}
+
+class FailureList {
+ public:
+  explicit FailureList(const StoredRun& run) : run_(run), scenes_(library_of(run.detector)) {}
+
+  Json all() {
+    Json list = Json::array();
+    for (const auto& failure : run_.failures) {
+      const bool is_told = !list.empty() && list.back()["signature"] == failure.signature;
+      if (is_told) {
+        list.back()["others"].push_back(other(failure));
+      } else {
+        list.push_back(told(failure));
+      }
+    }
+    return list;
+  }
+
+ private:
+  Json other(const properties::StoredFailure& failure) const {
+    return {{"id", failure.id},
+            {"configuration", failure.configuration},
+            {"what", failure.what},
+            {"replay", replay_line(run_.folder, failure, run_.detector.library)}};
+  }
+
+  Json told(const properties::StoredFailure& failure) {
+    const auto met = run_.met.find(failure.signature);
+    const bool is_shrunk = !failure.smallest.empty();
+    const auto original = corpus::parse_case(failure.mesh, "stored failure");
+    const auto smallest =
+        is_shrunk ? corpus::parse_case(failure.smallest, "stored failure") : original;
+    Json json = {{"signature", failure.signature},
+                 {"configuration", failure.configuration},
+                 {"id", failure.id},
+                 {"what", failure.what},
+                 {"met", met == run_.met.end() ? 1 : met->second},
+                 {"flaky", failure.flaky},
+                 {"original", size_json(original)},
+                 {"smallest", is_shrunk ? size_json(smallest) : Json()},
+                 {"replay", replay_line(run_.folder, failure, run_.detector.library)},
+                 {"stage", nullptr},
+                 {"now", nullptr},
+                 {"scene", nullptr},
+                 {"svg", nullptr},
+                 {"not_shown", nullptr},
+                 {"others", Json::array()}};
+    if (!smallest) {
+      json["not_shown"] = smallest.error().message;
+    } else if (smallest.value().triangles.rows() > most_shown_triangles) {
+      json["not_shown"] = "the mesh is too large to be shown: shrink it first";
+    } else {
+      show(json, smallest.value(), failure);
+    }
+    return json;
+  }
+
+  void show(Json& json, const corpus::Case& c, const properties::StoredFailure& failure) {
+    const auto scene = scenes_.scene_of(c, failure.configuration);
+    if (!scene) {
+      json["not_shown"] = "a coordinate is beyond the detector's contract";
+      return;
+    }
+    if (scene->failure) {
+      json["stage"] = scene->failure->stage.empty() ? Json() : Json(scene->failure->stage);
+      json["now"] = scene->failure->what;
+    }
+    json["scene"] = scene_json(*scene);
+    json["svg"] = mesh_svg(*scene, failure.signature);
+  }
+
+  const StoredRun& run_;
+  SceneMaker scenes_;
+};
+
+}  // namespace
+
+Json failures_json(const StoredRun& run) { return FailureList(run).all(); }
+
+}  // namespace assay::reports

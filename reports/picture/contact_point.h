@@ -1,0 +1,19 @@
+// Where two triangles meet, for pictures: in plain doubles, no verdict rests on it.
+#pragma once
+
+#include <optional>
+
+#include "detector/mesh/step_types.h"
+
+namespace assay::reports {
+
+// At time t in [0,1] of the step: the vertex of a vertex-face contact, the middle of the closest
+// points of two edges, where a piercing edge crosses the plane, the centre of triangles with the
+// same vertices; where no feature is named, as by a plug-in, the middle of the closest points of
+// the two triangles. Nothing when that is no place: all features share a vertex, or it overflows.
+std::optional<detector::Point> contact_point(const detector::PairContact& contact,
+                                             const detector::TrianglesView& triangles,
+                                             const detector::PositionsView& x_t0,
+                                             const detector::PositionsView& x_t1, double t);
+
+}  // namespace assay::reports

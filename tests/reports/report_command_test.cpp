@@ -1,0 +1,89 @@
+// `assay report` as a user runs it.
+#include <gtest/gtest.h>
+
+#include "tests/reports/stored_run.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+class Report : public testing::Test {
+ protected:
+  std::string tiny(const std::string& name, const std::string& what = "x") const {
+    return RunToStore()
+        .judge("closed-generic", 3, 'D')
+        .fail("E1_free_membrane", "all-pairs: missing", what)
+        .store(scratch / name);
+  }
+  const Scratch scratch;
+};
+
+TEST_F(Report, OnePageOfTwoRunsAndNothingElse) {
+  const auto page = scratch / "page.html";
+  const auto outcome = run_assay("report " + tiny("a") + " " + tiny("b") + " --out " + page);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_TRUE(contains(outcome.out, "a: defect")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "page " + page)) << outcome.out;
+  const auto text = read_text(page);
+  EXPECT_TRUE(text.starts_with("<!doctype html>"));
+  EXPECT_EQ(count_of(text, "\"signature\":\"all-pairs: missing\""), 2u);
+  const auto again = scratch / "again.html";
+  run_assay("report " + (scratch / "a") + " " + (scratch / "b") + " --out " + again);
+  EXPECT_EQ(read_text(again), text) << "same input, same bytes";
+}
+
+TEST_F(Report, WhatAFailureSaysStaysText) {
+  const auto plain = scratch / "plain.html", hostile = scratch / "hostile.html";
+  run_assay("report " + tiny("plain") + " --out " + plain);
+  run_assay("report " + tiny("hostile", "</script><script>alert(1)</script>") + " --out " +
+            hostile);
+  EXPECT_EQ(count_of(read_text(hostile), "</script"), count_of(read_text(plain), "</script"));
+  EXPECT_EQ(count_of(read_text(hostile), "alert(1)"), 1u);
+}
+
+TEST_F(Report, WrongFoldersAndPlacesAreRefusedInOneLine) {
+  const auto page = scratch / "page.html";
+  expect_refused(run_assay("report " + (scratch / "nowhere") + " --out " + page), "nowhere");
+  std::filesystem::create_directory(scratch / "empty");
+  expect_refused(run_assay("report " + (scratch / "empty") + " --out " + page),
+                 "no run is stored here");
+  expect_refused(run_assay("report " + tiny("a")), "--out");
+  expect_refused(run_assay("report --out " + page), "folders");
+  expect_refused(run_assay("report " + tiny("a") + " --out " + (scratch / "no/such/page.html")),
+                 "folder does not exist");
+  expect_refused(run_assay("report " + tiny("a") + " " + (scratch / "empty") + " --out " + page),
+                 "no run is stored here");
+  EXPECT_FALSE(std::filesystem::exists(page)) << "a page of some of the runs is none";
+}
+
+TEST_F(Report, ARunThatFailsLeavesPicturesAndItsReplayLineOnThePage) {
+  const auto plan = scratch.write("plan.json", plan_text(12));
+  const auto out = scratch / "out", page = scratch / "page.html";
+  const auto run = run_assay("run --campaign " + plan + " --detector " + plugin("always_free") +
+                             " --out " + out);
+  EXPECT_EQ(run.exit_code, 1) << run.out << run.err;
+  ASSERT_TRUE(contains(run.out, ".svg")) << run.out;
+  std::size_t pictures = 0;
+  for (const auto& file : std::filesystem::directory_iterator(out + "/failures")) {
+    if (file.path().extension() != ".svg") continue;
+    ++pictures;
+    EXPECT_TRUE(read_text(file.path()).starts_with("<svg"));
+    EXPECT_TRUE(contains(run.out, file.path())) << file.path();
+  }
+  EXPECT_EQ(pictures, signatures_of(out).size());
+  EXPECT_EQ(run_assay("report " + out + " --out " + page).exit_code, 0);
+  const auto text = read_text(page);
+  const auto lines = replay_lines(run.out);
+  ASSERT_FALSE(lines.empty());
+  for (const auto& line : lines) EXPECT_TRUE(contains(text, "assay " + line)) << line;
+}
+
+}  // namespace
+}  // namespace assay::tests
