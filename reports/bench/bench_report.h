@@ -58,8 +58,8 @@ struct BenchReport {
   // One line each. Times are noisy, answers are not: any of these fails the run.
   std::vector<std::string> wrong_answers;
   std::vector<ScatterPoint> scatter;
-  std::vector<GrowthPoint> growth;  // by what, then by triangles
   std::vector<StabilityCell> heat;  // of suite stability
+  std::vector<GrowthPoint> growth;  // by what, then by triangles
   // Of suite speed-error.
   std::vector<JudgedStep> steps;
   std::vector<FamilySummary> families;
@@ -76,7 +76,8 @@ std::string text_of(const Wanted& wanted);
 // A table, a line a row.
 std::string text_of(const BenchReport& report);
 nlohmann::ordered_json to_json(const BenchReport& report);
-// A line a raw sample; of suite speed-error a line a step and variant (error_output.h).
+// A line a raw sample; of suite speed-error a line a step and variant (error_output.h), of suite
+// stability a line a cell (stability_output.h).
 std::string csv_of(const BenchReport& report);
 
 }  // namespace assay::reports
