@@ -152,7 +152,7 @@ constexpr std::array<SceneInfo, 14> infos = {{
      false},
     {"crumpling-sphere", "a sphere is folded over itself at many places", 1280, 11, true, true},
     {"arm-in-box", "an arm of an open box enters through its hole and leaves again; no contact",
-     808, 11, false, false},
+     1204, 11, false, false},
     {"ball-in-tube", "a ball goes through a tube open at both ends, and back; no contact", 1280, 41,
      false, false},
     {"inverted-sleeve", "a sleeve is turned inside out, over itself, and back; no contact", 1600,

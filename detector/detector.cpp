@@ -114,6 +114,9 @@ std::optional<Problem> Detector::restore(const SavedState& state) {
       state.apex_rules.size() != context.apex_rules.size()) {
     return Problem{InputError::foreign_state, "the state is of a detector with another culling"};
   }
+  if (!fits(state, context.surface, context.anchors.size())) {
+    return Problem{InputError::damaged_state, "the state contradicts the mesh that it names"};
+  }
   SavedState copy = state;  // first: whole or not at all, should memory fail
   parts_->committed = std::move(copy.committed);
   context.apex_rules = std::move(copy.apex_rules);

@@ -55,7 +55,7 @@ class Detector {
                   std::span<const ViewPrimitive> primitives = {}, const StopFunction& stop = {});
 
   // What later steps rest on: the last commit, and where views and apexes are placed. A plain
-  // value.
+  // value; as bytes: state/state_bytes.h.
   SavedState state() const;
 
   // Goes on from there: further results are those of the detector that was saved, bit by bit (where

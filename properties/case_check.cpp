@@ -14,81 +14,6 @@ using detector::Arithmetic;
 using detector::Culling;
 using detector::ViewSign;
 
-std::optional<Culling> culling_named(std::string_view word) {
-  if (word == "view-auto") return Culling::view_auto;
-  if (word == "view-point") return Culling::view_point;
-  if (word == "view-line") return Culling::view_line;
-  if (word == "normal-cone") return Culling::normal_cone;
-  if (word == "bvh") return Culling::bvh;
-  if (word == "none") return Culling::none;
-  return std::nullopt;
-}
-
-std::optional<detector::Start> start_named(std::string_view word) {
-  if (word == "verified") return detector::Start::verified;
-  if (word == "clean") return detector::Start::clean;
-  if (word == "unknown") return detector::Start::unknown;
-  return std::nullopt;
-}
-
-std::optional<detector::Pairs> pairs_named(std::string_view word) {
-  if (word == "all") return detector::Pairs::all;
-  if (word == "first") return detector::Pairs::first;
-  return std::nullopt;
-}
-
-std::optional<Arithmetic> arithmetic_named(std::string_view word) {
-  if (word == "exact") return Arithmetic::exact;
-  if (word == "bounded") return Arithmetic::bounded;
-  if (word == "double") return Arithmetic::double_precision;
-  if (word == "float") return Arithmetic::single_precision;
-  return std::nullopt;
-}
-
-const char* name_of(Arithmetic arithmetic) {
-  switch (arithmetic) {
-    case Arithmetic::exact:
-      return "exact";
-    case Arithmetic::bounded:
-      return "bounded";
-    case Arithmetic::double_precision:
-      return "double";
-    case Arithmetic::single_precision:
-      return "float";
-  }
-  return "unknown";
-}
-
-const char* name_of(Culling culling) {
-  switch (culling) {
-    case Culling::view_auto:
-      return "view-auto";
-    case Culling::view_point:
-      return "view-point";
-    case Culling::view_line:
-      return "view-line";
-    case Culling::normal_cone:
-      return "normal-cone";
-    case Culling::bvh:
-      return "bvh";
-    case Culling::none:
-      return "none";
-  }
-  return "unknown";
-}
-
-std::map<std::string, std::string, std::less<>> options_text(const detector::Options& options) {
-  const char* start = options.start == detector::Start::verified ? "verified"
-                      : options.start == detector::Start::clean  ? "clean"
-                                                                 : "unknown";
-  std::map<std::string, std::string, std::less<>> text = {
-      {"culling", name_of(options.culling)},
-      {"start", start},
-      {"pairs", options.pairs == detector::Pairs::all ? "all" : "first"}};
-  if (options.arithmetic != Arithmetic::exact) text["arithmetic"] = name_of(options.arithmetic);
-  return text;
-}
-
 namespace {
 
 std::string time_text(const detector::TimeEnclosure& t) {
@@ -234,29 +159,6 @@ class CaseChecker {
 };
 
 }  // namespace
-
-detector::Options options_of(const corpus::Case& c) {
-  detector::Options options;
-  for (const auto& [name, word] : c.options) {
-    if (name == "culling") options.culling = culling_named(word).value_or(options.culling);
-    if (name == "start") options.start = start_named(word).value_or(options.start);
-    if (name == "pairs") options.pairs = pairs_named(word).value_or(options.pairs);
-    if (name == "arithmetic") {
-      options.arithmetic = arithmetic_named(word).value_or(options.arithmetic);
-    }
-  }
-  return options;
-}
-
-std::optional<std::string> wrong_option(const corpus::Case& c) {
-  for (const auto& [name, word] : c.options) {
-    const bool known =
-        (name == "culling" && culling_named(word)) || (name == "start" && start_named(word)) ||
-        (name == "pairs" && pairs_named(word)) || (name == "arithmetic" && arithmetic_named(word));
-    if (!known) return fmt::format("option {} = '{}' is not known", name, word);
-  }
-  return std::nullopt;
-}
 
 CaseReport check_case(const corpus::Case& c, std::optional<Culling> culling, int jobs,
                       std::optional<Arithmetic> arithmetic) {

@@ -14,7 +14,11 @@ using properties::FaultStatus;
 
 double bound_of(const properties::StratumTally::Outcomes& outcomes,
                 const properties::CampaignRequest& request) {
-  const auto bounds = request.plan.strata.size() * request.detector.configurations.size();
+  // Every claim is counted (certificate/strata_section.cpp).
+  std::uint64_t claims = 0;
+  for (const auto& configuration : request.detector.configurations)
+    claims += properties::list_of(request.detector.claims_in(configuration)).size();
+  const auto bounds = request.plan.strata.size() * claims;
   const auto trials = outcomes.holds + outcomes.defects + outcomes.undecided + outcomes.errors;
   return upper_bound(trials - outcomes.holds, trials, risk_of_each(bounds));
 }
@@ -86,9 +90,10 @@ std::string distribution_text(const properties::Tally& tally) {
   std::string out;
   for (const auto& [family, t] : tally.strata) {
     out += fmt::format(
-        "{}: {} steps of {} cases, {:.0f} % collide\n  triangles {}\n  pairs in "
+        "{}: {} steps of {} cases ({} distinct, {} discarded), {:.0f} % collide\n  triangles {}\n  "
+        "pairs in "
         "contact {}\n",
-        family, t.steps, t.trials,
+        family, t.steps, t.trials, t.meshes.size(), t.discards,
         t.steps ? 100.0 * static_cast<double>(t.collisions) / static_cast<double>(t.steps) : 0.0,
         histogram(t.sizes), histogram(t.contacts));
   }

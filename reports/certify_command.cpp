@@ -1,185 +1,260 @@
-// `assay certify`: the shipped corpus and scenes through detector and oracle, with every culling.
-//
-// No certificate is issued yet: that takes the statistics of a random campaign, which this version
-// does not have. What is printed is what was compared, and whether it holds.
+// `assay certify`: corpus, campaign, planted faults, self-test, speed; then the certificate.
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <chrono>
+#include <ctime>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
-#include "corpus/scenes.h"
-#include "detector/detector.h"
-#include "properties/case_check.h"
+#include "corpus/digest.h"
+#include "properties/campaign/binding.h"
+#include "properties/worker/worker_process.h"
+#include "reports/campaign_run.h"
+#include "reports/certificate/corpus_check.h"
+#include "reports/certificate/evidence.h"
+#include "reports/certificate/findings.h"
+#include "reports/certificate/junit.h"
+#include "reports/certificate/other_checks.h"
+#include "reports/certificate/statement.h"
+#include "reports/certificate/summary.h"
+#include "reports/certificate/waivers.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"
+#include "reports/detector_choice.h"
+#include "reports/failure_text.h"
+#include "reports/interruption.h"
 #include "reports/json_output.h"
+#include "reports/shell_word.h"
+#include "reports/version.h"
 
 namespace assay::reports {
 namespace {
 
-using detector::Culling;
-using properties::Outcome;
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+using properties::Store;
 
-struct Row {
-  std::string what;
-  Culling culling = Culling::bvh;
-  std::size_t cases = 0, steps = 0, collisions = 0, pairs = 0, defects = 0;
-  double view_positive_share = 0;  // of triangles, mean over steps
-  double detector_ms = 0, oracle_ms = 0;
-  std::vector<std::string> failed;
+constexpr const char* known_failures = ASSAY_CORPUS_DIR "/../known.json";
+
+// A folder that holds shards of more than one, or a merged store: nothing of it is run here.
+bool holds_shards(const std::filesystem::path& out) {
+  std::string ignored;
+  for (const auto& file : stored_shards(out, ignored)) {
+    if (file != store_file(out, {})) return true;
+  }
+  return false;
+}
+
+class Certification {
+ public:
+  Certification(const CertifyRequest& command, const properties::CampaignRequest& request,
+                Store checks)
+      : command_(command),
+        request_(request),
+        out_(command.out),
+        checks_(std::move(checks)),
+        begin_(Clock::now()) {}
+
+  // Exit code of the verdict, or of what kept it from being reached.
+  int run() {
+    if (const auto wrong = write_text_file(campaign_file(out_).string(),
+                                           properties::plan_text(request_.plan) + "\n"))
+      return refuse(*wrong);
+    store_subject();
+    if (const auto wrong = store_waivers()) return refuse(*wrong);
+    if (const auto wrong = run_corpus()) return refuse(*wrong);
+    if (const auto wrong = holds_shards(out_) ? take_shards() : run_campaign())
+      return refuse(*wrong);
+    run_self_test();
+    if (request_.detector.built_in) run_speed();
+    return issue();
+  }
+
+ private:
+  void store_subject() {
+    store_check(checks_, "subject", "versions",
+                {{"assay", ASSAY_VERSION}, {"commit", commit()}, {"libraries", version_text()}});
+    store_check(checks_, "subject", "paths",
+                {{"out", command_.out}, {"detector", command_.detector}});
+    store_check(checks_, "subject", "planted", {{"faults", properties::planted_count()}});
+    store_check(checks_, "digest", "generator", {{"sha256", generator_digest()}});
+    store_check(checks_, "digest", "corpus", {{"sha256", corpus_digest(ASSAY_CORPUS_DIR)}});
+  }
+
+  static Json commit() {
+    const auto text = commit_text();
+    return text.empty() ? Json(nullptr) : Json(text);
+  }
+
+  std::optional<std::string> store_waivers() {
+    const auto waivers = read_waivers(known_failures);
+    if (!waivers) return waivers.error().message;
+    const auto digest = corpus::sha256_of_file(known_failures);
+    store_check(checks_, "digest", "waivers",
+                {{"sha256", digest ? Json(digest.value()) : Json(nullptr)}});
+    const auto today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
+    checks_.drop_evidence("waiver");
+    for (const auto& waiver : waivers.value()) {
+      store_check(checks_, "waiver", waiver.signature,
+                  {{"reason", waiver.reason},
+                   {"link", waiver.link},
+                   {"expires", waiver.expires},
+                   {"expired", is_expired(waiver, today)}});
+    }
+    return std::nullopt;
+  }
+
+  std::optional<std::string> run_corpus() {
+    fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration", "cases",
+               "steps", "collisions", "pairs", "defects");
+    checks_.drop_evidence("corpus");
+    return check_corpus(request_, ASSAY_CORPUS_DIR, [&](const Json& row) {
+      const auto input = row["input"].get<std::string>();
+      const auto configuration = row["configuration"].get<std::string>();
+      fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", input, configuration,
+                 row["cases"].get<std::size_t>(), row["steps"].get<std::size_t>(),
+                 row["collisions"].get<std::size_t>(), row["pairs"].get<std::size_t>(),
+                 row["defects"].get<std::size_t>());
+      for (const auto& failed : row["failed"]) {
+        fmt::print("  {}: {}\n", failed["case"].get<std::string>(),
+                   failed["what"].get<std::string>());
+      }
+      std::fflush(stdout);
+      store_check(checks_, "corpus", input + ", " + configuration, row);
+    });
+  }
+
+  std::optional<std::string> run_campaign() {
+    fmt::print("\n");
+    std::string problem;
+    auto store =
+        Store::open(store_file(out_, request_.shard), properties::binding_of(request_), problem);
+    if (!store) return problem;
+    CampaignResults results;
+    const auto wrong = run_phases(request_, *store, command_.out, results);
+    store->seal();
+    return wrong;
+  }
+
+  // What `run` stored, or `merge`: read, and made whole files of.
+  std::optional<std::string> take_shards() {
+    std::string problem;
+    for (const auto& file : stored_shards(out_, problem)) {
+      const auto bound = Store::read(file, problem);
+      if (!bound) return problem;
+      const auto difference =
+          properties::difference_of(bound->binding(), properties::binding_of(request_));
+      if (!difference.empty())
+        return fmt::format("{}: of another run: {}", file.string(), difference);
+      const auto failures = write_failures(*bound, out_, command_.detector);
+      if (failures.problem) return failures.problem;
+      auto store = Store::open(file, bound->binding(), problem);
+      if (!store) return problem;
+      store->seal();
+      fmt::print("{}: {} trials\n", file.filename().string(), store->trial_count());
+    }
+    return std::nullopt;
+  }
+
+  void run_self_test() {
+    checks_.drop_evidence("self-test");
+    const auto queries = request_.plan.policy.self_test_queries;
+    if (queries == 0) return;
+    std::uint64_t asked = 0, contradictions = 0;
+    check_oracle(queries, request_.jobs, [&](const std::string& family, const Json& facts) {
+      asked += facts["queries"].get<std::uint64_t>();
+      contradictions += facts["contradictions"].get<std::uint64_t>();
+      store_check(checks_, "self-test", family, facts);
+    });
+    fmt::print("\nself-test of the oracle: {} contradictions in {} queries\n", contradictions,
+               asked);
+    std::fflush(stdout);
+  }
+
+  void run_speed() {
+    checks_.drop_evidence("times");
+    fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
+    measure_speed([&](const std::string& what, const Json& figure) {
+      fmt::print(
+          "{:<24} {:>9.4f} {:>19}\n", what, figure["median"].get<double>(),
+          fmt::format("[{:.4f}, {:.4f}]", figure["lo"].get<double>(), figure["hi"].get<double>()));
+      std::fflush(stdout);
+      store_check(checks_, "times", what, figure);
+    });
+  }
+
+  int issue() {
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+    store_check(checks_, "times", "issued",
+                {{"at", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+                 {"seconds", seconds}});
+    checks_.seal();
+    std::string problem;
+    const auto statement = make_statement(out_, problem);
+    if (!statement) return refuse(problem);
+    const auto& predicate = (*statement)["predicate"];
+    for (const auto& [name, text] : {std::pair(certificate_file(out_), statement_text(*statement)),
+                                     std::pair(out_ / "junit.xml", junit_text(predicate)),
+                                     std::pair(out_ / "summary.md", summary_text(predicate))}) {
+      if (const auto wrong = write_text_file(name.string(), text)) return refuse(*wrong);
+    }
+    return conclude(predicate, seconds);
+  }
+
+  int conclude(const Json& predicate, double seconds) const {
+    fmt::print("\n{:<10} {}\n", "gate", "outcome");
+    for (const auto& gate : predicate["gates"]) {
+      fmt::print("{:<10} {}\n", gate["gate"].get<std::string>(),
+                 gate["holds"].get<bool>() ? "holds" : "FAILS");
+      constexpr std::size_t most = 5;
+      const auto& reasons = gate["reasons"];
+      for (std::size_t i = 0; i < std::min(most, reasons.size()); ++i)
+        fmt::print("  {}\n", reasons[i].get<std::string>());
+      if (reasons.size() > most) fmt::print("  and {} more\n", reasons.size() - most);
+    }
+    fmt::print("\nverdict: {} in {:.0f} s; {}\nnext: assay verify {}\n",
+               predicate["verdict"].get<std::string>(), seconds, certificate_file(out_).string(),
+               shell_word(certificate_file(out_).string()));
+    return predicate["exit_code"].get<int>();
+  }
+
+  const CertifyRequest& command_;
+  const properties::CampaignRequest& request_;
+  const std::filesystem::path out_;
+  Store checks_;
+  const Clock::time_point begin_;
 };
-
-double milliseconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-      .count();
-}
-
-corpus::Expected<Row> run_corpus(Culling culling, int jobs) {
-  Row row;
-  row.what = "curated cases";
-  row.culling = culling;
-  auto files = corpus::case_files(ASSAY_CORPUS_DIR);
-  if (!files) return files.error();
-  double positive = 0;
-  for (const auto& file : files.value()) {
-    auto c = corpus::read_case(file);
-    if (!c) return c.error();
-    const auto begin = std::chrono::steady_clock::now();
-    const auto report = properties::check_case(c.value(), culling, jobs);
-    row.oracle_ms += milliseconds_since(begin);
-    ++row.cases;
-    for (const auto& step : report.steps) {
-      ++row.steps;
-      row.collisions += step.result.answer == detector::Answer::collision ? 1 : 0;
-      row.pairs += step.judgement.pairs.size();
-      row.detector_ms += step.result.times.total;
-      row.oracle_ms -= step.result.times.total;
-      positive += static_cast<double>(step.result.view_positive) /
-                  static_cast<double>(c.value().triangles.rows());
-    }
-    row.defects += report.outcome == Outcome::holds ? 0 : 1;
-    for (const auto& line : report.failed) row.failed.push_back(c.value().id + ": " + line);
-  }
-  if (row.steps) row.view_positive_share = positive / static_cast<double>(row.steps);
-  return row;
-}
-
-corpus::Expected<Row> run_scene_row(std::string_view name, Culling culling, int jobs) {
-  Row row;
-  row.what = name;
-  row.culling = culling;
-  row.cases = 1;
-  // Small enough to judge every scene with every culling in a minute or two.
-  corpus::SceneOptions options;
-  options.size = 600;
-  options.frames = 6;
-  auto made = corpus::make_scene(name, options);
-  if (!made) return made.error();
-  const auto& sequence = made.value();
-  auto detector =
-      detector::Detector::create(sequence.triangles, sequence.frames[0],
-                                 {culling, detector::Start::verified, detector::Pairs::all});
-  if (!detector) {
-    row.failed.push_back(row.what + ": " + detector.error().message);
-    row.defects = 1;
-    return row;
-  }
-  for (std::size_t s = 0; s + 1 < sequence.frames.size(); ++s) {
-    const auto &x_t0 = sequence.frames[s], &x_t1 = sequence.frames[s + 1];
-    const auto result = detector.value().step(x_t0, x_t1);
-    const auto begin = std::chrono::steady_clock::now();
-    const auto judgement = oracle::judge_step(x_t0, x_t1, sequence.triangles, {jobs, {}});
-    row.oracle_ms += milliseconds_since(begin);
-    row.detector_ms += result.times.total;
-    const auto diff = properties::compare(result, judgement, detector::Pairs::all);
-    ++row.steps;
-    row.collisions += judgement.answer == detector::Answer::collision ? 1 : 0;
-    row.pairs += judgement.pairs.size();
-    row.view_positive_share += static_cast<double>(result.view_positive) /
-                               static_cast<double>(sequence.triangles.rows()) /
-                               static_cast<double>(sequence.frames.size() - 1);
-    if (diff.outcome != Outcome::holds) {
-      ++row.defects;
-      row.failed.push_back(fmt::format(
-          "{} step {}: {} missing, {} spurious, {} late, {} early pairs", name, s + 1,
-          diff.missing.size(), diff.spurious.size(), diff.late.size(), diff.early.size()));
-    }
-  }
-  return row;
-}
-
-void print_header() {
-  fmt::print("{:<18} {:<11} {:>6} {:>6} {:>11} {:>7} {:>6} {:>12} {:>10} {:>8}\n", "input",
-             "culling", "cases", "steps", "collisions", "pairs", "V+ %", "detector ms", "oracle ms",
-             "defects");
-}
-
-void print(const Row& row) {
-  fmt::print("{:<18} {:<11} {:>6} {:>6} {:>11} {:>7} {:>6} {:>12.1f} {:>10.1f} {:>8}\n", row.what,
-             properties::name_of(row.culling), row.cases, row.steps, row.collisions, row.pairs,
-             uses_views(row.culling) ? fmt::format("{:.0f}", 100 * row.view_positive_share) : "-",
-             row.detector_ms, row.oracle_ms, row.defects);
-  for (const auto& line : row.failed) fmt::print("  {}\n", line);
-  std::fflush(stdout);
-}
-
-nlohmann::ordered_json json_of(const std::vector<Row>& rows, std::size_t defects) {
-  nlohmann::ordered_json table = nlohmann::ordered_json::array();
-  for (const auto& row : rows) {
-    table.push_back(
-        {{"input", row.what},
-         {"culling", properties::name_of(row.culling)},
-         {"cases", row.cases},
-         {"steps", row.steps},
-         {"collisions", row.collisions},
-         {"pairs", row.pairs},
-         {"view_positive_share",
-          uses_views(row.culling) ? nlohmann::ordered_json(row.view_positive_share) : nullptr},
-         {"detector_ms", row.detector_ms},
-         {"oracle_ms", row.oracle_ms},
-         {"defects", row.defects},
-         {"failed", row.failed}});
-  }
-  return {{"schema", "assay-certify/1"}, {"version", version_text()},
-          {"verdict", "incomplete"},     {"why", "no random campaign was run"},
-          {"defects", defects},          {"rows", table}};
-}
 
 }  // namespace
 
-int run_certify(const CertifyRequest& request) {
+int run_certify(const CertifyRequest& command) {
+  end_when_interrupted(fmt::format("interrupted: what was judged is stored in {}; run the same "
+                                   "again to go on",
+                                   command.out),
+                       exit_undecided);
+  auto plan = properties::find_plan(command.campaign);
+  if (!plan) return refuse(plan.error().message);
+  properties::CampaignRequest request;
+  request.plan = std::move(plan.value());
+  request.seed = command.seed;
+  request.jobs = command.jobs;
+  request.worker = properties::worker_program();
+  if (auto problem = choose_detector(command.detector, request)) return refuse(*problem);
   std::error_code error;
-  std::filesystem::create_directories(request.out, error);
-  if (error) return refuse(fmt::format("{}: cannot be made: {}", request.out, error.message()));
-  const std::string json_file = request.out + "/certify.json";
-  fmt::print(
-      "the shipped corpus and {} scenes through detector and oracle; a minute or two; writes {}\n",
-      corpus::scenes().size(), json_file);
-  print_header();
-  std::vector<Row> rows;
-  std::size_t defects = 0, steps = 0;
-  const auto take = [&](corpus::Expected<Row> row) -> std::optional<std::string> {
-    if (!row) return row.error().message;
-    print(row.value());
-    defects += row.value().defects;
-    steps += row.value().steps;
-    rows.push_back(std::move(row.value()));
-    return std::nullopt;
-  };
-  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
-                             Culling::normal_cone, Culling::bvh}) {
-    if (auto problem = take(run_corpus(culling, request.jobs))) return refuse(*problem);
-    for (const auto& scene : corpus::scenes()) {
-      if (auto problem = take(run_scene_row(scene.name, culling, request.jobs)))
-        return refuse(*problem);
-    }
+  std::filesystem::create_directories(command.out, error);
+  if (error) return refuse(fmt::format("{}: cannot be made: {}", command.out, error.message()));
+  std::string problem;
+  auto checks = Store::open(
+      checks_file(command.out),
+      *properties::with_shard(properties::binding_of(request), properties::checks_shard), problem);
+  if (!checks) return refuse(problem);
+  fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
+             command.out);
+  try {
+    return Certification(command, request, std::move(*checks)).run();
+  } catch (const properties::StoreProblem& broken) {
+    return refuse(broken.what());
   }
-  if (auto problem = write_text_file(json_file, json_of(rows, defects).dump(1) + "\n"))
-    return refuse(*problem);
-  fmt::print("{} steps, {} defects. No certificate: this version runs no random campaign.\n", steps,
-             defects);
-  return defects ? exit_defect : exit_holds;
 }
 
 }  // namespace assay::reports

@@ -56,10 +56,18 @@ int run_scene(const SceneRequest& request);
 int run_list_scenes();
 
 struct CertifyRequest {
+  std::string campaign = "smoke";  // a name or a file
+  std::uint64_t seed = 1;
+  std::string detector;  // a plug-in's library; empty: the built-in detector
   std::string out;
   int jobs = 1;
 };
 int run_certify(const CertifyRequest& request);
+
+struct VerifyRequest {
+  std::vector<std::string> certificates;  // several: nights, pooled
+};
+int run_verify(const VerifyRequest& request);
 
 struct SelfTestRequest {
   std::uint64_t seed = 1;
@@ -80,6 +88,12 @@ struct RunCommandRequest {
   std::string out;
 };
 int run_campaign(const RunCommandRequest& request);
+
+struct MergeRequest {
+  std::vector<std::string> folders;
+  std::string out;
+};
+int run_merge(const MergeRequest& request);
 
 struct ReplayRequest {
   std::string id_or_file;

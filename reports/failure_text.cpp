@@ -17,6 +17,28 @@ std::filesystem::path store_file(const std::filesystem::path& out, const propert
   return out / fmt::format("shard-{}-of-{}.sqlite", shard.index, shard.count);
 }
 
+std::filesystem::path merged_file(const std::filesystem::path& out) {
+  return out / "merged.sqlite";
+}
+
+std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& folder,
+                                                 std::string& problem) {
+  std::error_code error;
+  std::vector<std::filesystem::path> stores;
+  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = file.path().filename().string();
+    const bool is_shard = name.starts_with("shard-") && name.ends_with(".sqlite");
+    if (is_shard || name == merged_file("").filename()) stores.push_back(file.path());
+  }
+  if (error) {
+    problem = fmt::format("{}: {}", folder.string(), error.message());
+  } else if (stores.empty()) {
+    problem = fmt::format("{}: no run is stored here", folder.string());
+  }
+  std::sort(stores.begin(), stores.end());
+  return stores;
+}
+
 namespace {
 
 constexpr const char* failures_folder = "failures";
@@ -32,6 +54,21 @@ std::string file_stem(const properties::StoredFailure& failure) {
   return stem;
 }
 
+}  // namespace
+
+std::filesystem::path failure_file(const properties::StoredFailure& failure, bool smallest) {
+  return std::filesystem::path(failures_folder) /
+         (file_stem(failure) + (smallest ? "-smallest.json" : "-original.json"));
+}
+
+std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
+                        const std::string& plugin) {
+  return fmt::format("assay replay {}{}", shell_word((out / file).string()),
+                     detector_words(plugin));
+}
+
+namespace {
+
 std::string size_of_mesh(const std::string& text) {
   const auto c = corpus::parse_case(text, "stored failure");
   return c ? properties::size_text(properties::size_of(c.value())) : "unreadable";
@@ -39,25 +76,8 @@ std::string size_of_mesh(const std::string& text) {
 
 }  // namespace
 
-std::filesystem::path original_file(const std::filesystem::path& out,
-                                    const properties::StoredFailure& failure) {
-  return out / failures_folder / (file_stem(failure) + "-original.json");
-}
-
-std::filesystem::path smallest_file(const std::filesystem::path& out,
-                                    const properties::StoredFailure& failure) {
-  return out / failures_folder / (file_stem(failure) + "-smallest.json");
-}
-
-std::string replay_line(const std::filesystem::path& out, const properties::StoredFailure& failure,
-                        const std::string& library) {
-  const auto file =
-      failure.smallest.empty() ? original_file(out, failure) : smallest_file(out, failure);
-  return "assay replay " + shell_word(file.string()) + detector_words(library);
-}
-
 FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
-                             const properties::CampaignRequest& request) {
+                             const std::string& plugin) {
   FailureReport report;
   auto failures = store.failures();
   if (failures.empty()) return report;
@@ -70,12 +90,13 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
     report.problem = fmt::format("{}: cannot be made: {}", folder.string(), error.message());
     return report;
   }
-  SceneMaker scenes(request.plugin ? request.plugin->string() : "");
+  SceneMaker scenes(plugin);
   const auto met = store.signatures();
   std::set<std::string> told;
   for (const auto& failure : failures) {
-    for (const auto& [path, text] : {std::pair(original_file(out, failure), failure.mesh),
-                                     std::pair(smallest_file(out, failure), failure.smallest)}) {
+    for (const auto& [path, text] :
+         {std::pair(out / failure_file(failure, false), failure.mesh),
+          std::pair(out / failure_file(failure, true), failure.smallest)}) {
       if (text.empty()) continue;
       if (const auto written = corpus::write_file_atomically(path, text); !written) {
         report.problem = written.error().message;
@@ -84,11 +105,11 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
     }
     if (!told.insert(failure.signature).second) continue;
     const bool is_shrunk = !failure.smallest.empty();
-    const auto shown_file = is_shrunk ? smallest_file(out, failure) : original_file(out, failure);
+    const auto shown_file = failure_file(failure, is_shrunk);
     const auto shown =
         corpus::parse_case(is_shrunk ? failure.smallest : failure.mesh, "stored failure");
     if (shown) {
-      report.problem = scenes.write_picture(shown_file.string(), shown.value(),
+      report.problem = scenes.write_picture((out / shown_file).string(), shown.value(),
                                             failure.configuration, failure.signature);
       if (report.problem) return report;
     }
@@ -99,8 +120,7 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
         failure.what, failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
-        picture_file(shown_file.string()),
-        replay_line(out, failure, request.plugin ? request.plugin->string() : ""));
+        picture_file((out / shown_file).string()), replay_line(out, shown_file, plugin));
   }
   return report;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "properties/campaign/runner.h"
 
@@ -12,15 +13,20 @@ namespace assay::reports {
 // OUT/shard-1-of-4.sqlite
 std::filesystem::path store_file(const std::filesystem::path& out, const properties::Shard& shard);
 
-// Where the meshes of a failure stand, the same in every run that finds it.
-std::filesystem::path original_file(const std::filesystem::path& out,
-                                    const properties::StoredFailure& failure);
-std::filesystem::path smallest_file(const std::filesystem::path& out,
-                                    const properties::StoredFailure& failure);
+// OUT/merged.sqlite
+std::filesystem::path merged_file(const std::filesystem::path& out);
 
-// "assay replay FILE --detector LIB.so", of the smallest mesh that there is.
-std::string replay_line(const std::filesystem::path& out, const properties::StoredFailure& failure,
-                        const std::string& library);
+// The stores of trials in a folder, by name: of shards, and a merged one. One line in `problem`
+// where there are none.
+std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& folder,
+                                                 std::string& problem);
+
+// Below OUT, the same in every run that finds it: failures/tiny-1-broken-3-bvh-smallest.json.
+std::filesystem::path failure_file(const properties::StoredFailure& failure, bool smallest);
+
+// "assay replay OUT/failures/... --detector LIB.so"
+std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
+                        const std::string& plugin);
 
 struct FailureReport {
   std::string text;                    // a paragraph for each signature; empty without failures
@@ -30,8 +36,9 @@ struct FailureReport {
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
 // under the same names in every run and shard, and a picture (.svg) of the smallest mesh of each
 // signature. A failure is told once for each signature: claim,
-// how often it was met, both sizes, triangles, feature, the line that replays it.
+// how often it was met, both sizes, triangles, feature, the line that replays it. plugin: the
+// library that failed, or empty.
 FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
-                             const properties::CampaignRequest& request);
+                             const std::string& plugin);
 
 }  // namespace assay::reports

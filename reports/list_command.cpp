@@ -43,14 +43,9 @@ int list_campaigns() {
 }
 
 int list_failures(const std::string& folder) {
-  std::error_code error;
-  std::vector<std::filesystem::path> stores;
-  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
-    if (file.path().extension() == ".sqlite") stores.push_back(file.path());
-  }
-  if (error) return refuse(fmt::format("{}: {}", folder, error.message()));
-  if (stores.empty()) return refuse(fmt::format("{}: no run is stored here", folder));
-  std::sort(stores.begin(), stores.end());
+  std::string missing;
+  const auto stores = stored_shards(folder, missing);
+  if (!missing.empty()) return refuse(missing);
   properties::Counts met;
   std::vector<properties::StoredFailure> failures;
   try {

@@ -33,6 +33,8 @@ int run(int argc, char** argv) {
   reports::ReplayRequest replay;
   reports::ShrinkRequest shrink;
   reports::BenchRequest bench;
+  reports::MergeRequest merge;
+  reports::VerifyRequest verify;
   reports::ReportRequest report;
   reports::ListRequest list;
   check.jobs = certify.jobs = self_test.jobs = campaign.jobs =
@@ -46,6 +48,8 @@ int run(int argc, char** argv) {
   reports::add_shrink(app, shrink);
   reports::add_bench(app, bench);
   reports::add_report(app, report);
+  reports::add_merge(app, merge);
+  reports::add_verify(app, verify);
   reports::add_list(app, list);
   reports::add_certify(app, certify);
 
@@ -73,6 +77,8 @@ int run(int argc, char** argv) {
   if (app.got_subcommand("run")) return reports::run_campaign(campaign);
   if (app.got_subcommand("self-test")) return reports::run_self_test(self_test);
   if (app.got_subcommand("replay")) return reports::run_replay(replay);
+  if (app.got_subcommand("verify")) return reports::run_verify(verify);
+  if (app.got_subcommand("merge")) return reports::run_merge(merge);
   if (app.got_subcommand("bench")) return reports::run_bench(bench);
   if (app.got_subcommand("shrink")) return reports::run_shrink(shrink);
   if (app.got_subcommand("report")) return reports::run_report(report);

@@ -13,6 +13,7 @@ double upper_bound(std::uint64_t failures, std::uint64_t trials, double risk) {
 
 double risk_of_each(std::uint64_t bounds) {
   constexpr double family_risk = 0.05;
+  static_assert(family_risk + family_confidence == 1);
   return family_risk / static_cast<double>(std::max<std::uint64_t>(bounds, 1));
 }
 

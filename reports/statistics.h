@@ -5,6 +5,9 @@
 
 namespace assay::reports {
 
+// With which all bounds of a certificate hold together.
+inline constexpr double family_confidence = 0.95;
+
 // The exact one-sided upper bound of Clopper and Pearson (Biometrika 26, 1934): the largest share p
 // at which at most `failures` of `trials` still has a chance of `risk` or more. 1 without trials.
 double upper_bound(std::uint64_t failures, std::uint64_t trials, double risk);

@@ -16,6 +16,8 @@ void add_certify(CLI::App& app, CertifyRequest& request);
 void add_run(CLI::App& app, RunCommandRequest& request);
 void add_replay(CLI::App& app, ReplayRequest& request);
 void add_shrink(CLI::App& app, ShrinkRequest& request);
+void add_merge(CLI::App& app, MergeRequest& request);
+void add_verify(CLI::App& app, VerifyRequest& request);
 void add_report(CLI::App& app, ReportRequest& request);
 void add_list(CLI::App& app, ListRequest& request);
 void add_scene(CLI::App& app, SceneRequest& request);

@@ -20,7 +20,8 @@ void add_bench(CLI::App& app, BenchRequest& request) {
   request.data = data && *data ? data : "../shared/data";
   auto* verb = app.add_subcommand("bench", "Speeds and memory beside what is wanted");
   verb->add_option("--suite", request.suite, "What to measure")
-      ->check(one_of("elementary, view, growth, claims, stability, speed-error", is_bench_suite))
+      ->check(one_of("elementary, view, growth, claims, stability, speed-error, harness",
+                     is_bench_suite))
       ->required();
   verb->add_option("--data", request.data,
                    "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
@@ -28,7 +29,7 @@ void add_bench(CLI::App& app, BenchRequest& request) {
   verb->add_option("--json", request.json_file, "Write all figures here (assay-bench/1)");
   verb->add_option("--csv", request.csv_file, "Write the raw samples here");
   verb->add_option("--svg", request.svg_file,
-                   "Draw the break-even scatter of suite claims here (SVG)");
+                   "Draw the suite's picture here (growth, claims, speed-error; needs gnuplot)");
 }
 
 }  // namespace assay::reports

@@ -89,4 +89,35 @@ void add_list(CLI::App& app, ListRequest& request) {
   verb->add_option("folder", request.folder, "Of a run, for failures");
 }
 
+void add_merge(CLI::App& app, MergeRequest& request) {
+  auto* verb = app.add_subcommand("merge", "The stores of several shards become one");
+  verb->add_option("folders", request.folders, "Folders of `assay run`, or of `assay merge`")
+      ->required();
+  verb->add_option("--out", request.out, "Folder for merged.sqlite and the failing meshes")
+      ->required();
+}
+
+void add_certify(CLI::App& app, CertifyRequest& request) {
+  auto* verb = app.add_subcommand(
+      "certify", "Corpus, campaign, planted faults, self-test, speed: a certificate, or a defect");
+  verb->add_option("--campaign", request.campaign,
+                   "smoke, quick, nightly, release, or a campaign file (.json)")
+      ->capture_default_str();
+  verb->add_option("--seed", request.seed, "Of all random cases; a fresh one a night")
+      ->check(whole_number())
+      ->capture_default_str();
+  verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
+  verb->add_option("--out", request.out,
+                   "Folder for the certificate; shards that it holds are taken")
+      ->required();
+  add_jobs(verb, request.jobs);
+}
+
+void add_verify(CLI::App& app, VerifyRequest& request) {
+  auto* verb = app.add_subcommand("verify", "A certificate against the files beside it");
+  verb->add_option("certificate", request.certificates,
+                   "OUT/certificate.json; several nights of one detector are pooled")
+      ->required();
+}
+
 }  // namespace assay::reports

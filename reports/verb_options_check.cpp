@@ -105,11 +105,4 @@ void add_self_test(CLI::App& app, SelfTestRequest& request) {
   verb->add_option("--replay", request.replay, "One case again, by its name family:seed:index");
 }
 
-void add_certify(CLI::App& app, CertifyRequest& request) {
-  auto* verb =
-      app.add_subcommand("certify", "The shipped corpus and scenes through detector and oracle");
-  verb->add_option("--out", request.out, "Folder for certify.json")->required();
-  add_jobs(verb, request.jobs);
-}
-
 }  // namespace assay::reports

@@ -1,3 +1,5 @@
+#include "reports/version.h"
+
 #include <fmt/format.h>
 
 #include <CLI/Version.hpp>
@@ -5,10 +7,13 @@
 #include <boost/version.hpp>
 #include <nlohmann/json.hpp>
 
+#include "commit.h"
 #include "oracle/versions.h"
 #include "reports/commands.h"
 
 namespace assay::reports {
+
+std::string commit_text() { return ASSAY_COMMIT; }
 
 std::string version_text() {
   return fmt::format(

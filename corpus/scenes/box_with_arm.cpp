@@ -50,16 +50,21 @@ Station station_at(double s) {
   return {x, z, -c, d, d, c};
 }
 
-// The perimeter of the square [-1,1]^2 in 4 b steps, clockwise from (-1,-1): right-handed about
-// the arm's direction.
-std::vector<std::array<int, 2>> perimeter(int b) {
+constexpr int edges_across_arm(int b) { return b < 3 ? 1 : b / 3; }
+
+// The perimeter of a square of k x k edges in 4 k steps, clockwise from its first corner:
+// right-handed about the arm's direction.
+std::vector<std::array<int, 2>> perimeter(int k) {
   std::vector<std::array<int, 2>> points;
-  for (int i = 0; i < b; ++i) points.push_back({0, i});
-  for (int i = 0; i < b; ++i) points.push_back({i, b});
-  for (int i = 0; i < b; ++i) points.push_back({b, b - i});
-  for (int i = 0; i < b; ++i) points.push_back({b - i, 0});
+  for (int i = 0; i < k; ++i) points.push_back({0, i});
+  for (int i = 0; i < k; ++i) points.push_back({i, k});
+  for (int i = 0; i < k; ++i) points.push_back({k, k - i});
+  for (int i = 0; i < k; ++i) points.push_back({k - i, 0});
   return points;
 }
+
+// A block of k edges in the middle of the 3 b edges of a side.
+constexpr int first_of_block(int b, int k) { return (3 * b - k) / 2; }
 
 // Vertices of the box by lattice place, 0 ... 3 b on each axis.
 class BoxSurface {
@@ -76,11 +81,13 @@ class BoxSurface {
     return known->second;
   }
 
-  // One side, without its middle block if `open`.
-  void side(std::size_t axis, bool high, bool open) {
+  // One side, without the block in its middle that is `open` edges wide.
+  void side(std::size_t axis, bool high, int open) {
+    const int first = first_of_block(b_, open);
+    const auto in_block = [&](int i) { return i >= first && i < first + open; };
     for (int i = 0; i < 3 * b_; ++i) {
       for (int j = 0; j < 3 * b_; ++j) {
-        if (open && i >= b_ && i < 2 * b_ && j >= b_ && j < 2 * b_) continue;
+        if (in_block(i) && in_block(j)) continue;
         const auto corner = [&](int di, int dj) {
           std::array<int, 3> place{};
           place[axis] = high ? 3 * b_ : 0;
@@ -104,10 +111,10 @@ class BoxSurface {
 };
 
 // A ring of the arm around a station.
-std::vector<std::int32_t> add_ring(MeshMaker& maker, const Station& at, int b) {
+std::vector<std::int32_t> add_ring(MeshMaker& maker, const Station& at, int k) {
   std::vector<std::int32_t> ring;
-  for (const auto& [i, j] : perimeter(b)) {
-    const double u = half_width * (2.0 * i / b - 1), v = half_width * (2.0 * j / b - 1);
+  for (const auto& [i, j] : perimeter(k)) {
+    const double u = half_width * (2.0 * i / k - 1), v = half_width * (2.0 * j / k - 1);
     ring.push_back(maker.vertex({at.x + v * at.side_x, u, at.z + v * at.side_z}));
   }
   return ring;
@@ -121,8 +128,13 @@ void join(MeshMaker& maker, const std::vector<std::int32_t>& a,
   }
 }
 
-constexpr int fixed_rings(int b) { return 8 * b; }
-constexpr int sliding_rings(int b) { return 4 * b; }
+constexpr int fixed_rings(int b) { return 7 * b + 1; }
+constexpr int sliding_rings(int b) { return 3 * b; }
+
+constexpr int triangle_count(int b) {
+  const int k = edges_across_arm(b);
+  return 106 * b * b + 80 * b * k - 2 * k * k + 12 * k;
+}
 
 // Height of sliding ring i = 1 ... n; the tip is a point, half a width below the last ring.
 double ring_height(int i, int n, double tip) {
@@ -131,25 +143,24 @@ double ring_height(int i, int n, double tip) {
 
 }  // namespace
 
-BoxWithArm::BoxWithArm(int size)
-    : resolution_(nearest_resolution(size, 1, [](int n) { return 200 * n * n + 4 * n; })) {
-  const int b = resolution_;
+BoxWithArm::BoxWithArm(int size) : resolution_(nearest_resolution(size, 1, triangle_count)) {
+  const int b = resolution_, k = edges_across_arm(b), root = first_of_block(b, k);
   MeshMaker maker;
   BoxSurface box(maker, b);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.side(axis, false, axis == 0);
-    box.side(axis, true, axis == 2);
+    box.side(axis, false, axis == 0 ? k : 0);
+    box.side(axis, true, axis == 2 ? b : 0);
   }
   std::vector<std::int32_t> ring;
-  for (const auto& [i, j] : perimeter(b)) ring.push_back(box.vertex({0, b + i, b + j}));
+  for (const auto& [i, j] : perimeter(k)) ring.push_back(box.vertex({0, root + i, root + j}));
   for (int i = 1; i <= fixed_rings(b); ++i) {
-    auto next = add_ring(maker, station_at(fixed_length * i / fixed_rings(b)), b);
+    auto next = add_ring(maker, station_at(fixed_length * i / fixed_rings(b)), k);
     join(maker, ring, next);
     ring = std::move(next);
   }
   for (int i = 1; i <= sliding_rings(b); ++i) {
     const double z = ring_height(i, sliding_rings(b), tip_outside);
-    auto next = add_ring(maker, {0, z, 0, -1, -1, 0}, b);
+    auto next = add_ring(maker, {0, z, 0, -1, -1, 0}, k);
     if (i == 1) first_sliding_ = next.front();
     join(maker, ring, next);
     ring = std::move(next);
@@ -163,7 +174,7 @@ BoxWithArm::BoxWithArm(int size)
 
 detector::Positions BoxWithArm::with_tip(double z) const {
   detector::Positions x = mesh.positions;
-  const int rings = sliding_rings(resolution_), around = 4 * resolution_;
+  const int rings = sliding_rings(resolution_), around = 4 * edges_across_arm(resolution_);
   for (int i = 1; i <= rings; ++i) {
     x.middleRows(first_sliding_ + (i - 1) * around, around)
         .col(2)

@@ -22,6 +22,10 @@ const char* name_of(InputError error) {
       return "nothing_to_commit";
     case InputError::foreign_state:
       return "foreign_state";
+    case InputError::damaged_state:
+      return "damaged_state";
+    case InputError::other_state_version:
+      return "other_state_version";
   }
   return "unknown_error";
 }

@@ -18,6 +18,8 @@ enum class InputError : std::uint8_t {
   wrong_primitive_count = 7,  // view primitives: none, one, or one for each component
   nothing_to_commit = 8,      // commit() without a completed evaluate()
   foreign_state = 9,          // restore() with the state of another mesh or culling
+  damaged_state = 10,         // bytes that are no saved state: cut, changed, of something else
+  other_state_version = 11,   // bytes of a saved state in a form that this build does not read
 };
 
 const char* name_of(InputError error);

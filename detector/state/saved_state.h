@@ -2,6 +2,7 @@
 #pragma once
 
 #include "detector/boundary/apex.h"
+#include "detector/boundary/surface.h"
 #include "detector/options.h"
 #include "detector/state/step_state.h"
 #include "detector/view/view_anchor.h"
@@ -20,5 +21,9 @@ struct SavedState {
 
 // The same for the same triangles in the same order. O(M).
 std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
+
+// Whether all sizes and indices of the state are those of a detector of this surface; `anchors`:
+// how many it has of its own. What such a state says of its triangles is not checked. O(M).
+bool fits(const SavedState& state, const Surface& surface, std::size_t anchors);
 
 }  // namespace assay::detector

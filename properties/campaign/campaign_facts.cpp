@@ -3,42 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "properties/faults/fault.h"
 #include "properties/generators/families.h"
 #include "properties/laws/law.h"
-#include "properties/random.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {
-
-namespace {
-
-// Of a program or library: another build is another detector, or another judge of it.
-std::string digest_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  return fmt::format("{:016x}", Random::hash(bytes));
-}
-
-}  // namespace
-
-std::string binding_of(const CampaignRequest& request) {
-  CampaignPlan plan = request.plan;
-  // How long a run may take says nothing of its trials: one that ran out of time may go on.
-  plan.seconds = plan.shrink_share = plan.tetrahedron_seconds = 0;
-  std::string text =
-      fmt::format("{}\nseed {}, shard {}/{}, detector {}", plan_text(plan), request.seed,
-                  request.shard.index, request.shard.count, request.detector.name);
-  for (const auto& configuration : request.detector.configurations) {
-    text += fmt::format(", {}", configuration.name);
-  }
-  text += fmt::format("\nbuild {} {}", digest_of("/proc/self/exe"), digest_of(request.worker));
-  if (request.plugin) text += fmt::format(" {}", digest_of(*request.plugin));
-  return text;
-}
 
 std::size_t planted_count() {
   const auto all = faults();

@@ -1,13 +1,9 @@
-// What a run as a whole rests on: what its store is bound to, its canary, its laws.
+// What a run as a whole rests on: its canary, its planted faults, its laws.
 #pragma once
 
 #include "properties/campaign/fault_hunt.h"
 
 namespace assay::properties {
-
-// The text that binds a store to a run: plan without its times, seed, shard, detector,
-// configurations, and the bytes of the programs and the plug-in.
-std::string binding_of(const CampaignRequest& request);
 
 std::size_t planted_count();
 

@@ -31,7 +31,12 @@ std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& 
   CaseRun run;
   run.steps = run_case(c, fault);
   if (run.steps.empty()) return std::nullopt;  // refused: such a case shows nothing
-  auto verdict = judge_trial(c, truth, run, configuration, built_in_detector());
+  CaseRun again = run;
+  if (fault.is_disturbed) {
+    run = without_marking_counts(std::move(run.steps));
+    again = without_marking_counts(run_disturbed(c, fault.options, fault.stages));
+  }
+  auto verdict = judge_trial(c, truth, run, configuration, built_in_detector(), &again);
   if (verdict.failure) verdict.failure->stage = fault.stage;
   return verdict.failure;
 }

@@ -30,13 +30,14 @@ std::vector<CampaignPlan> make_named_plans() {
   constexpr double minute = 60, hour = 60 * minute;
   CampaignPlan smoke;
   smoke.name = "smoke";
-  smoke.about = "a short form of all of it, in 2 minutes";
+  smoke.about = "a short form of all of it, in 2 minutes; states its bounds and wants none";
   smoke.strata = strata(600, 200, 0, 0);
-  smoke.seconds = 2 * minute;
+  smoke.seconds = 4 * minute;  // a limit, for a busy machine
   smoke.law_premises = 20;
   smoke.fault_cases = 300;
   smoke.fault_seeds = 1;
   smoke.tetrahedron_seconds = 5;
+  smoke.policy.self_test_queries = 10'000;
 
   CampaignPlan quick;
   quick.name = "quick";
@@ -47,6 +48,7 @@ std::vector<CampaignPlan> make_named_plans() {
   quick.fault_cases = 800;
   quick.fault_seeds = 3;
   quick.tetrahedron_seconds = 40;
+  quick.policy.self_test_queries = 20'000;
 
   CampaignPlan nightly = quick;
   nightly.name = "nightly";
@@ -57,6 +59,9 @@ std::vector<CampaignPlan> make_named_plans() {
   nightly.fault_cases = 5000;
   nightly.fault_seeds = 5;
   nightly.tetrahedron_seconds = 5 * minute;
+  nightly.policy.self_test_queries = 100'000;
+  nightly.policy.speed_limits = {
+      {"free-step-over-bvh", 1. / 50}, {"search-step-over-bvh", 1.05}, {"exact-over-double", 1.3}};
 
   CampaignPlan release = nightly;
   release.name = "release";
@@ -112,6 +117,7 @@ class PlanReader {
       if (!field.json().is_boolean()) return field.problem("true or false expected");
       plan_.shrink_faults = field.json().get<bool>();
     }
+    BOOST_OUTCOME_TRY(read_policy());
     BOOST_OUTCOME_TRY(check_whole());
     return plan_;
   }
@@ -166,6 +172,40 @@ class PlanReader {
     return boost::outcome_v2::success();
   }
 
+  corpus::Expected<void> read_policy() {
+    if (!top_.has("policy")) return boost::outcome_v2::success();
+    BOOST_OUTCOME_TRY(policy, top_.at("policy"));
+    if (!policy.json().is_object()) return policy.problem("an object expected");
+    for (const auto& [key, value] : policy.json().items()) {
+      if (key != "power" && key != "self_test_queries" && key != "speed_limits")
+        return policy.problem("no field '" + key + "' is known");
+    }
+    if (policy.has("power")) {
+      BOOST_OUTCOME_TRY(field, policy.at("power"));
+      BOOST_OUTCOME_TRY(power, field.number());
+      if (power <= 0 || power > 1) return field.problem("0 < power <= 1 expected");
+      plan_.policy.power = power;
+    }
+    if (policy.has("self_test_queries")) {
+      BOOST_OUTCOME_TRY(field, policy.at("self_test_queries"));
+      BOOST_OUTCOME_TRY(queries, field.integer(0, most_cases));
+      plan_.policy.self_test_queries = static_cast<std::uint64_t>(queries);
+    }
+    if (!policy.has("speed_limits")) return boost::outcome_v2::success();
+    BOOST_OUTCOME_TRY(limits, policy.at("speed_limits"));
+    if (!limits.json().is_object()) return limits.problem("an object expected");
+    for (const auto& [what, value] : limits.json().items()) {
+      if (std::find(std::begin(speed_figures), std::end(speed_figures), what) ==
+          std::end(speed_figures))
+        return limits.problem("no figure '" + what + "' is known");
+      BOOST_OUTCOME_TRY(field, limits.at(what));
+      BOOST_OUTCOME_TRY(limit, field.number());
+      if (limit <= 0) return field.problem("a number above 0 expected");
+      plan_.policy.speed_limits.push_back({what, limit});
+    }
+    return boost::outcome_v2::success();
+  }
+
   corpus::Expected<void> read_number(const char* key, double& value) {
     if (!top_.has(key)) return boost::outcome_v2::success();
     BOOST_OUTCOME_TRY(field, top_.at(key));
@@ -186,11 +226,11 @@ class PlanReader {
   static constexpr std::int64_t most_cases = 1'000'000'000;
   static constexpr const char* name_letters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-  static constexpr const char* keys[] = {"schema",      "name",          "about",
-                                         "strata",      "seconds",       "case_seconds",
-                                         "laws_every",  "law_premises",  "fault_cases",
-                                         "fault_seeds", "shrink_faults", "tetrahedron_seconds",
-                                         "shrink_share"};
+  static constexpr const char* keys[] = {"schema",       "name",          "about",
+                                         "strata",       "seconds",       "case_seconds",
+                                         "laws_every",   "law_premises",  "fault_cases",
+                                         "fault_seeds",  "shrink_faults", "tetrahedron_seconds",
+                                         "shrink_share", "policy"};
   corpus::JsonField top_;
   CampaignPlan plan_;
 };
@@ -217,6 +257,8 @@ std::string plan_text(const CampaignPlan& plan) {
   for (const auto& s : plan.strata) {
     list.push_back({{"family", s.family}, {"cases", s.cases}, {"bound", s.wanted_bound}});
   }
+  auto limits = nlohmann::ordered_json::object();
+  for (const auto& [what, limit] : plan.policy.speed_limits) limits[what] = limit;
   return nlohmann::ordered_json{{"schema", schema},
                                 {"name", plan.name},
                                 {"strata", std::move(list)},
@@ -228,7 +270,11 @@ std::string plan_text(const CampaignPlan& plan) {
                                 {"fault_seeds", plan.fault_seeds},
                                 {"shrink_faults", plan.shrink_faults},
                                 {"tetrahedron_seconds", plan.tetrahedron_seconds},
-                                {"shrink_share", plan.shrink_share}}
+                                {"shrink_share", plan.shrink_share},
+                                {"policy",
+                                 {{"power", plan.policy.power},
+                                  {"self_test_queries", plan.policy.self_test_queries},
+                                  {"speed_limits", std::move(limits)}}}}
       .dump();
 }
 

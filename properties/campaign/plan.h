@@ -18,6 +18,21 @@ struct StratumPlan {
   double wanted_bound = 0;  // on the share of defects; 0: none is wanted
 };
 
+// A limit on a figure of certify's speed table, a ratio of interleaved runs.
+struct SpeedLimit {
+  std::string what;  // one of speed_figures
+  double limit = 0;  // above 0
+};
+inline constexpr std::string_view speed_figures[] = {"free-step-over-bvh", "search-step-over-bvh",
+                                                     "exact-over-double"};
+
+// What a certificate asks for besides the bounds of the strata and the premises of the laws.
+struct Policy {
+  double power = 1;                     // share of the planted faults that must be found, (0, 1]
+  std::uint64_t self_test_queries = 0;  // of `assay self-test`; 0: none is asked for
+  std::vector<SpeedLimit> speed_limits;
+};
+
 struct CampaignPlan {
   std::string name, about;
   std::vector<StratumPlan> strata;
@@ -30,6 +45,7 @@ struct CampaignPlan {
   bool shrink_faults = false;      // also shrink what each planted fault shows
   double tetrahedron_seconds = 0;  // of the exhaustive world
   double shrink_share = 0.2;       // of `seconds`, at most, for shrinking failures
+  Policy policy;
 };
 
 // smoke, quick, nightly, release, faults.

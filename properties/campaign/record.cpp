@@ -60,6 +60,8 @@ void StratumTally::add(const TrialRecord& record) {
   pairs += record.pairs;
   oracle_us += record.oracle_us;
   detector_us += record.detector_us;
+  discards += record.outcomes.empty() ? 1 : 0;
+  meshes.insert(record.mesh);
   by_configuration.resize(std::max(by_configuration.size(), record.outcomes.size()));
   for (std::size_t i = 0; i < record.outcomes.size(); ++i) {
     auto& outcomes = by_configuration[i];

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +27,8 @@ struct TrialRecord {
   std::string outcomes;  // one letter a configuration: H(olds) D(efect) U(ndecided) E(rror)
   std::uint64_t triangles = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
-  Counts counts;  // "law:..", "tag:..", "block:..", left_out_misses_name
+  Counts counts;           // "law:..", "tag:..", "block:..", left_out_misses_name
+  std::uint64_t mesh = 0;  // hash of the case's triangles and frames: equal cases, equal hashes
 };
 
 // Counts steps that only a plug-in's contract saves from being a miss.
@@ -38,6 +40,8 @@ char letter_of(Outcome outcome);
 struct StratumTally {
   std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
+  std::uint64_t discards = 0;      // cases beyond the numbers that the detector's contract takes
+  std::set<std::uint64_t> meshes;  // hashes of the cases: their number is that of distinct cases
   struct Outcomes {
     std::uint64_t holds = 0, defects = 0, undecided = 0, errors = 0;
   };

@@ -10,6 +10,7 @@
 #include "properties/campaign/clean_starts.h"
 #include "properties/case_check.h"
 #include "properties/generators/families.h"
+#include "properties/random.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {
@@ -37,6 +38,21 @@ using Clock = std::chrono::steady_clock;
 std::uint64_t microseconds_since(Clock::time_point begin) {
   return static_cast<std::uint64_t>(
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin).count());
+}
+
+// Of triangles and frames, bit by bit: two cases of one hash count as one.
+std::uint64_t mesh_hash(const corpus::Case& c) {
+  const auto bytes = [](const auto& matrix) {
+    return std::string_view(reinterpret_cast<const char*>(matrix.data()),
+                            sizeof(*matrix.data()) * static_cast<std::size_t>(matrix.size()));
+  };
+  std::uint64_t hash = Random::hash(bytes(c.triangles));
+  // Each link of the chain is a bijection of what came before, mixed by a multiplication.
+  for (const auto& frame : c.frames) {
+    hash = (hash ^ Random::hash(bytes(frame))) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
+  }
+  return hash;
 }
 
 struct PlannedTrial {
@@ -128,6 +144,7 @@ class Trials {
     record.id = made.c.id;
     record.family = planned.family->name;
     record.index = planned.index;
+    record.mesh = mesh_hash(made.c);
     auto begin = Clock::now();
     const auto seen = contracted(made.c, request_.detector.contract);
     if (!seen) return keep(record, {});  // no case for this detector: its numbers do not hold it
@@ -199,9 +216,9 @@ class Trials {
   void keep(const TrialRecord& record, const std::vector<StoredFailure>& failures) {
     const std::lock_guard lock(mutex_);
     std::vector<StoredFailure> kept;
-    std::vector<std::string> met;
+    std::vector<MetFailure> met;
     for (const auto& failure : failures) {
-      met.push_back(failure.signature);
+      met.push_back({failure.configuration, failure.signature});
       if (met_[failure.signature]++ < meshes_kept) kept.push_back(failure);
     }
     // At once: a run that is killed counts nothing twice when it goes on.

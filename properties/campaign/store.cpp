@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sqlite3.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -11,113 +10,56 @@
 #include <system_error>
 
 namespace assay::properties {
-namespace {
-
-std::string problem_of(sqlite3* db) {
-  const char* file = sqlite3_db_filename(db, "main");
-  return fmt::format("{}: {}", file ? file : "store", sqlite3_errmsg(db));
+// Without row numbers: what a merged file holds then depends on its rows alone.
+const char* Store::tables() {
+  return "CREATE TABLE IF NOT EXISTS note(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+         "CREATE TABLE IF NOT EXISTS trial(id TEXT PRIMARY KEY, family TEXT NOT NULL, place "
+         "INTEGER "
+         "NOT NULL, outcomes TEXT NOT NULL, triangles INTEGER NOT NULL, steps INTEGER NOT NULL, "
+         "collisions INTEGER NOT NULL, pairs INTEGER NOT NULL, oracle_us INTEGER NOT NULL, "
+         "detector_us INTEGER NOT NULL, counts TEXT NOT NULL, mesh INTEGER NOT NULL) WITHOUT ROWID;"
+         "CREATE TABLE IF NOT EXISTS failure(id TEXT NOT NULL, configuration TEXT NOT NULL, "
+         "signature TEXT NOT NULL, what TEXT NOT NULL, mesh TEXT NOT NULL, smallest TEXT NOT NULL, "
+         "flaky INTEGER NOT NULL, PRIMARY KEY(id, configuration)) WITHOUT ROWID;"
+         "CREATE TABLE IF NOT EXISTS met(id TEXT NOT NULL, configuration TEXT NOT NULL, signature "
+         "TEXT NOT NULL, PRIMARY KEY(id, configuration)) WITHOUT ROWID;"
+         "CREATE TABLE IF NOT EXISTS evidence(kind TEXT NOT NULL, name TEXT NOT NULL, shard TEXT "
+         "NOT NULL, progress INTEGER NOT NULL, facts TEXT NOT NULL, PRIMARY KEY(kind, name, "
+         "shard)) "
+         "WITHOUT ROWID;";
 }
 
-constexpr const char* tables =
-    "CREATE TABLE IF NOT EXISTS note(key TEXT PRIMARY KEY, value TEXT NOT NULL);"
-    "CREATE TABLE IF NOT EXISTS trial(id TEXT PRIMARY KEY, family TEXT NOT NULL, place INTEGER NOT "
-    "NULL, outcomes TEXT NOT NULL, triangles INTEGER NOT NULL, steps INTEGER NOT NULL, collisions "
-    "INTEGER NOT NULL, pairs INTEGER NOT NULL, oracle_us INTEGER NOT NULL, detector_us INTEGER NOT "
-    "NULL, counts TEXT NOT NULL) WITHOUT ROWID;"
-    "CREATE TABLE IF NOT EXISTS failure(id TEXT NOT NULL, configuration TEXT NOT NULL, signature "
-    "TEXT NOT NULL, what TEXT NOT NULL, mesh TEXT NOT NULL, smallest TEXT NOT NULL, flaky INTEGER "
-    "NOT NULL, PRIMARY KEY(id, configuration));"
-    "CREATE TABLE IF NOT EXISTS signature(text TEXT PRIMARY KEY, met INTEGER NOT NULL);";
+namespace {
 
-// One prepared statement, reset when it goes out of scope.
-class Query {
+// Held until this process ends, however it ends.
+class FileLock {
  public:
-  Query(sqlite3* db, const char* sql) : db_(db) {
-    check(sqlite3_prepare_v2(db, sql, -1, &statement_, nullptr));
+  explicit FileLock(const std::filesystem::path& file) {
+    const std::string name = file.string() + ".lock";
+    lock_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock_ < 0) throw StoreProblem(fmt::format("{}: {}", name, std::strerror(errno)));
+    if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+    ::close(lock_);
+    throw StoreProblem(fmt::format("{}: another run is writing it", file.string()));
   }
-  Query(const Query&) = delete;
-  Query& operator=(const Query&) = delete;
-  ~Query() { sqlite3_finalize(statement_); }
-
-  Query& bind(const std::string& text) {
-    check(sqlite3_bind_text(statement_, ++bound_, text.data(), static_cast<int>(text.size()),
-                            SQLITE_TRANSIENT));
-    return *this;
-  }
-  Query& bind(std::uint64_t number) {
-    check(sqlite3_bind_int64(statement_, ++bound_, static_cast<sqlite3_int64>(number)));
-    return *this;
-  }
-
-  // True while there is a row.
-  bool next() {
-    const int code = sqlite3_step(statement_);
-    if (code == SQLITE_ROW) return true;
-    if (code != SQLITE_DONE) check(code);
-    return false;
-  }
-  std::string text(int column) const {
-    const auto* begin = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
-    return {begin, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
-  }
-  std::uint64_t number(int column) const {
-    return static_cast<std::uint64_t>(sqlite3_column_int64(statement_, column));
-  }
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  ~FileLock() { ::close(lock_); }
 
  private:
-  void check(int code) const {
-    if (code != SQLITE_OK) throw StoreProblem(problem_of(db_));
-  }
-  sqlite3* db_;
-  sqlite3_stmt* statement_ = nullptr;
-  int bound_ = 0;
+  int lock_ = -1;
 };
 
 }  // namespace
 
 struct Store::Parts {
-  sqlite3* db = nullptr;
-  int lock = -1;
+  std::optional<FileLock> lock;  // outlives the database
+  Database db;
 
-  Parts(const std::filesystem::path& file, int flags) {
-    if (flags & SQLITE_OPEN_CREATE) take_lock(file);
-    if (sqlite3_open_v2(file.c_str(), &db, flags, nullptr) != SQLITE_OK) {
-      const std::string reason =
-          fmt::format("{}: {}", file.string(), db ? sqlite3_errmsg(db) : "no memory");
-      close_all();
-      throw StoreProblem(reason);
-    }
-    constexpr int patience_ms = 5000;
-    sqlite3_busy_timeout(db, patience_ms);
-  }
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
-  ~Parts() { close_all(); }
-
-  void run(const char* sql) const {
-    if (sqlite3_exec(db, sql, nullptr, nullptr, nullptr) != SQLITE_OK)
-      throw StoreProblem(problem_of(db));
-  }
-  void check_whole() const {
-    Query query(db, "PRAGMA quick_check(1)");
-    if (!query.next() || query.text(0) != "ok")
-      throw StoreProblem(fmt::format("{}: the file is damaged", sqlite3_db_filename(db, "main")));
-  }
-
- private:
-  // Held until this process ends, however it ends.
-  void take_lock(const std::filesystem::path& file) {
-    const std::string name = file.string() + ".lock";
-    lock = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock < 0) throw StoreProblem(fmt::format("{}: {}", name, std::strerror(errno)));
-    if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return;
-    close_all();
-    throw StoreProblem(fmt::format("{}: another run is writing it", file.string()));
-  }
-  void close_all() {
-    sqlite3_close(db);
-    if (lock >= 0) ::close(lock);
-  }
+  Parts(const std::filesystem::path& file, Database::Mode mode)
+      : lock(mode == Database::Mode::write ? std::optional<FileLock>(std::in_place, file)
+                                           : std::nullopt),
+        db(file, mode) {}
 };
 
 Store::Store(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -132,8 +74,9 @@ std::optional<Store> Store::read(const std::filesystem::path& file, std::string&
     return std::nullopt;
   }
   try {
-    auto parts = std::make_unique<Parts>(file, SQLITE_OPEN_READONLY);
-    const bool is_store = Query(parts->db, "SELECT 1 FROM sqlite_master WHERE name='note'").next();
+    auto parts = std::make_unique<Parts>(file, Database::Mode::read);
+    const bool is_store =
+        Statement(parts->db, "SELECT 1 FROM sqlite_master WHERE name='note'").next();
     Store store(std::move(parts));
     if (is_store && store.note("binding")) return store;
     problem = fmt::format("{}: not the store of a run", file.string());
@@ -146,11 +89,11 @@ std::optional<Store> Store::read(const std::filesystem::path& file, std::string&
 std::optional<Store> Store::open(const std::filesystem::path& file, const std::string& binding,
                                  std::string& problem) {
   try {
-    auto parts = std::make_unique<Parts>(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    auto parts = std::make_unique<Parts>(file, Database::Mode::write);
     // A killed process loses nothing that add() returned from; only a power cut may lose the end.
-    parts->run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
-    parts->check_whole();
-    parts->run(tables);
+    parts->db.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
+    parts->db.check_whole();
+    parts->db.run(tables());
     Store store(std::move(parts));
     const auto bound = store.note("binding");
     if (!bound) {
@@ -170,7 +113,7 @@ std::optional<Store> Store::open(const std::filesystem::path& file, const std::s
 std::string Store::binding() const { return note("binding").value_or(""); }
 
 void Store::add(const TrialRecord& r) {
-  Query(parts_->db, "INSERT OR REPLACE INTO trial VALUES(?,?,?,?,?,?,?,?,?,?,?)")
+  Statement(parts_->db, "INSERT OR REPLACE INTO trial VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(r.id)
       .bind(r.family)
       .bind(r.index)
@@ -182,25 +125,36 @@ void Store::add(const TrialRecord& r) {
       .bind(r.oracle_us)
       .bind(r.detector_us)
       .bind(counts_text(r.counts))
+      .bind(r.mesh)
       .next();
 }
 
 void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
-                const std::vector<std::string>& met) {
-  parts_->run("BEGIN IMMEDIATE");
+                const std::vector<MetFailure>& met) {
+  parts_->db.run("BEGIN IMMEDIATE");
   try {
     for (const auto& failure : kept) add(failure);
-    for (const auto& signature : met) count_signature(signature);
+    for (const auto& failure : met) {
+      Statement(parts_->db, "INSERT OR REPLACE INTO met VALUES(?,?,?)")
+          .bind(record.id)
+          .bind(failure.configuration)
+          .bind(failure.signature)
+          .next();
+    }
     add(record);
-    parts_->run("COMMIT");
+    parts_->db.run("COMMIT");
   } catch (const StoreProblem&) {
-    sqlite3_exec(parts_->db, "ROLLBACK", nullptr, nullptr, nullptr);
+    try {
+      parts_->db.run("ROLLBACK");
+    } catch (const StoreProblem&) {
+      // SQLite has rolled back by itself.
+    }
     throw;
   }
 }
 
 void Store::add(const StoredFailure& f) {
-  Query(parts_->db, "INSERT OR REPLACE INTO failure VALUES(?,?,?,?,?,?,?)")
+  Statement(parts_->db, "INSERT OR REPLACE INTO failure VALUES(?,?,?,?,?,?,?)")
       .bind(f.id)
       .bind(f.configuration)
       .bind(f.signature)
@@ -212,7 +166,7 @@ void Store::add(const StoredFailure& f) {
 }
 
 void Store::set_smallest(const StoredFailure& f) {
-  Query(parts_->db, "UPDATE failure SET smallest=? WHERE id=? AND configuration=?")
+  Statement(parts_->db, "UPDATE failure SET smallest=? WHERE id=? AND configuration=?")
       .bind(f.smallest)
       .bind(f.id)
       .bind(f.configuration)
@@ -220,40 +174,41 @@ void Store::set_smallest(const StoredFailure& f) {
 }
 
 void Store::set_note(const std::string& key, const std::string& value) {
-  Query(parts_->db, "INSERT OR REPLACE INTO note VALUES(?,?)").bind(key).bind(value).next();
+  Statement(parts_->db, "INSERT OR REPLACE INTO note VALUES(?,?)").bind(key).bind(value).next();
 }
 
 bool Store::has_trial(const std::string& id) const {
-  return Query(parts_->db, "SELECT 1 FROM trial WHERE id=?").bind(id).next();
+  return Statement(parts_->db, "SELECT 1 FROM trial WHERE id=?").bind(id).next();
 }
 
 std::uint64_t Store::trial_count() const {
-  Query query(parts_->db, "SELECT count(*) FROM trial");
+  Statement query(parts_->db, "SELECT count(*) FROM trial");
   return query.next() ? query.number(0) : 0;
 }
 
 std::optional<std::string> Store::note(const std::string& key) const {
-  Query query(parts_->db, "SELECT value FROM note WHERE key=?");
+  Statement query(parts_->db, "SELECT value FROM note WHERE key=?");
   query.bind(key);
   return query.next() ? std::optional(query.text(0)) : std::nullopt;
 }
 
 void Store::for_each_trial(const std::function<void(const TrialRecord&)>& visit) const {
-  Query query(parts_->db,
-              "SELECT id,family,place,outcomes,triangles,steps,collisions,pairs,oracle_us,"
-              "detector_us,counts FROM trial ORDER BY family, place");
+  Statement query(parts_->db,
+                  "SELECT id,family,place,outcomes,triangles,steps,collisions,pairs,oracle_us,"
+                  "detector_us,counts,mesh FROM trial ORDER BY family, place");
   while (query.next()) {
     visit({query.text(0), query.text(1), query.number(2), query.text(3), query.number(4),
            query.number(5), query.number(6), query.number(7), query.number(8), query.number(9),
-           parse_counts(query.text(10))});
+           parse_counts(query.text(10)), query.number(11)});
   }
 }
 
 std::vector<StoredFailure> Store::failures() const {
   std::vector<StoredFailure> list;
-  Query query(parts_->db,
-              "SELECT id,configuration,signature,what,mesh,smallest,flaky FROM failure ORDER BY "
-              "signature,id,configuration");
+  Statement query(
+      parts_->db,
+      "SELECT id,configuration,signature,what,mesh,smallest,flaky FROM failure ORDER BY "
+      "signature,id,configuration");
   while (query.next()) {
     list.push_back({query.text(0), query.text(1), query.text(2), query.text(3), query.text(4),
                     query.text(5), query.number(6) != 0});
@@ -263,15 +218,34 @@ std::vector<StoredFailure> Store::failures() const {
 
 Counts Store::signatures() const {
   Counts counts;
-  Query query(parts_->db, "SELECT text,met FROM signature");
+  Statement query(parts_->db, "SELECT signature,count(*) FROM met GROUP BY signature");
   while (query.next()) counts[query.text(0)] = query.number(1);
   return counts;
 }
 
-void Store::count_signature(const std::string& signature) {
-  Query(parts_->db, "INSERT INTO signature VALUES(?,1) ON CONFLICT(text) DO UPDATE SET met=met+1")
-      .bind(signature)
+void Store::set(const Evidence& e) {
+  Statement(parts_->db, "INSERT OR REPLACE INTO evidence VALUES(?,?,?,?,?)")
+      .bind(e.kind)
+      .bind(e.name)
+      .bind(e.shard)
+      .bind(e.progress)
+      .bind(e.facts)
       .next();
 }
+
+void Store::drop_evidence(const std::string& kind) {
+  Statement(parts_->db, "DELETE FROM evidence WHERE kind=?").bind(kind).next();
+}
+
+std::vector<Evidence> Store::evidence() const {
+  std::vector<Evidence> list;
+  Statement query(parts_->db, "SELECT kind,name,shard,progress,facts FROM evidence");
+  while (query.next()) {
+    list.push_back({query.text(0), query.text(1), query.text(2), query.number(3), query.text(4)});
+  }
+  return list;
+}
+
+void Store::seal() { parts_->db.run("PRAGMA journal_mode=DELETE"); }
 
 }  // namespace assay::properties

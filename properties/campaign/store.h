@@ -5,11 +5,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "properties/campaign/record.h"
+#include "properties/campaign/sqlite.h"
 
 namespace assay::properties {
 
@@ -25,10 +25,17 @@ struct StoredFailure {
 // Of a broken law `configuration` is "view-point, law L3_...": a case may break a law and a claim.
 inline constexpr const char* law_in_configuration = ", law ";
 
-// The disk is full, or the file cannot be read or written any more: no fault of the harness.
-class StoreProblem : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;  // one line, names the file
+// That a trial showed something in a configuration: kept of every failure, its mesh of a few.
+struct MetFailure {
+  std::string configuration, signature;  // as of StoredFailure
+};
+
+// What a run found out besides its trials: the canary, planted faults, worlds, ...
+struct Evidence {
+  std::string kind, name;
+  std::string shard;           // "1/4": who found it out
+  std::uint64_t progress = 0;  // how far it came; of two by the same shard the farther one counts
+  std::string facts;           // a JSON object, without times where the kind does not say so
 };
 
 class Store {
@@ -48,12 +55,18 @@ class Store {
 
   // Each is whole on disk when it returns, or throws StoreProblem. Not for several threads at once.
   void add(const TrialRecord& record);
-  // A trial with what it showed, all of it or nothing: the failures kept, the signatures met.
+  // A trial with what it showed, all of it or nothing: the failures kept, and all that were met.
   void add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
-           const std::vector<std::string>& met);
+           const std::vector<MetFailure>& met);
   void add(const StoredFailure& failure);
   void set_smallest(const StoredFailure& failure);  // by id and configuration
   void set_note(const std::string& key, const std::string& value);
+  // In place of what the same shard found out before.
+  void set(const Evidence& evidence);
+  void drop_evidence(const std::string& kind);
+  // From now on the file stands alone: nothing beside it belongs to it, and reading it leaves its
+  // bytes as they are.
+  void seal();
 
   bool has_trial(const std::string& id) const;
   std::uint64_t trial_count() const;
@@ -62,7 +75,10 @@ class Store {
   std::vector<StoredFailure> failures() const;  // by signature, then id
   // How many failures of each signature were met, kept or not.
   Counts signatures() const;
-  void count_signature(const std::string& signature);
+  std::vector<Evidence> evidence() const;  // by kind, name, shard
+
+  // The tables of a store; a file that has them already is left as it is.
+  static const char* tables();
 
  private:
   struct Parts;

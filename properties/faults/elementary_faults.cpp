@@ -1,4 +1,8 @@
 // Wrong elementary tests: contacts that are not seen, times that are not right.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 #include "detector/contact/contact_exact.h"
 #include "properties/faults/planting.h"
 #include "properties/faults/view_polynomials.h"
@@ -130,6 +134,52 @@ struct TimeInSinglePrecision : detector::ElementaryTest {
   }
 };
 
+double determinant(const Point& a, const Point& b, const Point& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+         a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+// The filter of coplanarity, with an error bound from the result: that of sums without
+// cancellation. The right one is from the coordinates that they are made of.
+struct BoundOfResult : ContactDropped {
+  bool drops(const FourPoints& query, const ContactResult&) const override {
+    std::array<std::array<Point, 2>, 3> edges;  // from point 0, at t=0 and t=1
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto &p = query.points[i + 1], &o = query.points[0];
+      for (std::size_t k = 0; k < 3; ++k) {
+        edges[i][0][k] = p.t0[k] - o.t0[k];
+        edges[i][1][k] = p.t1[k] - o.t1[k];
+      }
+    }
+    // Bernstein coefficients: of each, the mean over the choices of so many edges at t=1.
+    std::array<double, 4> sum = {};
+    for (unsigned ends = 0; ends < 8; ++ends) {
+      const unsigned a = ends & 1, b = ends >> 1 & 1, c = ends >> 2;
+      sum[a + b + c] += determinant(edges[0][a], edges[1][b], edges[2][c]);
+    }
+    const auto [least, greatest] = std::minmax_element(sum.begin(), sum.end());
+    constexpr double unit = 0x1p-53;
+    const double bound = 22 * unit * std::max(std::abs(*least), std::abs(*greatest));
+    return *least > bound || *greatest < -bound;
+  }
+};
+
+// "Each feature pair once" by where it is: two seams in one place are two features.
+class TakenForDuplicate : public ContactDropped {
+ public:
+  bool drops(const FourPoints& query, const ContactResult&) const override {
+    std::vector<double> places = {static_cast<double>(query.first_group)};
+    for (const auto& point : query.points) {
+      for (const auto& end : {point.t0, point.t1})
+        places.insert(places.end(), end.begin(), end.end());
+    }
+    return !seen_.insert(std::move(places)).second;
+  }
+
+ private:
+  mutable std::set<std::vector<double>> seen_;  // in contact so far
+};
+
 template <class Test>
 Fault row(std::string_view name, std::string_view about, std::string_view law,
           std::string_view curated, int vertices) {
@@ -175,6 +225,20 @@ std::vector<Fault> elementary_faults() {
       row<TimeInSinglePrecision>("elementary/time-in-single-precision",
                                  "times are rounded to single precision", "first-time",
                                  "F_inexact_time", 4),
+      row<BoundOfResult>("elementary/bound-of-result",
+                         "the filter's error bound is a share of its result", "free-sound",
+                         "F_bound_of_result", 4),
+      // Without views: the tests of a verified start ask for still features first.
+      {"elementary/taken-for-duplicate",
+       "a feature pair in the place of another is dropped as a duplicate",
+       "all-pairs (L7)",
+       FaultStatus::planted,
+       "",
+       {detector::Culling::bvh, detector::Start::verified, detector::Pairs::all},
+       "F_doubled_features",
+       5,
+       "elementary",
+       with<&Stages::elementary, TakenForDuplicate>},
   };
 }
 

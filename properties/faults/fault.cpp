@@ -9,9 +9,10 @@ namespace assay::properties {
 std::span<const Fault> faults() {
   static const std::vector<Fault> all = [] {
     std::vector<Fault> joined;
-    for (const auto& module : {view_point_faults(), view_line_faults(), pair_faults(),
-                               cone_faults(), elementary_faults(), start_faults(), state_faults(),
-                               release_faults(), boundary_faults(), ghost_faults()}) {
+    for (const auto& module :
+         {view_point_faults(), view_line_faults(), pair_faults(), cone_faults(),
+          elementary_faults(), start_faults(), state_faults(), release_faults(), boundary_faults(),
+          ghost_faults(), search_faults()}) {
       joined.insert(joined.end(), module.begin(), module.end());
     }
     return joined;

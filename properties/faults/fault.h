@@ -33,6 +33,8 @@ struct Fault {
   int smallest_vertices = 0;
   std::string_view stage;  // name of the stage that it replaces
   detector::Stages (*stages)(const detector::Options&) = nullptr;
+  // It shows in a disturbed run alone (fault_run.h).
+  bool is_disturbed = false;
 };
 
 // All of them, module by module, always in the same order.

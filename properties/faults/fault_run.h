@@ -9,6 +9,7 @@
 #include "properties/agreement.h"
 #include "properties/faults/fault.h"
 #include "properties/run_verdict.h"
+#include "properties/worker/case_run.h"
 
 namespace assay::properties {
 
@@ -19,13 +20,25 @@ std::vector<detector::StepResult> run_case(const corpus::Case& c, const detector
                                            const detector::Stages& stages);
 std::vector<detector::StepResult> run_case(const corpus::Case& c, const Fault& fault);
 
+// The same run disturbed: each step is first evaluated and stopped, at one asking after the other,
+// then taken while a second detector of such stages works on the same step in between. A detector
+// takes no notice: undecided evaluations change nothing, and two detectors share nothing.
+using MakeStages = detector::Stages (*)(const detector::Options&);
+std::vector<detector::StepResult> run_disturbed(const corpus::Case& c,
+                                                const detector::Options& options,
+                                                MakeStages stages);
+// To compare the two: without the counts of marking, which rest on the marking before, be its step
+// committed or not.
+CaseRun without_marking_counts(std::vector<detector::StepResult> results);
+
 // A step at which a detector does not keep what its options claim.
 struct StepDefect {
   std::size_t step = 0;
   StepDiff diff;
 };
 
-// The first one; judgements: of judge_case.
+// The first one; judgements: of judge_case. Of a fault that shows in a disturbed run, also the
+// first step at which that run differs.
 std::optional<StepDefect> first_defect(std::span<const detector::StepResult> results,
                                        std::span<const oracle::StepJudgement> judgements,
                                        detector::Pairs claimed);

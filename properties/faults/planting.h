@@ -34,5 +34,6 @@ std::vector<Fault> state_faults();
 std::vector<Fault> release_faults();
 std::vector<Fault> boundary_faults();
 std::vector<Fault> ghost_faults();
+std::vector<Fault> search_faults();
 
 }  // namespace assay::properties

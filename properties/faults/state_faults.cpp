@@ -71,6 +71,27 @@ struct KeptElsewhere : ReleaseRule {
   bool still_holds(const StepState&, const detector::PositionsView&) const override { return true; }
 };
 
+// What an evaluation found that was not committed is used by the next one from the same place: "it
+// was seen to be free there, so nothing there is dirty".
+class EvaluationKept : public ReleaseRule {
+ public:
+  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
+              StepState& state) const override {
+    ReleaseRule::settle(work, pairs, complete, state);
+    free_from_.resize(pairs.empty() ? work.x_t0.rows() : 0, 3);
+    if (pairs.empty()) free_from_ = work.x_t0;
+  }
+  bool release(StepWork& work, const std::vector<std::int32_t>& components) const override {
+    if (!ReleaseRule::release(work, components)) return false;
+    const bool is_known = free_from_.rows() == work.x_t0.rows() && free_from_ == work.x_t0;
+    if (is_known) std::fill(work.clean.begin(), work.clean.end(), 1);
+    return true;
+  }
+
+ private:
+  mutable detector::Positions free_from_;
+};
+
 constexpr detector::Options first_pairs = {detector::Culling::view_point, detector::Start::verified,
                                            detector::Pairs::first};
 
@@ -106,6 +127,9 @@ std::vector<Fault> state_faults() {
       row<KeptElsewhere>("state/kept-elsewhere",
                          "the state is kept although the step starts at other positions", "L8",
                          "F_start_elsewhere", 6),
+      row<EvaluationKept>("state/evaluation-kept",
+                          "a free evaluation that was not committed releases what is dirty", "L8",
+                          "F_evaluation_kept", 6),
   };
 }
 

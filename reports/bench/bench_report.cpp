@@ -105,7 +105,9 @@ Json to_json(const BenchReport& report) {
     scatter.push_back({{"scene", p.scene},
                        {"culling", p.culling},
                        {"view_positive_share", p.share},
-                       {"time_over_bvh", p.ratio}});
+                       {"over", p.over},
+                       {"time_over", p.ratio},
+                       {"interval", {p.lo, p.hi}}});
   }
   return {{"schema", "assay-bench/1"},
           {"version", version_text()},

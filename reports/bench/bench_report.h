@@ -39,8 +39,17 @@ struct BenchRow {
 struct ScatterPoint {
   std::string scene;
   std::string culling;
-  double share = 0;  // of V+ among all triangles
-  double ratio = 0;  // time of the step over that of culling bvh
+  double share = 0;          // of V+ among all triangles
+  double ratio = 0;          // time of the step over that of culling `over`
+  double lo = 0, hi = 0;     // interval of the ratio
+  std::string over = "bvh";  // or normal-cone
+};
+
+// A time of suite growth.
+struct GrowthPoint {
+  std::string what;
+  double triangles = 0;
+  Estimate ms;
 };
 
 struct BenchReport {
@@ -50,6 +59,7 @@ struct BenchReport {
   std::vector<std::string> wrong_answers;
   std::vector<ScatterPoint> scatter;
   std::vector<StabilityCell> heat;  // of suite stability
+  std::vector<GrowthPoint> growth;  // by what, then by triangles
   // Of suite speed-error.
   std::vector<JudgedStep> steps;
   std::vector<FamilySummary> families;

@@ -16,12 +16,15 @@ double median_in_place(std::vector<double>& values) {
   return (*std::max_element(values.begin(), middle) + *middle) / 2;
 }
 
+constexpr int draws = 2'000;
+constexpr double below = 0.025;  // of the draws, and as many above
+
+properties::Random generator() { return properties::Random("percentile bootstrap"); }
+
 }  // namespace
 
 Estimate bootstrap_median(std::vector<double> samples) {
-  constexpr int draws = 2'000;
-  constexpr double below = 0.025;
-  properties::Random random("percentile bootstrap");
+  properties::Random random = generator();
   std::vector<double> drawn(samples.size()), medians;
   const int n = static_cast<int>(samples.size());
   for (int d = 0; d < draws; ++d) {
@@ -37,6 +40,28 @@ Estimate bootstrap_ratio(std::span<const double> a, std::span<const double> b) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < a.size(); ++i) ratios.push_back(a[i] / b[i]);
   return bootstrap_median(std::move(ratios));
+}
+
+Estimate bootstrap_ratio_of_sums(std::span<const double> a, std::span<const double> b) {
+  properties::Random random = generator();
+  const int n = static_cast<int>(a.size());
+  std::vector<double> drawn, samples;
+  double all_a = 0, all_b = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    samples.push_back(a[i] / b[i]);
+    all_a += a[i];
+    all_b += b[i];
+  }
+  for (int d = 0; d < draws; ++d) {
+    double sum_a = 0, sum_b = 0;
+    for (int k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(random.below(n));
+      sum_a += a[i];
+      sum_b += b[i];
+    }
+    drawn.push_back(sum_a / sum_b);
+  }
+  return {all_a / all_b, quantile(drawn, below), quantile(drawn, 1 - below), std::move(samples)};
 }
 
 }  // namespace assay::reports

@@ -18,4 +18,8 @@ Estimate bootstrap_median(std::vector<double> samples);
 // Of the ratios a[i] / b[i] of measurements taken next to each other. Same sizes.
 Estimate bootstrap_ratio(std::span<const double> a, std::span<const double> b);
 
+// sum(a) / sum(b), a rate over items of very different size such as cases; the interval by drawing
+// items, the samples a[i] / b[i]. Same sizes.
+Estimate bootstrap_ratio_of_sums(std::span<const double> a, std::span<const double> b);
+
 }  // namespace assay::reports

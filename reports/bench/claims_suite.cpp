@@ -4,6 +4,7 @@
 #include "corpus/scenes.h"
 #include "reports/bench/claims_parts.h"
 #include "reports/bench/contact_step.h"
+#include "reports/bench/real_sequences.h"
 
 namespace assay::reports {
 namespace {
@@ -25,15 +26,6 @@ std::optional<NamedStep> bent_bunny(const BenchSettings& settings) {
   return NamedStep{"bunny", std::move(scene.value())};
 }
 
-std::optional<NamedStep> rod_twist(const BenchSettings& settings) {
-  const std::string folder = settings.file("scalable-ccd/rod-twist/frames/");
-  const std::vector<std::filesystem::path> files = {folder + "3036.ply", folder + "3037.ply"};
-  if (!exists(files[0].string()) || !exists(files[1].string())) return std::nullopt;
-  auto step = corpus::read_sequence(files);
-  if (!step) throw UnusableData(step.error().message);
-  return NamedStep{"rod-twist", std::move(step.value())};
-}
-
 }  // namespace
 
 BenchReport claims_suite(const BenchSettings& settings, Progress& progress) {
@@ -50,10 +42,10 @@ BenchReport claims_suite(const BenchSettings& settings, Progress& progress) {
   } else {
     report.add_no_data("bunny", settings.file("ipc-toolkit/bunny.ply"));
   }
-  auto rods = rod_twist(settings);
+  auto rods = rod_twist_step(settings);
   const bool has_rod_twist = rods.has_value();
   if (has_rod_twist) {
-    steps.push_back(std::move(*rods));
+    steps.push_back({"rod-twist", std::move(*rods)});
   } else {
     report.add_no_data("rod-twist", settings.file("scalable-ccd/rod-twist/frames"));
   }
@@ -65,11 +57,13 @@ BenchReport claims_suite(const BenchSettings& settings, Progress& progress) {
   measure_as_printed(settings, report);
   progress.phase("marking");
   measure_marking(settings, report);
+  progress.phase("unclosed meshes");
+  compare_on_unclosed_data(settings, report);
   progress.phase("free steps");
   count_traversals_of_free_steps(settings, report);
   progress.phase("whole steps");
   time_whole_steps(steps, has_rod_twist, settings, report);
-  measure_break_even(has_rod_twist ? &steps.back() : nullptr, settings, progress, report);
+  measure_break_even(settings, progress, report);
   return report;
 }
 

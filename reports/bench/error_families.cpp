@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "corpus/hard/hard_families.h"
 #include "corpus/scenes.h"
 #include "detector/detector.h"
 #include "properties/campaign/clean_starts.h"
@@ -49,6 +50,26 @@ ErrorFamily generated_family(const properties::Family& family, const BenchSettin
           }};
 }
 
+// Four strengths from the weakest to the strongest, a case of each kind. Crowds beyond some hundred
+// triangles, of which each meets each, are left out: one such step takes seconds.
+ErrorFamily hard_family(const corpus::HardFamily& family, const BenchSettings& settings) {
+  return {std::string(family.name), "hard", settings.rounds(5), [&family, settings] {
+            constexpr Eigen::Index most_triangles = 600;
+            std::vector<TimedCase> cases;
+            const int strengths = settings.rounds(4);
+            for (int s = 0; s < strengths; ++s) {
+              const int strength = family.strongest * s / (strengths - 1);
+              for (int kind = 0; kind < family.kinds; ++kind) {
+                auto c = corpus::hard_case(family, strength, kind);
+                if (c.triangles.rows() > most_triangles) continue;
+                const bool clean = properties::starts_clean(c);
+                cases.push_back({std::move(c), clean ? Start::clean : Start::verified});
+              }
+            }
+            return cases;
+          }};
+}
+
 }  // namespace
 
 corpus::Sequence around_first_contact(const corpus::Sequence& sequence) {
@@ -78,6 +99,9 @@ std::vector<ErrorFamily> error_families(const BenchSettings& settings,
   for (const auto& info : corpus::scenes()) list.push_back(scene_family(info, settings));
   for (const auto& family : properties::families()) {
     list.push_back(generated_family(family, settings));
+  }
+  for (const auto& family : corpus::hard_families()) {
+    list.push_back(hard_family(family, settings));
   }
   for (auto& real : real_sequences(settings, missing)) {
     const Start start = real.starts_clean ? Start::clean : Start::verified;

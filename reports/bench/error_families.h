@@ -25,9 +25,10 @@ struct ErrorFamily {
 };
 
 // Scenes of corpus/: the steps around the first contact, where there is one. The random families of
-// the campaigns. Real sequences, as far as they are there: `missing` gets the files that are not.
-// Starts are vouched for where the oracle, or the scene, knows them to be clean; a step's time is
-// then without the verification that only a new start takes.
+// the campaigns. The hard families of corpus/hard. Real sequences, as far as they are there:
+// `missing` gets the files that are not. Starts are vouched for where the oracle, or the scene,
+// knows them to be clean; a step's time is then without the verification that only a new start
+// takes.
 std::vector<ErrorFamily> error_families(const BenchSettings& settings,
                                         std::vector<std::string>& missing);
 

@@ -25,6 +25,14 @@ oracle::StepJudgement judge(const TimedCase& timed, const corpus::CaseStep& step
                             {1, [end] { return std::chrono::steady_clock::now() > end; }});
 }
 
+// The case's own view primitive, where it states one: a segment serves as a point by its first end.
+std::vector<ViewPrimitive> given_view(const corpus::Case& c, std::size_t step, Culling culling) {
+  auto view = corpus::view_of_step(c, step);
+  if (!view || !uses_views(culling)) return {};
+  if (culling == Culling::view_point) view->q1 = view->q0;
+  return {*view};
+}
+
 class CaseRun {
  public:
   CaseRun(const ErrorFamily& family, const TimedCase& timed, std::vector<std::string>& wrong,
@@ -80,11 +88,15 @@ class CaseRun {
     const auto &x_t0 = timed_.c.frames[static_cast<std::size_t>(step.from)],
                &x_t1 = timed_.c.frames[static_cast<std::size_t>(step.to)];
     std::vector<std::uint64_t> hashes(variants_.size());
+    std::vector<std::vector<ViewPrimitive>> views;
+    for (const auto& variant : variants_) {
+      views.push_back(given_view(timed_.c, index, variant.culling));
+    }
     std::vector<Measurement> measurements;
     for (std::size_t v = 0; v < variants_.size(); ++v) {
       measurements.push_back([&, v] {
         tick_();
-        const double ns = ns_of([&] { results[v] = detectors_[v].evaluate(x_t0, x_t1); });
+        const double ns = ns_of([&] { results[v] = detectors_[v].evaluate(x_t0, x_t1, views[v]); });
         if (results[v].answer == Answer::error) {
           throw UnusableData(timed_.c.id + ": " + results[v].problem->message);
         }

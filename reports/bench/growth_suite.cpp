@@ -21,7 +21,8 @@ constexpr int full_sizes[] = {1'000, 5'000, 25'000, 100'000, 400'000, 1'000'000}
 // Times of one kind of work by mesh size.
 struct Growth {
   std::string what;
-  std::vector<double> sizes, ms;
+  std::vector<double> sizes = {}, ms = {};
+  std::vector<Estimate> estimates = {};
 
   void add(double triangles, const std::vector<double>& ns, const std::string& note,
            BenchReport& report) {
@@ -29,6 +30,13 @@ struct Growth {
     report.add(fmt::format("{}, {} triangles", what, triangles), "ms", estimate, {}, note);
     sizes.push_back(triangles);
     ms.push_back(estimate.value);
+    estimates.push_back(estimate);
+  }
+
+  void add_points(BenchReport& report) const {
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      report.growth.push_back({what, sizes[i], estimates[i]});
+    }
   }
 
   // Wanted: an exponent no larger than that of n log n over the same sizes.
@@ -49,8 +57,7 @@ struct Growth {
 };
 
 struct Growths {
-  Growth create{"preprocessing", {}, {}}, free{"free step", {}, {}},
-      contact{"step with contacts", {}, {}};
+  Growth create{"preprocessing"}, free{"free step"}, contact{"step with contacts"};
 };
 
 int repetitions(int triangles) {
@@ -124,6 +131,7 @@ BenchReport growth_suite(const BenchSettings& settings, Progress& progress) {
   }
   for (const Growth* growth : {&growths.create, &growths.free, &growths.contact}) {
     growth->judge(report);
+    growth->add_points(report);
   }
   return report;
 }

@@ -31,6 +31,13 @@ std::vector<Files> files_of(const BenchSettings& settings) {
   return list;
 }
 
+corpus::Sequence read(const std::vector<std::string>& files) {
+  const std::vector<std::filesystem::path> paths(files.begin(), files.end());
+  auto sequence = corpus::read_sequence(paths);
+  if (!sequence) throw UnusableData(sequence.error().message);
+  return std::move(sequence.value());
+}
+
 std::string first_missing(const std::vector<std::string>& files) {
   std::error_code ignored;
   for (const auto& file : files) {
@@ -49,10 +56,7 @@ std::vector<RealSequence> real_sequences(const BenchSettings& settings,
       missing.push_back(file);
       continue;
     }
-    const std::vector<std::filesystem::path> paths(files.begin(), files.end());
-    auto read = corpus::read_sequence(paths);
-    if (!read) throw UnusableData(read.error().message);
-    list.push_back({name, std::move(read.value()), starts_clean});
+    list.push_back({name, read(files), starts_clean});
   }
   const std::string bunny = settings.file("ipc-toolkit/bunny.ply");
   if (!first_missing({bunny}).empty()) {
@@ -66,6 +70,12 @@ std::vector<RealSequence> real_sequences(const BenchSettings& settings,
   if (!bent) throw UnusableData(bent.error().message);
   list.push_back({"bunny-bent", std::move(bent.value()), true});
   return list;
+}
+
+std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings) {
+  const std::vector<std::string> files = files_of(settings).front().files;
+  if (!first_missing(files).empty()) return std::nullopt;
+  return read(files);
 }
 
 }  // namespace assay::reports

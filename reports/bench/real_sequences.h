@@ -1,6 +1,7 @@
 // The deforming meshes of the public data, as sequences of frames.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,9 @@ struct RealSequence {
 // out and named in `missing`. Throws UnusableData.
 std::vector<RealSequence> real_sequences(const BenchSettings& settings,
                                          std::vector<std::string>& missing);
+
+// The step of rod-twist alone, which DESIGN's table asks for; nothing where it is not there. Throws
+// UnusableData.
+std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings);
 
 }  // namespace assay::reports

@@ -39,4 +39,7 @@ BenchReport stability_suite(const BenchSettings& settings, Progress& progress);
 // oracle.
 BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress);
 
+// What judging costs: the oracle on a real step and on queries, a campaign's steps a second.
+BenchReport harness_suite(const BenchSettings& settings, Progress& progress);
+
 }  // namespace assay::reports

@@ -43,11 +43,16 @@ class FailureList {
   }
 
  private:
+  std::string replay_of(const properties::StoredFailure& failure) const {
+    return replay_line(run_.folder, failure_file(failure, !failure.smallest.empty()),
+                       run_.detector.library);
+  }
+
   Json other(const properties::StoredFailure& failure) const {
     return {{"id", failure.id},
             {"configuration", failure.configuration},
             {"what", failure.what},
-            {"replay", replay_line(run_.folder, failure, run_.detector.library)}};
+            {"replay", replay_of(failure)}};
   }
 
   Json told(const properties::StoredFailure& failure) {
@@ -64,7 +69,7 @@ class FailureList {
                  {"flaky", failure.flaky},
                  {"original", size_json(original)},
                  {"smallest", is_shrunk ? size_json(smallest) : Json()},
-                 {"replay", replay_line(run_.folder, failure, run_.detector.library)},
+                 {"replay", replay_of(failure)},
                  {"stage", nullptr},
                  {"now", nullptr},
                  {"scene", nullptr},

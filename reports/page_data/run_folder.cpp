@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <boost/outcome/try.hpp>
+#include <cstdio>
+#include <tuple>
 
-#include "properties/reducer/mesh_size.h"
+#include "reports/failure_text.h"
 
 namespace assay::reports {
 namespace {
@@ -13,28 +15,42 @@ namespace {
 using corpus::FileProblem;
 using corpus::problem_in;
 
-corpus::Expected<std::vector<std::filesystem::path>> stores_in(
-    const std::filesystem::path& folder) {
-  std::error_code error;
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".sqlite") files.push_back(entry.path());
-  }
-  if (error) return problem_in(FileProblem::cannot_open, folder, error.message());
-  if (files.empty()) return problem_in(FileProblem::no_frames, folder, "no run is stored here");
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 // What the binding says of a run: the plan in one line, then seed and shard.
 struct Bound {
   nlohmann::ordered_json plan;
   std::uint64_t seed = 0;
   std::uint64_t shard = 1, shard_count = 1;
-  std::string detector;  // its name and configurations
+  DetectorNote detector;  // without its library
 };
 
+// "2/8"; {1, 1} for the shard of a merged store, which holds all of them.
+std::pair<std::uint64_t, std::uint64_t> shard_of(const std::string& text) {
+  unsigned long long index = 1, count = 1;
+  if (std::sscanf(text.c_str(), "%llu/%llu", &index, &count) != 2) return {1, 1};
+  return {index, count};
+}
+
+// A binding that is an object, schema assay-store/1.
+std::optional<Bound> parse_object(const nlohmann::ordered_json& json) {
+  try {
+    Bound bound;
+    bound.plan = json.at("campaign");
+    bound.seed = json.at("seed");
+    std::tie(bound.shard, bound.shard_count) = shard_of(json.at("shard").get<std::string>());
+    const auto& detector = json.at("detector");
+    bound.detector.name = detector.at("name");
+    bound.detector.built_in = detector.at("built_in");
+    for (const auto& configuration : detector.at("configurations"))
+      bound.detector.configurations.push_back(configuration.at("name"));
+    return bound;
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
 std::optional<Bound> parse_binding(const std::string& binding) {
+  const auto json = nlohmann::ordered_json::parse(binding, nullptr, false);
+  if (json.is_object()) return parse_object(json);
   const auto end = binding.find('\n');
   if (end == std::string::npos) return std::nullopt;
   Bound bound;
@@ -46,7 +62,8 @@ std::optional<Bound> parse_binding(const std::string& binding) {
   const auto line = binding.substr(end + 1, binding.find('\n', end + 1) - end - 1);
   constexpr std::string_view word = ", detector ";
   if (const auto at = line.find(word); at != std::string::npos)
-    bound.detector = line.substr(at + word.size());
+    bound.detector.name = line.substr(at + word.size());
+  bound.detector.built_in = bound.detector.name.starts_with("built-in");
   bound.seed = seed;
   bound.shard = shard;
   bound.shard_count = count;
@@ -58,7 +75,9 @@ class RunReader {
   explicit RunReader(const std::filesystem::path& folder) { run_.folder = folder; }
 
   corpus::Expected<StoredRun> read() {
-    BOOST_OUTCOME_TRY(files, stores_in(run_.folder));
+    std::string problem;
+    const auto files = stored_shards(run_.folder, problem);
+    if (!problem.empty()) return corpus::Problem{FileProblem::cannot_open, problem};
     for (const auto& file : files) {
       BOOST_OUTCOME_TRY(add(file));
     }
@@ -91,8 +110,7 @@ class RunReader {
     if (!plan_) {
       plan_ = bound;
       take_plan(bound->plan);
-      run_.detector.name = bound->detector;
-      run_.detector.built_in = bound->detector.starts_with("built-in");
+      run_.detector = bound->detector;
       run_.seed = bound->seed;
       run_.shard_count = bound->shard_count;
     } else if (plan_->plan != bound->plan || plan_->seed != bound->seed ||

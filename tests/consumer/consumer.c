@@ -1,7 +1,7 @@
 /* The same as consumer.cpp, in C. */
 #include <stdio.h>
 
-#include "detector/plugin/builtin.h"
+#include "detector/plugin/assay_builtin_detector.h"
 
 int main(void) {
   const int32_t triangles[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};

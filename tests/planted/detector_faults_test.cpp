@@ -78,7 +78,7 @@ TEST(PlantedFaults, EveryRowIsComplete) {
     EXPECT_EQ(is_planted, fault.smallest_vertices > 0);
     EXPECT_EQ(find_fault(fault.name), &fault);
   }
-  EXPECT_GE(with_status(FaultStatus::planted).size(), 45u);
+  EXPECT_GE(with_status(FaultStatus::planted).size(), 60u);
   EXPECT_EQ(find_fault("no/such-fault"), nullptr);
 }
 
@@ -91,6 +91,7 @@ TEST(PlantedFaults, OnlyTheNamedStageIsReplaced) {
     std::map<std::string_view, bool> replaced = {
         {"classifier", typeid(*wrong.classifier) != typeid(*right.classifier)},
         {"boundary", typeid(*wrong.boundary) != typeid(*right.boundary)},
+        {"marking", typeid(*wrong.marking) != typeid(*right.marking)},
         {"pair_rule", typeid(*wrong.pair_rule) != typeid(*right.pair_rule)},
         {"pair_search", typeid(*wrong.pair_search) != typeid(*right.pair_search)},
         {"elementary", typeid(*wrong.elementary) != typeid(*right.elementary)},

@@ -2,7 +2,7 @@
 #include <atomic>
 #include <cstdlib>
 
-#include "detector/plugin/builtin.h"
+#include "detector/plugin/assay_builtin_detector.h"
 
 namespace {
 

@@ -1,4 +1,6 @@
 // What a run rests on: its binding, its canary, and laws that were met too seldom.
+#include "properties/campaign/binding.h"
+
 #include <gtest/gtest.h>
 
 #include "properties/campaign/campaign_facts.h"

@@ -20,7 +20,8 @@ const char* const whole_plan = R"({"schema": "assay-campaign/1", "name": "tiny-1
   "strata": [{"family": "closed-generic", "cases": 12, "bound": 0.5},
              {"family": "broken", "cases": 5}],
   "seconds": 30, "case_seconds": 2.5, "laws_every": 3, "law_premises": 4, "fault_cases": 7,
-  "fault_seeds": 2, "shrink_faults": true, "tetrahedron_seconds": 1.5, "shrink_share": 0.25})";
+  "fault_seeds": 2, "shrink_faults": true, "tetrahedron_seconds": 1.5, "shrink_share": 0.25,
+  "policy": {"power": 0.5, "self_test_queries": 9, "speed_limits": {"exact-over-double": 1.5}}})";
 
 class Plans : public testing::Test {
  protected:
@@ -65,6 +66,11 @@ TEST_F(Plans, AFileSaysAllOfIt) {
   EXPECT_TRUE(plan.shrink_faults);
   EXPECT_EQ(plan.tetrahedron_seconds, 1.5);
   EXPECT_EQ(plan.shrink_share, .25);
+  EXPECT_EQ(plan.policy.power, .5);
+  EXPECT_EQ(plan.policy.self_test_queries, 9u);
+  ASSERT_EQ(plan.policy.speed_limits.size(), 1u);
+  EXPECT_EQ(plan.policy.speed_limits[0].what, "exact-over-double");
+  EXPECT_EQ(plan.policy.speed_limits[0].limit, 1.5);
 }
 
 TEST_F(Plans, SurviveTheirText) {
@@ -122,6 +128,14 @@ TEST_F(Plans, AWrongFieldIsOneClearLine) {
   expect_wrong("/fault_seeds", 0, "fault_cases and fault_seeds");
   expect_wrong("/fault_cases", 0, "fault_cases and fault_seeds");
   expect_wrong("/tetrahedron_seconds", -1, "tetrahedron_seconds");
+  expect_wrong("/policy", 1, "policy: an object expected");
+  expect_wrong("/policy/power", 0, "policy.power: 0 < power <= 1");
+  expect_wrong("/policy/power", 1.01, "policy.power");
+  expect_wrong("/policy/powers", 1, "policy: no field 'powers'");
+  expect_wrong("/policy/self_test_queries", -1, "policy.self_test_queries");
+  expect_wrong("/policy/speed_limits", 2, "policy.speed_limits: an object expected");
+  expect_wrong("/policy/speed_limits/slow", 2, "policy.speed_limits: no figure 'slow'");
+  expect_wrong("/policy/speed_limits/exact-over-double", 0, "speed_limits.exact-over-double");
   expect_refused("{\"schema\": ", "plan.json");
   expect_refused("[]", "an object expected");
   expect_refused("", "empty");

@@ -42,7 +42,8 @@ class Stores : public testing::Test {
     return {id, "view-point", signature, "what", "mesh of " + id, "", false};
   }
   static TrialRecord record(std::uint64_t i) {
-    return {"p:1:broken:" + std::to_string(i), "broken", i, "HD", 1, 2, 3, 4, 5, 6, {{"tag:x", i}}};
+    return {
+        "p:1:broken:" + std::to_string(i), "broken", i, "HD", 1, 2, 3, 4, 5, 6, {{"tag:x", i}}, ~i};
   }
 };
 
@@ -56,9 +57,7 @@ TEST_F(Stores, KeepWhatIsAdded) {
     store.add(shown);
     shown.smallest = "small";
     store.set_smallest(shown);
-    store.count_signature("s");
-    store.count_signature("s");
-    store.count_signature("t");
+    store.add(record(7), {}, {{"one", "s"}, {"two", "s"}, {"three", "t"}});
     store.set_note("key", "old");
     store.set_note("key", "new");
   }
@@ -77,9 +76,10 @@ TEST_F(Stores, KeepWhatIsAdded) {
     EXPECT_EQ(r.oracle_us, 5u);
     EXPECT_EQ(r.detector_us, 6u);
     EXPECT_EQ(r.counts, expected.counts);
+    EXPECT_EQ(r.mesh, expected.mesh);
   });
-  EXPECT_EQ(places, (std::vector<std::uint64_t>{0, 2, 10}));
-  EXPECT_EQ(store.trial_count(), 3u);
+  EXPECT_EQ(places, (std::vector<std::uint64_t>{0, 2, 7, 10}));
+  EXPECT_EQ(store.trial_count(), 4u);
   EXPECT_TRUE(store.has_trial("p:1:broken:2"));
   EXPECT_FALSE(store.has_trial("p:1:broken:1"));
   const auto failures = store.failures();
@@ -114,7 +114,7 @@ TEST_F(Stores, ATrialIsStoredWithItsFailuresOrNotAtAll) {
     const pid_t child = fork();
     if (child == 0) {
       Store store = open();
-      store.add(record(i), {failure("f" + std::to_string(i), "s")}, {"s", "s"});
+      store.add(record(i), {failure("f" + std::to_string(i), "s")}, {{"one", "s"}, {"two", "s"}});
       raise(SIGKILL);
     }
     int status = 0;

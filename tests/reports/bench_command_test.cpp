@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "corpus/scenes.h"
 #include "reports/bench/break_even.h"
 #include "reports/bench/contact_step.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/peak_memory.h"
 #include "reports/bench/query_sets.h"
-#include "reports/bench/scatter_svg.h"
 #include "reports/bench/swept_boxes.h"
 #include "reports/bench/timed_step.h"
 #include "tests/reports/program.h"
@@ -110,18 +110,6 @@ TEST(BreakEven, LineAndLastCrossing) {
   for (auto& p : points) p.ratio = 0.5 - 0.1 * p.share;
   EXPECT_FALSE(break_even(points).by_fit);
   EXPECT_EQ(break_even(points).last_crossing, 0);
-}
-
-TEST(ScatterSvg, OneMarkAPoint) {
-  const auto svg = scatter_svg({{"a", "view-point", 0.1, 2}, {"b", "view-line", 0.9, 0.02}});
-  const auto count = [&](const std::string& word) {
-    std::size_t n = 0;
-    for (auto at = svg.find(word); at != std::string::npos; at = svg.find(word, at + 1)) ++n;
-    return n;
-  };
-  EXPECT_EQ(count("<circle"), 1u + 3u);     // and three of the legend
-  EXPECT_EQ(count("<rect"), 1u + 1u + 1u);  // and the background
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
 TEST(PeakMemory, OfAnArray) {
@@ -254,12 +242,31 @@ TEST_F(Suites, Claims) {
   for (const char* row :
        {"box tests of the vBVHs over bvh's, dented-sphere", "box tests with skipping over without",
         "time of a child count over a box test", "marking's share of a step, crumpling-sphere",
-        "looks at the tree in free steps, view-line", "rod-twist", "exact over double, whole step",
-        "largest time over bvh's, view-line",
-        "break-even share of V+, view-point, last crossing"}) {
+        "looks at the tree in free steps, view-line", "rod-twist", "unclosed, thick-cloth",
+        "unclosed, codim-ipc-kick", "exact over double, whole step",
+        "largest time over bvh's, view-line", "view-auto over normal-cone, steps of bend",
+        "break-even share of V+ with bvh, view-point, last crossing",
+        "break-even share of V+ with normal-cone, view-line, last crossing"}) {
     EXPECT_TRUE(has(report, row)) << row;
   }
-  EXPECT_EQ(report.scatter.size(), 5u * 20u * 3u);  // scenes, steps, cullings
+  // Scenes, steps, cullings, what they are compared with.
+  EXPECT_EQ(report.scatter.size(), corpus::scenes().size() * 20u * 3u * 2u);
+}
+
+TEST_F(Suites, Harness) {
+  const auto report = run(harness_suite);
+  for (const char* row : {"oracle, rod-twist step", "oracle, a simulation query, yes/no",
+                          "judged steps a second and core, closed-generic",
+                          "judged steps a second and core, unclosed-degenerate"}) {
+    EXPECT_TRUE(has(report, row)) << row;
+  }
+  const auto wants = [&](const std::string& row) {
+    const auto found = std::find_if(report.rows.begin(), report.rows.end(),
+                                    [&](const auto& r) { return r.what == row; });
+    return found != report.rows.end() && found->wanted ? found->wanted->bound : 0;
+  };
+  EXPECT_EQ(wants("judged steps a second and core, closed-generic"), 100);
+  EXPECT_EQ(wants("judged steps a second and core, closed-degenerate"), 10);
 }
 
 TEST(BenchCommand, RefusesWhatItCannotDo) {

@@ -30,6 +30,9 @@ TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
     EXPECT_TRUE(contains(first.out, word)) << word << "\n" << first.out;
   }
   EXPECT_TRUE(contains(first.out, "writes " + out + "\n"));
+  EXPECT_TRUE(contains(first.out, "of 16 cases (16 distinct, 0 discarded)")) << first.out;
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: holds\n"));
+  EXPECT_TRUE(contains(read_text(out + "/junit.xml"), "name=\"broken, bvh\"/>"));
   EXPECT_FALSE(contains(first.out, "planted faults"));
   EXPECT_FALSE(contains(first.out, "next:"));
 
@@ -108,6 +111,11 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
     smallest += contains(file.path().string(), "-smallest.json");
   }
   EXPECT_EQ(smallest, lines.size());
+  // The same line everywhere.
+  const std::string folder = scratch / "with space";
+  EXPECT_TRUE(contains(read_text(folder + "/summary.md"), "    assay " + lines[0] + "\n"));
+  EXPECT_TRUE(contains(read_text(folder + "/summary.md"), "## Assay: defect\n"));
+  EXPECT_TRUE(contains(read_text(folder + "/junit.xml"), "<failure message="));
   EXPECT_GE(originals, smallest);
   const auto listed = run_assay("list failures " + out);
   EXPECT_EQ(listed.exit_code, 0);

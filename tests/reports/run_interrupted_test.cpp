@@ -6,8 +6,10 @@
 #include <spawn.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 
+#include "properties/random.h"
 #include "tests/reports/tiny_campaign.h"
 
 extern char** environ;
@@ -76,6 +78,19 @@ class Interrupted : public testing::Test {
     }
     FAIL() << "nothing was stored";
   }
+  // How many meshes of each signature are kept: which ones depends on which threads were first.
+  static properties::Counts failures_of(const std::string& out_folder) {
+    std::string problem;
+    const auto store = properties::Store::read(out_folder + "/shard-1-of-1.sqlite", problem);
+    EXPECT_TRUE(store) << problem;
+    properties::Counts kept;
+    if (!store) return kept;
+    for (const auto& failure : store->failures()) {
+      ++kept[failure.signature];
+      EXPECT_FALSE(failure.mesh.empty());
+    }
+    return kept;
+  }
   std::string plan = scratch.write("plan.json", plan_text(400, R"(, "shrink_share": 0.03)"));
   std::string out = scratch / "out", undisturbed = scratch / "undisturbed", library;
   std::string text = scratch / "text";
@@ -99,11 +114,56 @@ TEST_F(Interrupted, KilledAtAnyMomentItComesToTheSame) {
   EXPECT_EQ(signatures_of(out), signatures_of(undisturbed));
 }
 
+// ASSAY_KILLS=50 for the long form: the plan grows with it, so that kills meet all phases.
+TEST_F(Interrupted, KilledAtRandomMomentsNothingReportedIsLost) {
+  const char* asked = std::getenv("ASSAY_KILLS");
+  const int kills = asked ? std::atoi(asked) : 6;
+  const char* seed = std::getenv("ASSAY_SEED");
+  properties::Random random(seed ? std::strtoull(seed, nullptr, 10) : 1, 0);
+  library = plugin("always_free");
+  plan = scratch.write("plan.json", plan_text(60 * kills, R"(, "shrink_share": 0.03)"));
+  const auto begin = std::chrono::steady_clock::now();
+  const auto reference = run(undisturbed);
+  const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
+  ASSERT_EQ(reference.exit_code, 1) << reference.out << reference.err;
+  const auto expected = trials_of(undisturbed);
+  std::vector<std::string> reported;
+  int killed = 0;
+  std::size_t after_trials = 0;
+  for (int k = 0; k < kills; ++k) {
+    Started started(words(out), text);
+    // Half of them in the first tenth, where a run that goes on has most of its work.
+    const double share = random.unit() * (random.one_in(2) ? 1.0 : 0.1);
+    std::this_thread::sleep_for(share * whole);
+    started.send(SIGKILL);
+    killed += WIFSIGNALED(started.end());
+    if (!std::filesystem::exists(out + "/shard-1-of-1.sqlite")) continue;
+    // A run killed before its store was bound has reported nothing.
+    std::string problem;
+    const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
+    if (!store) continue;
+    const auto now = trials_of(out);
+    after_trials += now.size() == expected.size() ? 1 : 0;
+    EXPECT_TRUE(std::includes(now.begin(), now.end(), reported.begin(), reported.end())) << k;
+    reported = now;
+  }
+  std::printf("%d of %d runs killed, %zu of them after all trials; seed %s, undisturbed %.1f s\n",
+              killed, kills, after_trials, seed ? seed : "1", whole.count());
+  EXPECT_GE(2 * killed, kills);
+  const auto last = run(out);
+  EXPECT_EQ(last.exit_code, 1) << last.out << last.err;
+  EXPECT_EQ(trials_of(out), expected);
+  EXPECT_EQ(signatures_of(out), signatures_of(undisturbed));
+  EXPECT_EQ(failures_of(out), failures_of(undisturbed));
+}
+
 TEST_F(Interrupted, CtrlCEndsItWithALineAndIsNoCrash) {
   plan = scratch.write("plan.json", plan_text(4000));
   for (const int signal : {SIGINT, SIGTERM}) {
+    // New ones: the second run starts with those of the first.
+    const std::size_t before = std::filesystem::exists(out) ? trials_of(out).size() : 0;
     Started started(words(out), text);
-    wait_for_trials(out, 20);
+    wait_for_trials(out, before + 20);
     started.send(signal);
     const int status = started.end();
     ASSERT_TRUE(WIFEXITED(status)) << read_text(text);

@@ -53,6 +53,14 @@ TEST(Bootstrap, RatiosAreTakenRoundByRound) {
   EXPECT_EQ(bootstrap_ratio(a, b).hi, 2);
 }
 
+TEST(Bootstrap, ARateIsOfTheSums) {
+  const std::vector<double> steps = {1, 1, 2}, seconds = {1, 1, 98};
+  const auto rate = bootstrap_ratio_of_sums(steps, seconds);
+  EXPECT_DOUBLE_EQ(rate.value, 0.04);  // not the median of 1, 1 and 0.02
+  EXPECT_NEAR(rate.lo, 2. / 98, 1e-12);
+  EXPECT_EQ(rate.hi, 1);
+}
+
 TEST(FirstTimeError, CountsDoublesBetween) {
   const double t = 0.375, after = std::nextafter(t, 1);
   EXPECT_EQ(first_time_error({t, t}, {t, after}).late_ulps, 0);

@@ -37,9 +37,10 @@ inline void expect_refused(const Outcome& outcome, const std::string& word) {
 }
 
 // Each trial of the run in a line, without its times.
-inline std::vector<std::string> trials_of(const std::string& out) {
+inline std::vector<std::string> trials_of(const std::string& out,
+                                          const std::string& store_name = "shard-1-of-1") {
   std::string problem;
-  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
+  const auto store = properties::Store::read(out + "/" + store_name + ".sqlite", problem);
   EXPECT_TRUE(store) << problem;
   std::vector<std::string> lines;
   if (!store) return lines;
@@ -49,12 +50,14 @@ inline std::vector<std::string> trials_of(const std::string& out) {
          << ' ' << r.pairs << ' ' << properties::counts_text(r.counts);
     lines.push_back(line.str());
   });
+  std::sort(lines.begin(), lines.end());
   return lines;
 }
 
-inline properties::Counts signatures_of(const std::string& out) {
+inline properties::Counts signatures_of(const std::string& out,
+                                        const std::string& store_name = "shard-1-of-1") {
   std::string problem;
-  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
+  const auto store = properties::Store::read(out + "/" + store_name + ".sqlite", problem);
   EXPECT_TRUE(store) << problem;
   return store ? store->signatures() : properties::Counts{};
 }

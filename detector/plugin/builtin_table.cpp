@@ -1,31 +1,12 @@
-#include "detector/plugin/builtin.h"
-
-#include <new>
-#include <optional>
-
-#include "detector/detector.h"
-
-struct assay_handle {
-  assay::detector::Detector detector;
-  Eigen::Index vertex_count;
-  assay::detector::StepResult result;
-  std::vector<std::int32_t> pairs;
-  std::vector<double> times;
-};
+// The table of assay_detector.h for the built-in detector.
+#include "detector/plugin/builtin_handle.h"
 
 namespace assay::detector {
 namespace {
 
-using PositionsMap = Eigen::Map<const detector::Positions>;
-
-// The built-in detector throws nothing but the want of memory.
 template <class Function>
 std::int32_t guarded(const Function& function) {
-  try {
-    return function();
-  } catch (const std::bad_alloc&) {
-    return ASSAY_OUT_OF_MEMORY;
-  }
+  return detector::guarded(function, [] { return ASSAY_OUT_OF_MEMORY; });
 }
 
 const assay_description* describe() {
@@ -45,29 +26,17 @@ std::int32_t create(const std::int32_t* triangles, std::uint64_t triangle_count,
                     const double* positions, std::uint64_t vertex_count, assay_handle** handle,
                     const char** message) {
   return guarded([&]() -> std::int32_t {
-    const auto m = static_cast<Eigen::Index>(triangle_count);
-    const auto n = static_cast<Eigen::Index>(vertex_count);
-    auto made = detector::Detector::create(Eigen::Map<const detector::Triangles>(triangles, m, 3),
-                                           PositionsMap(positions, n, 3), {});
-    if (!made) {
-      *message = detector::name_of(made.error().error);
-      return ASSAY_REFUSED;
-    }
-    *handle = new assay_handle{std::move(made.value()), n, {}, {}, {}};
-    return ASSAY_OK;
+    assay_builtin_error error;
+    const auto code = assay_builtin_create(triangles, triangle_count, positions, vertex_count,
+                                           nullptr, handle, &error);
+    if (code == ASSAY_REFUSED) *message = assay_builtin_error_name(error.code);
+    return code;
   });
 }
 
 std::int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1) {
   return guarded([&]() -> std::int32_t {
-    h->result = h->detector.evaluate(PositionsMap(x_t0, h->vertex_count, 3),
-                                     PositionsMap(x_t1, h->vertex_count, 3));
-    h->pairs.clear();
-    h->times.clear();
-    for (const auto& contact : h->result.pairs) {
-      h->pairs.insert(h->pairs.end(), {contact.pair.a, contact.pair.b});
-      h->times.insert(h->times.end(), {contact.time.lo, contact.time.hi});
-    }
+    h->evaluate(x_t0, x_t1);
     return ASSAY_OK;
   });
 }

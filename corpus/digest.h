@@ -1,0 +1,18 @@
+// SHA-256 of bytes and files (FIPS 180-4), by OpenSSL's libcrypto.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "corpus/problem.h"
+
+namespace assay::corpus {
+
+// 64 hexadecimal digits, lower case.
+std::string sha256_of(std::string_view bytes);
+
+// Of a file's bytes, read in pieces; cannot_open, with the reason, when it cannot be read.
+Expected<std::string> sha256_of_file(const std::filesystem::path& path);
+
+}  // namespace assay::corpus

@@ -1,0 +1,191 @@
+#include "detector/plugin/assay_builtin_detector.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "detector/plugin/builtin_handle.h"
+#include "detector/state/state_bytes.h"
+
+namespace assay::detector {
+namespace {
+
+// The numbers of C are those of C++.
+static_assert(ASSAY_BUILTIN_NO_TRIANGLES == static_cast<int>(InputError::no_triangles));
+static_assert(ASSAY_BUILTIN_OTHER_STATE_VERSION ==
+              static_cast<int>(InputError::other_state_version));
+static_assert(ASSAY_CULLING_VIEW_AUTO == static_cast<int>(Culling::view_auto));
+static_assert(ASSAY_CULLING_VIEW_POINT == static_cast<int>(Culling::view_point));
+static_assert(ASSAY_CULLING_VIEW_LINE == static_cast<int>(Culling::view_line));
+static_assert(ASSAY_CULLING_NORMAL_CONE == static_cast<int>(Culling::normal_cone));
+static_assert(ASSAY_CULLING_BVH == static_cast<int>(Culling::bvh));
+static_assert(ASSAY_CULLING_NONE == static_cast<int>(Culling::none));
+static_assert(ASSAY_START_VERIFIED == static_cast<int>(Start::verified));
+static_assert(ASSAY_START_CLEAN == static_cast<int>(Start::clean));
+static_assert(ASSAY_START_UNKNOWN == static_cast<int>(Start::unknown));
+static_assert(ASSAY_PAIRS_ALL == static_cast<int>(Pairs::all));
+static_assert(ASSAY_PAIRS_FIRST == static_cast<int>(Pairs::first));
+static_assert(ASSAY_ARITHMETIC_EXACT == static_cast<int>(Arithmetic::exact));
+static_assert(ASSAY_ARITHMETIC_BOUNDED == static_cast<int>(Arithmetic::bounded));
+static_assert(ASSAY_ARITHMETIC_DOUBLE == static_cast<int>(Arithmetic::double_precision));
+static_assert(ASSAY_ARITHMETIC_FLOAT == static_cast<int>(Arithmetic::single_precision));
+static_assert(ASSAY_RELEASE_PIECES == static_cast<int>(Release::pieces));
+static_assert(ASSAY_RELEASE_MODEL == static_cast<int>(Release::model));
+static_assert(ASSAY_RELEASE_VIEW == static_cast<int>(Release::view));
+static_assert(ASSAY_GHOST_TEST_EXACT == static_cast<int>(GhostTest::exact));
+static_assert(ASSAY_GHOST_TEST_BOXES == static_cast<int>(GhostTest::boxes));
+static_assert(sizeof(assay_view_primitive) == sizeof(ViewPrimitive));
+
+void tell(assay_builtin_error* error, std::int32_t code, const char* message) {
+  if (!error) return;
+  error->code = code;
+  const std::size_t length = std::min(std::strlen(message), sizeof(error->message) - 1);
+  std::memcpy(error->message, message, length);
+  error->message[length] = 0;
+}
+
+std::int32_t done(assay_builtin_error* error) {
+  tell(error, ASSAY_BUILTIN_NO_ERROR, "");
+  return ASSAY_OK;
+}
+
+std::int32_t refuse(assay_builtin_error* error, std::int32_t code, const char* message) {
+  tell(error, code, message);
+  return ASSAY_REFUSED;
+}
+
+std::int32_t refuse(assay_builtin_error* error, const Problem& problem) {
+  return refuse(error, static_cast<std::int32_t>(problem.error), problem.message.c_str());
+}
+
+template <class Function>
+std::int32_t guarded(assay_builtin_error* error, const Function& function) {
+  return detector::guarded(function, [&] {
+    tell(error, ASSAY_BUILTIN_NO_MEMORY, "not enough memory");
+    return ASSAY_OUT_OF_MEMORY;
+  });
+}
+
+// False for a number that names none.
+template <class Enum>
+bool choose(Enum& choice, std::int32_t number, Enum last) {
+  if (number < 0 || number > static_cast<std::int32_t>(last)) return false;
+  choice = static_cast<Enum>(number);
+  return true;
+}
+
+// What is wrong, or null.
+const char* read_options(const assay_builtin_options& given, Options& options) {
+  if (given.struct_size != sizeof given) return "struct_size is not the size of the options";
+  if (!choose(options.culling, given.culling, Culling::none)) return "no such culling";
+  if (!choose(options.start, given.start, Start::unknown)) return "no such start";
+  if (!choose(options.pairs, given.pairs, Pairs::first)) return "no such choice of pairs";
+  if (!choose(options.arithmetic, given.arithmetic, Arithmetic::single_precision))
+    return "no such arithmetic";
+  if (!choose(options.release, given.release, Release::view)) return "no such release";
+  if (!choose(options.ghost_test, given.ghost_test, GhostTest::boxes)) return "no such ghost test";
+  return nullptr;
+}
+
+}  // namespace
+}  // namespace assay::detector
+
+using namespace assay::detector;
+
+const char* assay_builtin_error_name(std::int32_t code) {
+  switch (code) {
+    case ASSAY_BUILTIN_NO_ERROR:
+      return "no_error";
+    case ASSAY_BUILTIN_WRONG_OPTIONS:
+      return "wrong_options";
+    case ASSAY_BUILTIN_SMALL_BUFFER:
+      return "small_buffer";
+    case ASSAY_BUILTIN_TOO_MANY:
+      return "too_many";
+    case ASSAY_BUILTIN_NO_MEMORY:
+      return "no_memory";
+    default:
+      return code > 0 && code < ASSAY_BUILTIN_WRONG_OPTIONS ? name_of(static_cast<InputError>(code))
+                                                            : "unknown_error";
+  }
+}
+
+std::int32_t assay_builtin_create(const std::int32_t* triangles, std::uint64_t triangle_count,
+                                  const double* positions, std::uint64_t vertex_count,
+                                  const assay_builtin_options* given, assay_handle** handle,
+                                  assay_builtin_error* error) {
+  return guarded(error, [&]() -> std::int32_t {
+    Options options;
+    if (const char* wrong = given ? read_options(*given, options) : nullptr)
+      return refuse(error, ASSAY_BUILTIN_WRONG_OPTIONS, wrong);
+    constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
+    if (triangle_count > most || vertex_count > most)
+      return refuse(error, ASSAY_BUILTIN_TOO_MANY, "more than 2^31 - 1 triangles or vertices");
+    const auto m = static_cast<Eigen::Index>(triangle_count);
+    const auto n = static_cast<Eigen::Index>(vertex_count);
+    auto made =
+        Detector::create(TrianglesMap(triangles, m, 3), PositionsMap(positions, n, 3), options);
+    if (!made) return refuse(error, made.error());
+    *handle = new assay_handle{std::move(made.value()), n};
+    return done(error);
+  });
+}
+
+std::int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const double* x_t1,
+                                    const assay_view_primitive* primitives,
+                                    std::uint64_t primitive_count,
+                                    std::int32_t (*stop)(void* stop_data), void* stop_data,
+                                    assay_builtin_error* error) {
+  return guarded(error, [&]() -> std::int32_t {
+    if (primitive_count > std::max<std::uint64_t>(1, handle->detector.topology().components.size()))
+      return refuse(error, ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT,
+                    "more view primitives than components");
+    std::vector<ViewPrimitive> given(static_cast<std::size_t>(primitive_count));
+    if (!given.empty()) std::memcpy(given.data(), primitives, given.size() * sizeof given[0]);
+    StopFunction stops;
+    if (stop) stops = [=] { return stop(stop_data) != 0; };
+    handle->evaluate(x_t0, x_t1, given, stops);
+    return handle->result.problem ? refuse(error, *handle->result.problem) : done(error);
+  });
+}
+
+std::int32_t assay_builtin_commit(assay_handle* handle, assay_builtin_error* error) {
+  return guarded(error, [&]() -> std::int32_t {
+    const auto problem = handle->detector.commit();
+    return problem ? refuse(error, *problem) : done(error);
+  });
+}
+
+void assay_builtin_get_sets(const assay_handle* handle, assay_builtin_sets* sets) {
+  const StepResult& result = handle->result;
+  *sets = {result.view_positive, result.view_negative, result.view_zero, result.against_all,
+           result.violated,      result.dirty,         nullptr};
+  if (!result.doubts.empty()) sets->doubts = result.doubts.data();
+}
+
+void assay_builtin_reset(assay_handle* handle) { handle->detector.reset(); }
+
+std::int32_t assay_builtin_save(const assay_handle* handle, void* buffer, std::uint64_t capacity,
+                                std::uint64_t* size, assay_builtin_error* error) {
+  return guarded(error, [&]() -> std::int32_t {
+    const SavedState state = handle->detector.state();
+    *size = state_size(state);
+    if (!buffer) return done(error);
+    if (capacity < *size)
+      return refuse(error, ASSAY_BUILTIN_SMALL_BUFFER, "the buffer is smaller than the state");
+    write_state(state, {static_cast<std::uint8_t*>(buffer), static_cast<std::size_t>(*size)});
+    return done(error);
+  });
+}
+
+std::int32_t assay_builtin_restore(assay_handle* handle, const void* bytes, std::uint64_t size,
+                                   assay_builtin_error* error) {
+  return guarded(error, [&]() -> std::int32_t {
+    const auto state =
+        read_state({static_cast<const std::uint8_t*>(bytes), static_cast<std::size_t>(size)});
+    if (!state) return refuse(error, state.error());
+    if (const auto problem = handle->detector.restore(state.value()))
+      return refuse(error, *problem);
+    return done(error);
+  });
+}

@@ -1,0 +1,39 @@
+// What the C interface keeps of a mesh: the detector, and the last result as C arrays.
+#pragma once
+
+#include <new>
+#include <span>
+#include <vector>
+
+#include "detector/detector.h"
+#include "detector/plugin/assay_builtin_detector.h"
+
+struct assay_handle {
+  assay::detector::Detector detector;
+  Eigen::Index vertex_count;
+  assay::detector::StepResult result = {};
+  std::vector<std::int32_t> pairs = {};
+  std::vector<double> times = {};
+
+  // As Detector::evaluate; the handle changes as a whole or not at all, should memory fail.
+  void evaluate(const double* x_t0, const double* x_t1,
+                std::span<const assay::detector::ViewPrimitive> primitives = {},
+                const assay::detector::StopFunction& stop = {});
+};
+
+namespace assay::detector {
+
+using PositionsMap = Eigen::Map<const Positions>;
+using TrianglesMap = Eigen::Map<const Triangles>;
+
+// The built-in detector throws nothing but the want of memory; no exception crosses the border.
+template <class Function, class OutOfMemory>
+std::int32_t guarded(const Function& function, const OutOfMemory& out_of_memory) {
+  try {
+    return function();
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+}  // namespace assay::detector

@@ -1,0 +1,156 @@
+#include "detector/state/state_bytes.h"
+
+#include <algorithm>
+
+#include "detector/state/byte_archive.h"
+
+namespace assay::detector {
+namespace {
+
+constexpr std::array<std::uint8_t, 8> magic = {'a', 's', 's', 'a', 'y', 'S', 'A', 'V'};
+constexpr std::size_t least_size = magic.size() + 3 * word;  // version, number of bytes, checksum
+
+std::uint64_t checksum_of(std::span<const std::uint8_t> bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const auto byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
+  return hash;
+}
+
+template <class Archive, class List>
+void plain_list(Archive& archive, List& list) {
+  length(archive, list, sizeof(list[0]));
+  for (auto& member : list) field(archive, member);
+}
+
+template <class Archive, class Positions>
+void rows(Archive& archive, Positions& x) {
+  auto count = static_cast<std::uint64_t>(x.rows());
+  field(archive, count);
+  if constexpr (Archive::reads) {
+    if (count > archive.left() / (3 * word)) return archive.refuse();
+    x.resize(static_cast<Eigen::Index>(count), 3);
+  }
+  for (Eigen::Index i = 0; i < x.size(); ++i) field(archive, x.data()[i]);
+}
+
+// Whether there is a value; makes room for it.
+template <class T>
+bool there_is(Writer& out, const T& value) {
+  out.byte(value ? 1 : 0);
+  return bool(value);
+}
+template <class T>
+bool there_is(Reader& in, std::optional<T>& value) {
+  bool is_there = false;
+  field(in, is_there);
+  if (is_there) value.emplace();
+  return is_there;
+}
+
+template <class Archive, class Anchors>
+void anchor_list(Archive& archive, Anchors& anchors) {
+  constexpr std::size_t least = 1 + 4 * word;
+  length(archive, anchors, least);
+  for (auto& anchor : anchors) {
+    kind(archive, anchor.kind, ViewKind::line);
+    for (auto& end : anchor.ends) {
+      length(archive, end.vertices, word);
+      for (auto& vertex : end.vertices) field(archive, vertex);
+      plain_list(archive, end.weights);
+    }
+  }
+}
+
+void chosen_anchors(Writer& out, const ViewChoice& choice) {
+  if (there_is(out, choice.anchors)) anchor_list(out, *choice.anchors);
+}
+void chosen_anchors(Reader& in, ViewChoice& choice) {
+  std::optional<std::vector<ViewAnchor>> anchors;
+  if (!there_is(in, anchors)) return;
+  anchor_list(in, *anchors);
+  choice.anchors = std::make_shared<const std::vector<ViewAnchor>>(std::move(*anchors));
+}
+
+template <class Archive, class Choice>
+void choice_fields(Archive& archive, Choice& choice) {
+  chosen_anchors(archive, choice);
+  field(archive, choice.is_worn);
+  field(archive, choice.age);
+  field(archive, choice.least_age);
+  field(archive, choice.best_share);
+  field(archive, choice.share_before);
+  field(archive, choice.rest);
+  field(archive, choice.next_rest);
+  field(archive, choice.candidates);
+  field(archive, choice.overhead);
+}
+
+template <class Archive, class Committed>
+void committed_fields(Archive& archive, Committed& state) {
+  rows(archive, state.positions);
+  plain_list(archive, state.clean);
+  length(archive, state.met, 2 * word);
+  for (auto& pair : state.met) {
+    field(archive, pair.a);
+    field(archive, pair.b);
+  }
+  field(archive, state.met_is_complete);
+  length(archive, state.inside, 1);
+  for (auto& primitive : state.inside) {
+    if (!there_is(archive, primitive)) continue;
+    for (auto& end : *primitive) {
+      for (auto& coordinate : end) field(archive, coordinate);
+    }
+  }
+  plain_list(archive, state.lost);
+  choice_fields(archive, state.choice);
+}
+
+template <class Archive, class State>
+void state_fields(Archive& archive, State& state) {
+  field(archive, state.mesh);
+  kind(archive, state.culling, Culling::none);
+  if (there_is(archive, state.committed)) committed_fields(archive, *state.committed);
+  length(archive, state.apex_rules, word);
+  for (auto& rule : state.apex_rules) field(archive, rule.height);
+  anchor_list(archive, state.anchors);
+}
+
+Problem damaged(const char* message) { return {InputError::damaged_state, message}; }
+
+}  // namespace
+
+std::size_t state_size(const SavedState& state) {
+  Writer counter(nullptr);
+  state_fields(counter, state);
+  return least_size + counter.size();
+}
+
+void write_state(const SavedState& state, std::span<std::uint8_t> bytes) {
+  Writer out(bytes.data());
+  for (const auto byte : magic) out.byte(byte);
+  out.number(state_version);
+  out.number(bytes.size());
+  state_fields(out, state);
+  out.number(checksum_of(bytes.first(out.size())));
+}
+
+Expected<SavedState> read_state(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < least_size || !std::equal(magic.begin(), magic.end(), bytes.begin()))
+    return damaged("these bytes are no saved state");
+  Reader in(bytes.subspan(magic.size()));
+  if (in.number() != state_version)
+    return Problem{InputError::other_state_version,
+                   "the state was saved in a form that this build does not read"};
+  if (in.number() != bytes.size()) return damaged("the saved state was cut or added to");
+  Reader end(bytes.last(word));
+  if (end.number() != checksum_of(bytes.first(bytes.size() - word)))
+    return damaged("the saved state was changed: its checksum does not hold");
+  Reader fields(bytes.subspan(least_size - word, bytes.size() - least_size));
+  SavedState state;
+  state_fields(fields, state);
+  if (!fields.is_at_end()) return damaged("the saved state does not hold the fields of one");
+  return state;
+}
+
+}  // namespace assay::detector

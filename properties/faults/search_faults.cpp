@@ -1,0 +1,226 @@
+// A wrong tree: marks that do not reach the root or leave it too early, nodes skipped for the wrong
+// partial tree, boxes of another step; a search that is not the detector's own.
+#include <algorithm>
+#include <atomic>
+
+#include "properties/faults/planting.h"
+
+namespace assay::properties {
+namespace {
+
+namespace flag = detector::flag;
+using detector::BoundingVolumeTree;
+using detector::MarkingCounts;
+using detector::Marks;
+using detector::PairSink;
+using detector::PairTable;
+using detector::PositionsView;
+using detector::SearchCounts;
+using detector::SearchInput;
+using detector::Stages;
+using detector::Topology;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// A flag gone from a leaf goes from all above, though another leaf there may have it.
+struct ClearedForOthersToo : detector::Marking {
+  void clear(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
+             MarkingCounts& counts) const override {
+    for (std::int32_t node = leaf;; node = tree.parent(node)) {
+      marks.node_flags[at(node)] &= static_cast<std::uint8_t>(~flags);
+      ++counts.cleared;
+      if (node == BoundingVolumeTree::root) return;
+    }
+  }
+};
+
+// "A parent that is marked at all has marked all above it": with another flag, perhaps.
+struct MarkedUntilAnyFlag : detector::Marking {
+  void mark(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
+            MarkingCounts& counts) const override {
+    for (std::int32_t node = leaf;; node = tree.parent(node)) {
+      auto& of_node = marks.node_flags[at(node)];
+      const bool marked = node != leaf && (of_node & ~flag::positive) != 0;
+      of_node |= flags;
+      ++counts.marked;
+      if (marked || node == BoundingVolumeTree::root) return;
+    }
+  }
+};
+
+// The parent's flags are gathered from its first child alone.
+struct GatheredFromFirstChild : detector::Marking {
+  void clear(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
+             MarkingCounts& counts) const override {
+    marks.node_flags[at(leaf)] &= static_cast<std::uint8_t>(~flags);
+    ++counts.cleared;
+    for (std::int32_t node = leaf; node != BoundingVolumeTree::root; ++counts.cleared) {
+      node = tree.parent(node);
+      marks.node_flags[at(node)] = marks.node_flags[at(tree.child(node))];
+    }
+  }
+};
+
+// The partial trees of V+, V-, V0, Vv are gone down one after the other, and a node with a single
+// child in the first that is asked for is left for that child: the other may be in the next tree.
+class SkippedForOneSet : public detector::TreeSearch {
+ public:
+  bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
+    return visit(input, BoundingVolumeTree::root, BoundingVolumeTree::root, counts, sink);
+  }
+
+ private:
+  static PairTable table(const SearchInput& input, std::int32_t a, std::int32_t b) {
+    const auto c = input.tree.component(a), d = input.tree.component(b);
+    const bool mixed = c == detector::mixed_components || d == detector::mixed_components;
+    if (mixed) return input.tables.within.joined_with(input.tables.across);
+    return c == d ? input.tables.within : input.tables.across;
+  }
+
+  static std::int32_t skip(const SearchInput& input, std::int32_t node, std::int32_t other) {
+    const auto& flags = input.marks.node_flags;
+    while (!input.tree.is_leaf(node)) {
+      const unsigned asked = table(input, node, other).partners(flags[at(other)]) & flags[at(node)];
+      const unsigned first = asked & (~asked + 1);
+      const auto child = input.tree.child(node);
+      const bool left = (flags[at(child)] & first) != 0,
+                 right = (flags[at(child + 1)] & first) != 0;
+      if (left == right) break;
+      node = left ? child : child + 1;
+    }
+    return node;
+  }
+
+  bool visit(const SearchInput& input, std::int32_t a, std::int32_t b, SearchCounts& counts,
+             const PairSink& sink) const {
+    const auto& tree = input.tree;
+    const auto& flags = input.marks.node_flags;
+    if (!table(input, a, b).asks(flags[at(a)], flags[at(b)])) return true;
+    if (a == b) {
+      if (tree.is_leaf(a)) return true;
+      const auto child = tree.child(a);
+      return visit(input, child, child, counts, sink) &&
+             visit(input, child + 1, child + 1, counts, sink) &&
+             visit(input, child, child + 1, counts, sink);
+    }
+    a = skip(input, a, b);
+    b = skip(input, b, a);
+    ++counts.box_tests;
+    if (apart(tree.box(a), tree.box(b))) return true;
+    if (tree.is_leaf(a) && tree.is_leaf(b)) {
+      ++counts.candidate_pairs;
+      return sink(tree.triangle(a), tree.triangle(b));
+    }
+    const bool splits_a = !tree.is_leaf(a);
+    const auto child = tree.child(splits_a ? a : b);
+    for (const auto below : {child, child + 1}) {
+      if (!visit(input, splits_a ? below : a, splits_a ? b : below, counts, sink)) return false;
+    }
+    return true;
+  }
+};
+
+// The tree is fitted to the first step that searches, and to no other.
+class FittedOnce : public detector::TreeSearch {
+ public:
+  void fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1) const override {
+    if (!fitted_) TreeSearch::fit(tree, mesh, x_t0, x_t1);
+    fitted_ = true;
+  }
+
+ private:
+  mutable bool fitted_ = false;
+};
+
+// A search that was stopped is meant to go on where it was: the next one, of whatever step, leaves
+// out as many pairs as that one had looked at.
+class GoesOnAfterStop : public detector::TreeSearch {
+ public:
+  bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
+    std::uint64_t seen = 0;
+    const bool completed = TreeSearch::search(input, counts, [&](std::int32_t a, std::int32_t b) {
+      return ++seen <= looked_at_ || sink(a, b);
+    });
+    looked_at_ = completed ? 0 : std::max(seen, looked_at_);
+    return completed;
+  }
+
+ private:
+  mutable std::uint64_t looked_at_ = 0;
+};
+
+// Box tests are counted in one place by all detectors of the process, and each takes for its own
+// what came together while it searched.
+struct CountedTogether : detector::TreeSearch {
+  bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
+    static std::atomic<std::uint64_t> box_tests = 0;
+    const std::uint64_t before = box_tests;
+    const std::uint64_t own_before = counts.box_tests;
+    std::uint64_t told = own_before;
+    const auto tell = [&] {
+      box_tests += counts.box_tests - std::exchange(told, counts.box_tests);
+    };
+    const bool completed = TreeSearch::search(input, counts, [&](std::int32_t a, std::int32_t b) {
+      tell();
+      return sink(a, b);
+    });
+    tell();
+    counts.box_tests = own_before + (box_tests - before);
+    return completed;
+  }
+};
+
+template <auto stage, class Wrong>
+Fault row(std::string_view name, std::string_view about, std::string_view law,
+          std::string_view curated, int vertices, bool is_disturbed = false) {
+  constexpr bool marks = std::is_base_of_v<detector::Marking, Wrong>;
+  Fault fault = {name,
+                 about,
+                 law,
+                 FaultStatus::planted,
+                 "",
+                 with_points,
+                 curated,
+                 vertices,
+                 marks ? "marking" : "pair_search",
+                 with<stage, Wrong>};
+  fault.is_disturbed = is_disturbed;
+  return fault;
+}
+
+}  // namespace
+
+std::vector<Fault> search_faults() {
+  constexpr auto marking = &Stages::marking;
+  constexpr auto pair_search = &Stages::pair_search;
+  return {
+      row<marking, ClearedForOthersToo>("marking/cleared-for-others-too",
+                                        "a flag that one leaf loses is cleared on all nodes above",
+                                        "L3", "F_cleared_for_others", 4),
+      row<marking, MarkedUntilAnyFlag>(
+          "marking/marked-until-any-flag",
+          "marking ends at a node that has some flag other than P, not at one that has this flag",
+          "L3", "F_marked_until_any_flag", 6),
+      row<marking, GatheredFromFirstChild>("marking/gathered-from-first-child",
+                                           "clearing gives a node the flags of its first child",
+                                           "L3", "F_gathered_from_first_child", 4),
+      row<pair_search, SkippedForOneSet>(
+          "search/skipped-for-one-set",
+          "a node is left for its only child in one partial tree, whatever the others hold", "L3",
+          "F_skipped_for_one_set", 5),
+      row<pair_search, FittedOnce>("search/fitted-once",
+                                   "the tree is fitted to the first step and kept", "free-sound",
+                                   "F_fitted_once", 6),
+      row<pair_search, GoesOnAfterStop>(
+          "search/goes-on-after-stop",
+          "a step that was stopped leaves its place in the search behind, for the next one",
+          "deterministic", "F_after_stop", 7, true),
+      row<pair_search, CountedTogether>("search/counted-together",
+                                        "all detectors of the process count their box tests in "
+                                        "one place",
+                                        "deterministic", "F_counted_together", 4, true),
+  };
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,140 @@
+// Suite `harness`: DESIGN's rows on the oracle and on campaigns, what judging costs.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "oracle/step.h"
+#include "properties/campaign/trial.h"
+#include "properties/generators/families.h"
+#include "properties/query_methods.h"
+#include "properties/worker/case_run.h"
+#include "reports/bench/bootstrap.h"
+#include "reports/bench/interleave.h"
+#include "reports/bench/peak_memory.h"
+#include "reports/bench/query_sets.h"
+#include "reports/bench/real_sequences.h"
+
+namespace assay::reports {
+namespace {
+
+// The oracle works in threads, so that its time is that of the wall.
+double wall_seconds_of(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void judge_rod_twist(const corpus::Sequence& step, const BenchSettings& settings,
+                     BenchReport& report) {
+  constexpr int jobs = 2;
+  std::size_t pairs = 0;
+  const auto judge = [&] {
+    const auto judgement =
+        oracle::judge_step(step.frames[0], step.frames[1], step.triangles, {jobs, {}});
+    pairs = judgement.pairs.size();
+  };
+  // The memory first: what is freed is given back to the system then, and none is kept for reuse.
+  const auto bytes = peak_memory_of(judge);
+  const auto samples = interleave(settings.rounds(5), {[&] { return wall_seconds_of(judge); }});
+  report.add("oracle, rod-twist step", "s", bootstrap_median(samples[0]), at_most(30),
+             fmt::format("wall time, {} threads, {} pairs; bootstrap", jobs, pairs));
+  if (!bytes) {
+    report.add_no_data("oracle, rod-twist step, memory", "/proc/self");
+    return;
+  }
+  constexpr double gigabyte = 1 << 30;
+  report.add("oracle, rod-twist step, memory", "GB", exactly(*bytes / gigabyte), at_most(3),
+             "highest over what the mesh itself takes");
+}
+
+void ask_simulation_queries(const BenchSettings& settings, BenchReport& report) {
+  const auto set = simulation_queries(settings);
+  if (!set) {
+    report.add_no_data("oracle, a simulation query, yes/no",
+                       settings.file("scalable-ccd/rod-twist"));
+    return;
+  }
+  const auto samples = interleave(settings.rounds(5), {[&] {
+                                    return ns_of([&] {
+                                      for (const auto& query : set->queries) {
+                                        keep(properties::ask_oracle(query, detector::Want::yes_no));
+                                      }
+                                    });
+                                  }});
+  const auto count = static_cast<double>(set->queries.size());
+  report.add("oracle, a simulation query, yes/no", "us",
+             scaled(bootstrap_median(samples[0]), 1e-3 / count), at_most(20),
+             fmt::format("mean of {} queries; bootstrap over rounds", count));
+}
+
+struct Trials {
+  std::vector<double> steps, seconds;  // a case each
+  std::size_t defects = 0, most_triangles = 0;
+};
+
+// As a campaign judges its trials, but for the pipe to the process that its detector runs in.
+Trials judge_cases(const properties::Family& family, int cases) {
+  const auto detector = properties::built_in_detector();
+  Trials out;
+  for (int i = 0; i < cases; ++i) {
+    const auto id = fmt::format("harness:1:{}:{}", family.name, i);
+    out.seconds.push_back(1e-9 * ns_of([&] {
+                            const auto c = properties::make_case(family, id).c;
+                            const auto truth = properties::judge_case(c);
+                            for (const auto& configuration : detector.configurations) {
+                              const auto run = properties::run_case(c, configuration);
+                              const auto verdict =
+                                  properties::judge_trial(c, truth, run, configuration, detector);
+                              out.defects += verdict.outcome == properties::Outcome::defect;
+                            }
+                            out.steps.push_back(static_cast<double>(truth.size()));
+                            out.most_triangles = std::max(
+                                out.most_triangles, static_cast<std::size_t>(c.triangles.rows()));
+                          }));
+  }
+  return out;
+}
+
+std::optional<Wanted> wanted_of(const properties::Family& family) {
+  if (family.degenerate) return at_least(10);
+  if (family.name.find("generic") != std::string_view::npos) return at_least(100);
+  return std::nullopt;
+}
+
+void judge_family(const properties::Family& family, const BenchSettings& settings,
+                  BenchReport& report) {
+  const Trials trials = judge_cases(family, settings.rounds(400));
+  report.add(fmt::format("judged steps a second and core, {}", family.name), "",
+             bootstrap_ratio_of_sums(trials.steps, trials.seconds), wanted_of(family),
+             fmt::format("oracle, and detector in {} configurations; {} cases up to {} triangles; "
+                         "bootstrap over cases",
+                         properties::built_in_detector().configurations.size(), trials.steps.size(),
+                         trials.most_triangles));
+  if (trials.defects > 0) {
+    report.wrong_answers.push_back(
+        fmt::format("{}: {} trials with a defect", family.name, trials.defects));
+  }
+}
+
+}  // namespace
+
+BenchReport harness_suite(const BenchSettings& settings, Progress& progress) {
+  BenchReport report;
+  report.suite = "harness";
+  progress.phase("oracle, rod-twist");
+  if (const auto step = rod_twist_step(settings)) {
+    judge_rod_twist(*step, settings, report);
+  } else {
+    report.add_no_data("oracle, rod-twist step", settings.file("scalable-ccd/rod-twist/frames"));
+  }
+  progress.phase("oracle, queries");
+  ask_simulation_queries(settings, report);
+  for (const auto& family : properties::families()) {
+    progress.phase(std::string(family.name));
+    judge_family(family, settings, report);
+  }
+  return report;
+}
+
+}  // namespace assay::reports

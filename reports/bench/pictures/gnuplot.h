@@ -1,0 +1,35 @@
+// Pictures as SVG, drawn by the program gnuplot from scripts.
+#pragma once
+
+#include <string>
+
+#include "reports/bench/bench_report.h"
+
+namespace assay::reports {
+
+// What came of a script: the picture, or one line for the user.
+struct Drawing {
+  std::string svg, problem;  // problem is empty where svg is not
+};
+
+// Runs `gnuplot` of the PATH with the script on its standard input; the script names the terminal
+// (svg) and no output. Some tens of milliseconds.
+Drawing draw(const std::string& script);
+
+// Why nothing can be drawn here, as a line for the user; empty when it can.
+std::string cannot_draw();
+
+// Told apart by people who see colours differently (Okabe and Ito, "Color Universal Design", 2008).
+namespace colour {
+inline constexpr const char *blue = "#0072B2", *orange = "#E69F00", *green = "#009E73",
+                            *vermilion = "#D55E00", *purple = "#CC79A7", *sky = "#56B4E9",
+                            *grey = "#777777";
+}
+
+// The head of a script: terminal, size in pixels, fonts, a quiet grid.
+std::string picture_head(int width, int height);
+
+// Words between double quotes; with `noenhanced` behind it gnuplot takes them as they are.
+std::string quoted_for_gnuplot(const std::string& words);
+
+}  // namespace assay::reports

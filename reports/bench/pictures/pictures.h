@@ -1,0 +1,20 @@
+// The picture of each suite that has one, as a script for gnuplot.
+#pragma once
+
+#include <string>
+
+#include "reports/bench/bench_report.h"
+
+namespace assay::reports {
+
+// Speed against error: time over that of exact, bvh, against the share of unsafe and of alarming
+// steps, intervals on both axes, the Pareto line of each. All pairs.
+std::string speed_error_picture(const BenchReport& report);
+
+// Time of a step over that of bvh, and of normal-cone, against the share of V+.
+std::string share_picture(const BenchReport& report);
+
+// Times against triangles, both logarithmic, beside n log n.
+std::string growth_picture(const BenchReport& report);
+
+}  // namespace assay::reports

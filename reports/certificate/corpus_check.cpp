@@ -1,0 +1,171 @@
+#include "reports/certificate/corpus_check.h"
+
+#include <fmt/format.h>
+
+#include "corpus/digest.h"
+#include "corpus/scenes.h"
+#include "properties/case_check.h"
+#include "properties/generators/families.h"
+#include "properties/worker/worker_process.h"
+
+namespace assay::reports {
+namespace {
+
+using detector::Culling;
+using properties::Outcome;
+using Json = nlohmann::ordered_json;
+
+struct Row {
+  std::string input, configuration;
+  std::size_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0, defects = 0;
+  Json failed = Json::array();
+
+  void count(const oracle::StepJudgement& step) {
+    ++steps;
+    collisions += step.pairs.empty() ? 0 : 1;
+    pairs += step.pairs.size();
+  }
+  void fail(const std::string& id, const std::string& signature, const std::string& what) {
+    failed.push_back({{"case", id}, {"signature", signature}, {"what", what}});
+  }
+  Json json() const {
+    return {{"input", input},  {"configuration", configuration},
+            {"cases", cases},  {"left_out", left_out},
+            {"steps", steps},  {"collisions", collisions},
+            {"pairs", pairs},  {"defects", defects},
+            {"failed", failed}};
+  }
+};
+
+// Expected facts of the built-in detector, one culling.
+Row check_facts(const std::vector<corpus::Case>& cases, Culling culling, int jobs) {
+  Row row{"curated cases", properties::name_of(culling)};
+  for (const auto& c : cases) {
+    const auto report = properties::check_case(c, culling, jobs);
+    ++row.cases;
+    for (const auto& step : report.steps) row.count(step.judgement);
+    row.defects += report.outcome == Outcome::holds ? 0 : 1;
+    for (const auto& line : report.failed)
+      row.fail(c.id, fmt::format("corpus: {} with {}", c.id, row.configuration), line);
+  }
+  return row;
+}
+
+// Cases through the worker, a row for each configuration.
+class JudgedRows {
+ public:
+  JudgedRows(const properties::CampaignRequest& request, const std::string& input)
+      : request_(request), worker_(request.worker, request.plugin, {case_seconds, 0}) {
+    for (const auto& configuration : request.detector.configurations)
+      rows_.push_back({input, configuration.name});
+  }
+
+  void add(const corpus::Case& c) {
+    const auto seen = properties::contracted(c, request_.detector.contract);
+    for (auto& row : rows_) ++(seen ? row.cases : row.left_out);
+    if (!seen) return;  // its numbers are beyond the contract
+    const auto truth = properties::judge_case(*seen, {request_.jobs, {}});
+    const auto& configurations = request_.detector.configurations;
+    const auto runs = worker_.run(c, configurations);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      for (const auto& step : truth) rows_[i].count(step);
+      const auto verdict =
+          properties::judge_trial(*seen, truth, runs[i], configurations[i], request_.detector);
+      if (verdict.outcome == Outcome::holds) continue;
+      ++rows_[i].defects;
+      const auto& failure = verdict.failure;
+      rows_[i].fail(c.id, failure ? failure->signature() : "undecided",
+                    failure ? failure->what : "no verdict: " + runs[i].what);
+    }
+  }
+  const std::vector<Row>& rows() const { return rows_; }
+
+ private:
+  static constexpr double case_seconds = 60;  // scenes are larger than a campaign's cases
+  const properties::CampaignRequest& request_;
+  properties::WorkerProcess worker_;
+  std::vector<Row> rows_;
+};
+
+corpus::Expected<std::vector<corpus::Case>> curated(const std::filesystem::path& folder) {
+  const auto files = corpus::case_files(folder);
+  if (!files) return files.error();
+  std::vector<corpus::Case> cases;
+  for (const auto& file : files.value()) {
+    auto c = corpus::read_case(file);
+    if (!c) return c.error();
+    cases.push_back(std::move(c.value()));
+  }
+  return cases;
+}
+
+corpus::Expected<corpus::Case> case_of_scene(std::string_view name) {
+  // Small enough to judge every scene in a minute.
+  corpus::SceneOptions options;
+  options.size = 600;
+  options.frames = 6;
+  auto made = corpus::make_scene(name, options);
+  if (!made) return made.error();
+  corpus::Case c;
+  c.id = name;
+  c.about = "a scene";
+  c.source = "assay scene";
+  c.triangles = std::move(made.value().triangles);
+  c.frames = std::move(made.value().frames);
+  return c;
+}
+
+}  // namespace
+
+std::optional<std::string> check_corpus(const properties::CampaignRequest& request,
+                                        const std::filesystem::path& corpus,
+                                        const OnCorpusRow& on_row) {
+  const auto cases = curated(corpus);
+  if (!cases) return cases.error().message;
+  if (request.detector.built_in) {
+    for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
+                               Culling::normal_cone, Culling::bvh})
+      on_row(check_facts(cases.value(), culling, request.jobs).json());
+  } else {
+    JudgedRows judged(request, "curated cases");
+    for (const auto& c : cases.value()) {
+      // What has to be refused is no valid input, so nothing is claimed of it.
+      if (c.expected.answer != detector::Answer::error) judged.add(c);
+    }
+    for (const auto& row : judged.rows()) on_row(row.json());
+  }
+  for (const auto& scene : corpus::scenes()) {
+    const auto c = case_of_scene(scene.name);
+    if (!c) return c.error().message;
+    JudgedRows judged(request, std::string(scene.name));
+    judged.add(c.value());
+    for (const auto& row : judged.rows()) on_row(row.json());
+  }
+  return std::nullopt;
+}
+
+std::string corpus_digest(const std::filesystem::path& corpus) {
+  std::string lines;
+  if (const auto files = corpus::case_files(corpus)) {
+    for (const auto& file : files.value()) {
+      const auto digest = corpus::sha256_of_file(file);
+      lines += fmt::format("{} {}\n", file.filename().string(), digest ? digest.value() : "");
+    }
+  }
+  return corpus::sha256_of(lines);
+}
+
+std::string generator_digest() {
+  constexpr std::uint64_t cases = 16;  // of a family
+  std::string digests;
+  for (const auto& family : properties::families()) {
+    for (std::uint64_t i = 0; i < cases; ++i) {
+      const auto made =
+          properties::make_case(family, fmt::format("generator-digest:1:{}:{}", family.name, i));
+      digests += corpus::sha256_of(corpus::case_text(made.c)) + "\n";
+    }
+  }
+  return corpus::sha256_of(digests);
+}
+
+}  // namespace assay::reports

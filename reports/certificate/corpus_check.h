@@ -1,0 +1,30 @@
+// The shipped corpus and scenes through the detector under test, as evidence of a certificate.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "properties/campaign/runner.h"
+
+namespace assay::reports {
+
+// Called for each row as it is known: {input, configuration, cases, left_out, steps, collisions,
+// pairs, defects, failed: [{case, signature, what}]}. Curated cases: of the built-in detector held
+// to their expected facts with every culling; of a plug-in to the oracle under its claims, as
+// scenes are for both. One judgement of the oracle serves all configurations.
+using OnCorpusRow = std::function<void(const nlohmann::ordered_json&)>;
+
+// A line for the user when the corpus cannot be read. corpus: folder of the curated cases.
+std::optional<std::string> check_corpus(const properties::CampaignRequest& request,
+                                        const std::filesystem::path& corpus,
+                                        const OnCorpusRow& on_row);
+
+// SHA-256 over names and bytes of the case files.
+std::string corpus_digest(const std::filesystem::path& corpus);
+
+// SHA-256 over the first cases of every family: another generator makes other cases.
+std::string generator_digest();
+
+}  // namespace assay::reports

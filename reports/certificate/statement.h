@@ -1,0 +1,35 @@
+// The certificate: an in-toto Statement v1 about a detector, computed from the stores of a folder.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "properties/campaign/plan.h"
+#include "reports/certificate/findings.h"
+
+namespace assay::reports {
+
+inline constexpr const char* statement_type = "https://in-toto.io/Statement/v1";
+inline constexpr const char* predicate_type = "urn:assay:certificate:1";
+inline constexpr const char* certificate_schema = "assay-certificate/1";
+
+// OUT/certificate.json, OUT/campaign.json
+std::filesystem::path certificate_file(const std::filesystem::path& out);
+std::filesystem::path campaign_file(const std::filesystem::path& out);
+
+// The predicate of these findings; campaign_digest: SHA-256 of the campaign's file.
+nlohmann::ordered_json make_predicate(const Findings& findings,
+                                      const properties::CampaignPlan& plan,
+                                      const std::string& campaign_digest);
+
+// From the stores in `folder` and its campaign.json alone: equal files give equal bytes. One line
+// in `problem` where a file is absent, damaged, or of another run.
+std::optional<nlohmann::ordered_json> make_statement(const std::filesystem::path& folder,
+                                                     std::string& problem);
+
+// As it is written: one field a line.
+std::string statement_text(const nlohmann::ordered_json& statement);
+
+}  // namespace assay::reports

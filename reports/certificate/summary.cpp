@@ -1,0 +1,94 @@
+#include "reports/certificate/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace assay::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Within a cell of a table.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out;
+}
+std::string cell(const Json& word) { return cell(word.get<std::string>()); }
+std::uint64_t count(const Json& number) { return number.get<std::uint64_t>(); }
+
+std::string gates_text(const Json& p) {
+  std::string out = "| gate | outcome | why |\n|---|---|---|\n";
+  for (const auto& gate : p["gates"]) {
+    const auto& reasons = gate["reasons"];
+    std::string why = reasons.empty() ? "" : cell(reasons[0]);
+    if (reasons.size() > 1) why += fmt::format(" (and {} more)", reasons.size() - 1);
+    out += fmt::format("| {} | {} | {} |\n", cell(gate["gate"]),
+                       gate["holds"].get<bool>() ? "holds" : "**fails**", why);
+  }
+  return out;
+}
+
+std::string strata_text(const Json& p) {
+  if (p["strata"].empty()) return "";
+  std::string out =
+      "\n| stratum | trials | distinct | discards | defects | undecided | largest bound | wanted "
+      "|\n|---|--:|--:|--:|--:|--:|--:|--:|\n";
+  for (const auto& stratum : p["strata"]) {
+    std::uint64_t defects = 0, undecided = 0;
+    double bound = 0;
+    for (const auto& row : stratum["bounds"]) {
+      defects += count(row["defects"]);
+      undecided += count(row["undecided"]) + count(row["errors"]);
+      bound = std::max(bound, row["bound"].get<double>());
+    }
+    const auto& wanted = stratum["wanted_bound"];
+    out += fmt::format("| {} | {} of {} | {} | {} | {} | {} | {:.2e} | {} |\n",
+                       cell(stratum["family"]), count(stratum["trials"]), count(stratum["planned"]),
+                       count(stratum["distinct"]), count(stratum["discards"]), defects, undecided,
+                       bound, wanted.is_null() ? "-" : fmt::format("{:.0e}", wanted.get<double>()));
+  }
+  return out;
+}
+
+std::string failures_text(const Json& p) {
+  std::string out;
+  for (const auto& failure : p["failures"]) {
+    const auto& after = failure["after"];
+    out += fmt::format("\n**{}** ({}{}), met {} times{}\n\n    {}\n", cell(failure["signature"]),
+                       cell(failure["configuration"]),
+                       failure["waived"].get<bool>() ? ", waived" : "", count(failure["met"]),
+                       after.is_null()
+                           ? ""
+                           : fmt::format("; shrunk to {} triangles, {} vertices",
+                                         count(after["triangles"]), count(after["vertices"])),
+                       failure["replay"].get<std::string>());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string summary_text(const Json& p) {
+  const auto& power = p["power"];
+  std::string out = fmt::format("## Assay: {}\n\n", cell(p["verdict"]));
+  out += fmt::format("{}, campaign {}, seed {}.", cell(p["detector"]["name"]),
+                     cell(p["campaign"]["name"]), count(p["campaign"]["seed"]));
+  if (count(power["planted"]) > 0)
+    out += fmt::format(" {} of {} planted faults found.", count(power["found"]),
+                       count(power["planted"]));
+  out += "\n\n" + gates_text(p) + strata_text(p) + failures_text(p);
+  if (!p["strata"].empty())
+    out +=
+        fmt::format("\nAll {} bounds together hold with confidence {} %. They speak of {}.\n",
+                    count(p["confidence"]["bounds"]), 100 * p["confidence"]["family"].get<double>(),
+                    cell(p["confidence"]["speaks_of"]));
+  return out;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,78 @@
+#include "reports/certificate/verify.h"
+
+#include <fmt/format.h>
+
+#include "corpus/digest.h"
+#include "corpus/file_bytes.h"
+#include "reports/certificate/junit.h"
+#include "reports/certificate/statement.h"
+#include "reports/certificate/summary.h"
+
+namespace assay::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Lines = std::vector<std::string>;
+
+// A leaf that only one side has, or that differs. Objects and lists without anything are leaves.
+void compare_fields(const Json& stated, const Json& computed, Lines& lines) {
+  const Json one = stated.flatten(), other = computed.flatten();
+  for (const auto& [place, value] : one.items()) {
+    if (!other.contains(place)) {
+      lines.push_back(
+          fmt::format("{}: {} is stated, nothing of it is stored", place, value.dump()));
+    } else if (other[place] != value) {
+      lines.push_back(fmt::format("{}: {} is stated, {} is computed", place, value.dump(),
+                                  other[place].dump()));
+    }
+  }
+  for (const auto& [place, value] : other.items()) {
+    if (!one.contains(place))
+      lines.push_back(fmt::format("{}: is not stated, {} is computed", place, value.dump()));
+  }
+}
+
+void compare_file(const std::filesystem::path& file, const std::string& sha256, Lines& lines) {
+  const auto digest = corpus::sha256_of_file(file);
+  if (!digest) {
+    lines.push_back(digest.error().message);
+  } else if (digest.value() != sha256) {
+    lines.push_back(fmt::format("{}: its bytes are not those that were certified", file.string()));
+  }
+}
+
+}  // namespace
+
+Verification verify_certificate(const std::filesystem::path& certificate) {
+  Verification result;
+  auto& lines = result.differences;
+  const auto folder = certificate.has_parent_path() ? certificate.parent_path() : ".";
+  const auto bytes = corpus::read_bytes(certificate);
+  if (!bytes) {
+    lines.push_back(bytes.error().message);
+    return result;
+  }
+  result.statement = Json::parse(bytes.value(), nullptr, false);
+  if (!result.statement.is_object()) {
+    lines.push_back(fmt::format("{}: is no JSON object", certificate.string()));
+    result.statement = nullptr;
+    return result;
+  }
+  std::string problem;
+  const auto computed = make_statement(folder, problem);
+  if (!computed) {
+    lines.push_back(problem);
+    return result;
+  }
+  compare_fields(result.statement, *computed, lines);
+  if (lines.empty() && bytes.value() != statement_text(*computed))
+    lines.push_back(fmt::format("{}: not written as assay writes it", certificate.string()));
+  const auto& predicate = (*computed)["predicate"];
+  for (const auto& failure : predicate["failures"])
+    compare_file(folder / failure["file"].get<std::string>(), failure["sha256"], lines);
+  compare_file(folder / "junit.xml", corpus::sha256_of(junit_text(predicate)), lines);
+  compare_file(folder / "summary.md", corpus::sha256_of(summary_text(predicate)), lines);
+  return result;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,236 @@
+// A saved state as bytes: the same state again, and whatever is not one is refused by name.
+#include "detector/state/state_bytes.h"
+
+#include <gtest/gtest.h>
+
+#include "detector/detector.h"
+#include "tests/detector/points.h"
+
+namespace assay::detector {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes bytes_of(const SavedState& state) {
+  Bytes bytes(state_size(state));
+  write_state(state, bytes);
+  return bytes;
+}
+
+// The form is stated in state_bytes.h; a test may make its own bytes by that.
+void set_number(Bytes& bytes, std::size_t at, std::uint64_t value) {
+  for (std::size_t i = 0; i < 8; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
+}
+void seal(Bytes& bytes) {
+  set_number(bytes, 16, bytes.size());
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (std::size_t i = 0; i + 8 < bytes.size(); ++i) hash = (hash ^ bytes[i]) * 0x100000001b3u;
+  set_number(bytes, bytes.size() - 8, hash);
+}
+
+Positions tip_at(double s) {
+  Positions x = tests::octahedron_positions(2);
+  x.row(5) << s, s, s;
+  return x;
+}
+
+// An octahedron with a hole whose tip has gone through it: some triangles are dirty.
+Detector passed(Culling culling, int steps = 2) {
+  Options options;
+  options.culling = culling;
+  const Positions in = tests::octahedron_positions(2), out = tip_at(1.5);
+  auto made = Detector::create(tests::octahedron().bottomRows(7), in, options);
+  for (int s = 0; s < steps; ++s) made.value().step(s % 2 ? out : in, s % 2 ? in : out);
+  return std::move(made.value());
+}
+
+// Every field, the optional ones present.
+SavedState full_state() {
+  SavedState state = passed(Culling::view_line).state();
+  state.committed->met = {{0, 3}, {2, 5}};
+  state.committed->met_is_complete = false;
+  state.committed->inside[0] = {{{1, -0.0, 0x1p-1074}, {-2, .1, 4}}};
+  auto& choice = state.committed->choice;
+  choice.anchors = std::make_shared<const std::vector<ViewAnchor>>(state.anchors);
+  choice.is_worn = true;
+  choice.age = 3, choice.least_age = 32, choice.best_share = .7, choice.share_before = .3;
+  choice.rest = 5, choice.next_rest = 8, choice.candidates = 1234, choice.overhead = 17.5;
+  return state;
+}
+
+void expect_equal(const std::vector<ViewAnchor>& a, const std::vector<ViewAnchor>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].kind, b[i].kind);
+    for (int e = 0; e < 2; ++e) {
+      EXPECT_EQ(a[i].ends[e].vertices, b[i].ends[e].vertices);
+      EXPECT_EQ(a[i].ends[e].weights, b[i].ends[e].weights);
+    }
+  }
+}
+
+TEST(StateBytes, AreTheSameStateAgain) {
+  const SavedState state = full_state();
+  const auto read = read_state(bytes_of(state));
+  ASSERT_TRUE(read) << read.error().message;
+  const SavedState& again = read.value();
+  EXPECT_EQ(again.mesh, state.mesh);
+  EXPECT_EQ(again.culling, Culling::view_line);
+  ASSERT_EQ(again.apex_rules.size(), 1u);
+  EXPECT_EQ(again.apex_rules[0].height, state.apex_rules[0].height);
+  expect_equal(again.anchors, state.anchors);
+  ASSERT_TRUE(again.committed);
+  const StepState &a = *again.committed, &b = *state.committed;
+  EXPECT_TRUE(a.holds_at(b.positions));
+  EXPECT_EQ(a.clean, b.clean);
+  EXPECT_EQ(a.met, b.met);
+  EXPECT_EQ(a.met_is_complete, b.met_is_complete);
+  EXPECT_EQ(a.inside, b.inside);
+  EXPECT_TRUE(std::signbit((*a.inside[0])[0][1]));
+  EXPECT_EQ(a.lost, b.lost);
+  ASSERT_TRUE(a.choice.anchors);
+  expect_equal(*a.choice.anchors, *b.choice.anchors);
+  EXPECT_EQ(a.choice.is_worn, b.choice.is_worn);
+  EXPECT_EQ(a.choice.age, b.choice.age);
+  EXPECT_EQ(a.choice.least_age, b.choice.least_age);
+  EXPECT_EQ(a.choice.best_share, b.choice.best_share);
+  EXPECT_EQ(a.choice.share_before, b.choice.share_before);
+  EXPECT_EQ(a.choice.rest, b.choice.rest);
+  EXPECT_EQ(a.choice.next_rest, b.choice.next_rest);
+  EXPECT_EQ(a.choice.candidates, b.choice.candidates);
+  EXPECT_EQ(a.choice.overhead, b.choice.overhead);
+  EXPECT_EQ(bytes_of(again), bytes_of(state));
+}
+
+TEST(StateBytes, OfEveryCullingBeforeAndAfterSteps) {
+  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
+                             Culling::normal_cone, Culling::bvh, Culling::none}) {
+    for (const int steps : {0, 1, 2}) {
+      Detector detector = passed(culling, steps);
+      const auto bytes = bytes_of(detector.state());
+      const auto read = read_state(bytes);
+      ASSERT_TRUE(read) << read.error().message;
+      EXPECT_EQ(read.value().committed.has_value(), steps > 0);
+      EXPECT_EQ(bytes_of(read.value()), bytes);
+      EXPECT_FALSE(detector.restore(read.value()));
+    }
+  }
+}
+
+// The form is for ever: what an older build of version 1 has saved is read by a newer one.
+TEST(StateBytes, HaveTheFormThatIsStated) {
+  SavedState state;
+  state.mesh = 0x0123456789abcdef;
+  state.culling = Culling::bvh;
+  state.apex_rules = {{-.25}};
+  Bytes expected = {'a', 's', 's', 'a', 'y', 'S', 'A', 'V', 1, 0, 0, 0, 0, 0, 0, 0};
+  expected.insert(expected.end(), {66, 0, 0, 0, 0, 0, 0, 0});                         // bytes
+  expected.insert(expected.end(), {0xef, 0xcd, 0xab, 0x89, 0x67, 0x45, 0x23, 0x01});  // mesh
+  expected.insert(expected.end(), {4, 0});  // bvh, no step committed
+  expected.insert(expected.end(), {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xd0, 0xbf});
+  expected.insert(expected.end(), {0, 0, 0, 0, 0, 0, 0, 0});  // anchors
+  expected.resize(expected.size() + 8);
+  seal(expected);
+  EXPECT_EQ(bytes_of(state), expected);
+}
+
+TEST(StateBytes, DamageIsRefused) {
+  const Bytes whole = bytes_of(full_state());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    for (const std::uint8_t bit : {1, 128}) {
+      Bytes changed = whole;
+      changed[i] ^= bit;
+      const auto read = read_state(changed);
+      ASSERT_FALSE(read) << "byte " << i;
+      const bool version = i >= 8 && i < 16;
+      EXPECT_EQ(read.error().error,
+                version ? InputError::other_state_version : InputError::damaged_state)
+          << "byte " << i;
+    }
+    const auto cut = read_state(std::span(whole).first(i));
+    ASSERT_FALSE(cut) << i << " bytes";
+    EXPECT_EQ(cut.error().error, InputError::damaged_state);
+  }
+  Bytes longer = whole;
+  longer.push_back(0);
+  EXPECT_FALSE(read_state(longer));
+  EXPECT_FALSE(read_state({}));
+}
+
+// A right checksum over wrong fields: read as far as they make sense, never beyond the bytes, and
+// refused by the reading or by the mesh.
+TEST(StateBytes, WrongFieldsUnderARightChecksumAreRefused) {
+  Detector detector = passed(Culling::view_line);
+  const Bytes whole = bytes_of(full_state()), before = bytes_of(detector.state());
+  std::size_t refused = 0, read_back = 0;
+  for (std::size_t i = 24; i + 8 < whole.size(); ++i) {
+    for (const std::uint8_t value : {0, 1, 2, 127, 255}) {
+      Bytes changed = whole;
+      changed[i] = value;
+      seal(changed);
+      auto read = read_state(changed);
+      if (!read) {
+        EXPECT_EQ(read.error().error, InputError::damaged_state);
+        ++refused;
+      } else if (const auto problem = detector.restore(read.value())) {
+        EXPECT_TRUE(problem->error == InputError::damaged_state ||
+                    problem->error == InputError::foreign_state);
+        EXPECT_EQ(bytes_of(detector.state()), before) << "nothing has changed";
+        ++refused;
+      } else {
+        // Another state that a detector of this mesh may have: it is in use without harm.
+        ++read_back;
+        const Positions in = tests::octahedron_positions(2);
+        EXPECT_EQ(detector.step(in, tip_at(1)).answer, Answer::free);
+        ASSERT_FALSE(detector.restore(read_state(before).value()));
+      }
+    }
+  }
+  EXPECT_GT(refused, 100u);
+  EXPECT_GT(read_back, 100u);
+  for (const std::uint64_t count : {std::uint64_t{8}, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
+    Bytes changed = whole;
+    set_number(changed, 34, count);  // the number of positions
+    seal(changed);
+    EXPECT_FALSE(read_state(changed));
+  }
+  // A version to come.
+  Bytes later = whole;
+  later[8] = 2;
+  seal(later);
+  EXPECT_EQ(read_state(later).error().error, InputError::other_state_version);
+}
+
+// What does not fit the mesh although its sizes are right.
+TEST(StateBytes, WhatContradictsTheMeshIsRefused) {
+  Detector detector = passed(Culling::view_line);
+  const SavedState right = full_state();
+  ASSERT_FALSE(detector.restore(right));
+  const auto expect_damaged = [&](const char* what, auto change) {
+    SavedState wrong = right;
+    change(wrong);
+    const auto problem = detector.restore(wrong);
+    ASSERT_TRUE(problem) << what;
+    EXPECT_EQ(problem->error, InputError::damaged_state) << what;
+    EXPECT_EQ(bytes_of(detector.state()), bytes_of(right)) << what;
+  };
+  const double nan = std::nan("");
+  expect_damaged("positions", [](auto& s) { s.committed->positions.conservativeResize(5, 3); });
+  expect_damaged("a position", [&](auto& s) { s.committed->positions(2, 1) = nan; });
+  expect_damaged("clean", [](auto& s) { s.committed->clean.pop_back(); });
+  expect_damaged("lost", [](auto& s) { s.committed->lost.push_back(0); });
+  expect_damaged("inside", [](auto& s) { s.committed->inside.clear(); });
+  expect_damaged("a pair below", [](auto& s) { s.committed->met[0].a = -1; });
+  expect_damaged("a pair above", [](auto& s) { s.committed->met[1].b = 7; });
+  expect_damaged("a pair turned", [](auto& s) { s.committed->met[1] = {5, 2}; });
+  expect_damaged("an apex", [&](auto& s) { s.apex_rules[0].height = nan; });
+  expect_damaged("a vertex", [](auto& s) { s.anchors[0].ends[1].vertices[0] = 6; });
+  expect_damaged("a weight", [&](auto& s) { s.anchors[0].ends[0].weights[0] = nan; });
+  expect_damaged("weights", [](auto& s) { s.anchors[0].ends[0].weights.pop_back(); });
+  expect_damaged("chosen anchors", [](auto& s) {
+    s.committed->choice.anchors = std::make_shared<const std::vector<ViewAnchor>>();
+  });
+}
+
+}  // namespace
+}  // namespace assay::detector

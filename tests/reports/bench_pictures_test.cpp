@@ -1,0 +1,91 @@
+// Pictures of the benches: what the scripts hold, that gnuplot draws them, what is said where it is
+// not installed.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "reports/bench/pictures/gnuplot.h"
+#include "reports/bench/pictures/pictures.h"
+
+namespace assay::reports {
+namespace {
+
+using detector::Arithmetic;
+using detector::Culling;
+
+std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t n = 0;
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+  return n;
+}
+
+Estimate about(double value) { return {value, 0.9 * value, 1.1 * value, {value}}; }
+
+BenchReport some_report() {
+  BenchReport report;
+  VariantSummary exact{reference_variant, about(1), {}, {0, 0, 0.01, true}, {0, 0, 0.01, true}};
+  exact.errors.judged = 321;
+  report.variants.push_back(exact);
+  report.variants.push_back({{Arithmetic::double_precision, Culling::view_auto, {}},
+                             about(0.5),
+                             {},
+                             {0.125, 0.1, 0.15, true},
+                             {0.0625, 0.05, 0.07, true}});
+  report.scatter = {{"bend", "view-point", 0.25, 2, 1.9, 2.1, "bvh"},
+                    {"bend", "view-point", 0.75, 0.5, 0.4, 0.6, "bvh"},
+                    {"bend", "view-line", 0.5, 0.7, 0.6, 0.8, "normal-cone"}};
+  report.growth = {{"free step", 1'000, about(0.1)}, {"free step", 100'000, about(12)}};
+  return report;
+}
+
+TEST(PictureScripts, HoldEveryPointWithItsIntervals) {
+  const auto report = some_report();
+  const auto errors = speed_error_picture(report);
+  EXPECT_NE(errors.find("0.5 0.45 0.55 12.5 10 15\n"), std::string::npos) << errors;
+  EXPECT_NE(errors.find("0.5 0.45 0.55 6.25 5 7"), std::string::npos);
+  EXPECT_NE(errors.find("% of 321 steps"), std::string::npos);
+  EXPECT_EQ(count(errors, "Pareto line"), 1u);
+  const auto shares = share_picture(report);
+  EXPECT_NE(shares.find("25 2 1.9 2.1\n75 0.5 0.4 0.6\n"), std::string::npos) << shares;
+  // The line through log 2 at 25 % and log 1/2 at 75 % crosses 0 at 50 %.
+  EXPECT_NE(shares.find("view-point 50 %, view-line none"), std::string::npos);
+  const auto growth = growth_picture(report);
+  EXPECT_NE(growth.find("1000 0.1 0.09"), std::string::npos) << growth;
+}
+
+TEST(PictureScripts, WordsAreQuoted) {
+  EXPECT_EQ(quoted_for_gnuplot("a \"b\" \\ c"), "\"a \\\"b\\\" \\\\ c\"");
+}
+
+TEST(Gnuplot, DrawsEveryPicture) {
+  if (const auto problem = cannot_draw(); !problem.empty()) GTEST_SKIP() << problem;
+  const auto report = some_report();
+  for (const auto picture : {speed_error_picture, share_picture, growth_picture}) {
+    const auto drawing = draw(picture(report));
+    EXPECT_EQ(drawing.problem, "");
+    EXPECT_NE(drawing.svg.find("</svg>"), std::string::npos);
+    EXPECT_EQ(count(drawing.svg, "nan"), 0u);
+    EXPECT_EQ(drawing.svg, draw(picture(report)).svg);  // the same figures, the same bytes
+  }
+}
+
+TEST(Gnuplot, SaysWhatIsWrongWithAScript) {
+  if (const auto problem = cannot_draw(); !problem.empty()) GTEST_SKIP() << problem;
+  const auto drawing = draw("plot nonsense(x)\n");
+  EXPECT_EQ(drawing.svg, "");
+  EXPECT_NE(drawing.problem.find("gnuplot drew nothing"), std::string::npos);
+  EXPECT_EQ(count(drawing.problem, "\n"), 0u);
+}
+
+TEST(Gnuplot, NamesThePackageWhereItIsNotInstalled) {
+  const char* path = std::getenv("PATH");
+  const std::string before = path ? path : "";
+  setenv("PATH", "/nowhere", 1);
+  const auto problem = cannot_draw();
+  setenv("PATH", before.c_str(), 1);
+  EXPECT_NE(problem.find("install gnuplot-nox"), std::string::npos) << problem;
+  EXPECT_EQ(count(problem, "\n"), 0u);
+}
+
+}  // namespace
+}  // namespace assay::reports

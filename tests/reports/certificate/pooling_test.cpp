@@ -1,0 +1,55 @@
+// Nights are pooled under equal digests only.
+#include "reports/certificate/pooling.h"
+
+#include <gtest/gtest.h>
+
+#include "reports/statistics.h"
+
+namespace assay::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json night(std::uint64_t seed, std::uint64_t n, std::uint64_t holds) {
+  return {{"detector", {{"name", "d"}}},
+          {"digests", {{"program", "p"}, {"worker", "w"}, {"plugin", nullptr}, {"generator", "g"}}},
+          {"campaign", {{"name", "nightly"}, {"seed", seed}}},
+          {"confidence", {{"bounds", 8}, {"risk_of_each", risk_of_each(8)}}},
+          {"strata",
+           {{{"family", "broken"},
+             {"bounds", {{{"configuration", "bvh"}, {"n", n}, {"holds", holds}}}}}}}};
+}
+
+TEST(Pooling, NightsOfOneDetectorAddUp) {
+  std::string problem;
+  const auto pooled = pool({night(1, 100, 100), night(2, 300, 299)}, problem);
+  ASSERT_TRUE(pooled) << problem;
+  ASSERT_EQ(pooled->size(), 1u);
+  const auto& row = (*pooled)[0];
+  EXPECT_EQ(row["family"], "broken");
+  EXPECT_EQ(row["configuration"], "bvh");
+  EXPECT_EQ(row["n"], 400);
+  EXPECT_EQ(row["holds"], 399);
+  EXPECT_EQ(row["bound"], upper_bound(1, 400, risk_of_each(8)));
+}
+
+TEST(Pooling, OfDifferentDigestsIsRefused) {
+  for (const char* place :
+       {"/digests/program", "/digests/worker", "/digests/plugin", "/digests/generator",
+        "/detector/name", "/confidence/bounds", "/strata/0/family"}) {
+    Json other = night(2, 100, 100);
+    other[Json::json_pointer(place)] = "other";
+    std::string problem;
+    EXPECT_FALSE(pool({night(1, 100, 100), other}, problem)) << place;
+    EXPECT_NE(problem.find("cannot be pooled: the"), std::string::npos) << problem;
+  }
+}
+
+TEST(Pooling, NoTrialCountsTwice) {
+  std::string problem;
+  EXPECT_FALSE(pool({night(1, 100, 100), night(2, 100, 100), night(1, 50, 50)}, problem));
+  EXPECT_NE(problem.find("seed 1 is there twice"), std::string::npos) << problem;
+}
+
+}  // namespace
+}  // namespace assay::reports

@@ -1,0 +1,187 @@
+// `assay certify` and `assay verify` through the program: verdicts, and every tampering seen.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reports/certificate/verify.h"
+#include "tests/reports/json_schema.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using reports::verify_certificate;
+
+class Certify : public testing::Test {
+ protected:
+  const Scratch scratch;
+  const std::string out = scratch / "out", certificate = out + "/certificate.json";
+  std::string plan = scratch.write(
+      "plan.json", plan_text(12, R"(, "shrink_share": 0.05, "policy": {"self_test_queries": 20})"));
+
+  Outcome certify(const std::string& more = "") const {
+    return run_assay("certify --campaign " + plan + " --out " + out + " " + more);
+  }
+  Json read() const { return Json::parse(read_text(certificate)); }
+  static void write(const std::string& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
+  }
+};
+
+void expect_schema(const Json& statement) {
+  const auto schema =
+      Json::parse(read_text(ASSAY_SOURCE_DIR "/reports/certificate/certificate.schema.json"));
+  std::vector<std::string> wrong;
+  check_schema(schema, statement, "", wrong);
+  for (const auto& line : wrong) ADD_FAILURE() << line;
+}
+
+// Another value of the same kind.
+Json changed(const Json& value) {
+  if (value.is_boolean()) return !value.get<bool>();
+  if (value.is_number_float()) return value.get<double>() * 0.5 + 0.25;
+  if (value.is_number()) return value.get<std::int64_t>() + 1;
+  if (value.is_string()) return value.get<std::string>() + "x";
+  return "x";  // null, and what is empty
+}
+
+void expect_tampering_is_seen(const std::string& file, const std::string& certificate) {
+  const std::string whole = read_text(file);
+  ASSERT_FALSE(whole.empty()) << file;
+  // First, last and some between; of a store all kinds of pages.
+  constexpr std::size_t places = 12;
+  for (std::size_t i = 0; i <= places; ++i) {
+    std::string bytes = whole;
+    const std::size_t at = (whole.size() - 1) * i / places;
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
+    EXPECT_FALSE(verify_certificate(certificate).differences.empty()) << file << " byte " << at;
+  }
+  std::filesystem::remove(file);
+  EXPECT_FALSE(verify_certificate(certificate).differences.empty()) << file << " removed";
+  std::ofstream(file, std::ios::binary | std::ios::trunc) << whole;
+}
+
+TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
+  const auto made = certify();
+  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  for (const std::string word : {"curated cases      view-auto", "speed (a ratio)",
+                                 "self-test of the oracle: 0 contradictions",
+                                 "verdict: certified in ", "next: assay verify "}) {
+    EXPECT_TRUE(contains(made.out, word)) << word << "\n" << made.out;
+  }
+  const Json statement = read();
+  EXPECT_EQ(statement["_type"], "https://in-toto.io/Statement/v1");
+  EXPECT_EQ(statement["predicateType"], "urn:assay:certificate:1");
+  EXPECT_EQ(statement["subject"][0]["digest"]["sha256"].get<std::string>().size(), 64u);
+  const Json& p = statement["predicate"];
+  EXPECT_EQ(p["verdict"], "certified");
+  EXPECT_EQ(p["strata"][0]["trials"], 12);
+  EXPECT_EQ(p["strata"][0]["distinct"], 12);
+  EXPECT_EQ(p["strata"][0]["discards"], 0);
+  EXPECT_EQ(p["times"]["speed"].size(), 3u);
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: certified"));
+  EXPECT_TRUE(contains(read_text(out + "/junit.xml"), "failures=\"0\""));
+  const auto verified = run_assay("verify " + certificate);
+  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+  EXPECT_TRUE(contains(verified.out, "verified: tiny of ")) << verified.out;
+
+  expect_schema(statement);
+
+  // Every leaf in turn.
+  const std::string whole = read_text(certificate);
+  const Json leaves = statement.flatten();
+  EXPECT_GT(leaves.size(), 300u);
+  for (const auto& [place, value] : leaves.items()) {
+    Json tampered = statement;
+    tampered[Json::json_pointer(place)] = changed(value);
+    write(certificate, tampered.dump(1) + "\n");
+    const auto lines = verify_certificate(certificate).differences;
+    ASSERT_FALSE(lines.empty()) << place;
+    EXPECT_EQ(lines[0].rfind(place, 0), 0u) << place << ": " << lines[0];
+  }
+  // A field too many, one too few, another layout, no JSON at all.
+  Json more = statement, less = statement;
+  more["predicate"]["more"] = 1;
+  less["predicate"].erase("digests");
+  for (const std::string& text : {more.dump(1) + "\n", less.dump(1) + "\n", statement.dump(),
+                                  std::string("{"), std::string()}) {
+    write(certificate, text);
+    EXPECT_FALSE(verify_certificate(certificate).differences.empty());
+  }
+  write(certificate, changed(Json(whole)));
+  const auto refused = run_assay("verify " + certificate);
+  EXPECT_EQ(refused.exit_code, 1) << refused.out;
+  EXPECT_TRUE(contains(refused.out, "NOT VERIFIED: ")) << refused.out;
+  write(certificate, whole);
+
+  // Every file in turn.
+  for (const std::string file : {"/certificate.json", "/campaign.json", "/shard-1-of-1.sqlite",
+                                 "/checks.sqlite", "/junit.xml", "/summary.md"}) {
+    expect_tampering_is_seen(out + file, certificate);
+  }
+  EXPECT_EQ(run_assay("verify " + certificate).exit_code, 0);
+
+  // The same again: the same but for times.
+  const auto again = certify();
+  ASSERT_EQ(again.exit_code, 0) << again.out << again.err;
+  Json first = statement, second = read();
+  EXPECT_NE(first, second);
+  for (Json* s : {&first, &second}) (*s)["predicate"].erase("times");
+  EXPECT_EQ(first, second);
+}
+
+TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
+  const auto made = certify("--detector " + plugin("always_free"));
+  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "verdict: defect in ")) << made.out;
+  const Json statement = read(), &p = statement["predicate"];
+  expect_schema(statement);
+  EXPECT_EQ(p["verdict"], "defect");
+  EXPECT_EQ(p["failed_gate"], "corpus");
+  EXPECT_EQ(p["gates"][3]["holds"], false);
+  ASSERT_FALSE(p["failures"].empty());
+  const Json& failure = p["failures"][0];
+  EXPECT_EQ(failure["claim"], "free-sound");
+  EXPECT_LE(failure["after"]["triangles"].get<int>(), failure["before"]["triangles"].get<int>());
+  const auto replay = failure["replay"].get<std::string>();
+  ASSERT_TRUE(replay.starts_with("assay replay " + out)) << replay;
+  EXPECT_EQ(run_assay(replay.substr(6)).exit_code, 1) << replay;
+  EXPECT_TRUE(contains(read_text(out + "/junit.xml"), "replay: " + replay));
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"), replay));
+  const auto verified = run_assay("verify " + certificate);
+  EXPECT_EQ(verified.exit_code, 1) << verified.out;
+  EXPECT_TRUE(contains(verified.out, "verdict defect\n")) << verified.out;
+  expect_tampering_is_seen(out + "/" + failure["file"].get<std::string>(), certificate);
+}
+
+TEST_F(Certify, NoCertificateWhileAShardIsAbsent) {
+  const auto run = [&](const std::string& shard) {
+    return run_assay("run --campaign " + plan + " --shard " + shard + " --out " + out).exit_code;
+  };
+  ASSERT_EQ(run("1/2"), 0);
+  const auto half = certify();
+  EXPECT_EQ(half.exit_code, 3) << half.out << half.err;
+  EXPECT_TRUE(contains(half.out, "shard 2/2 is absent")) << half.out;
+  EXPECT_TRUE(contains(half.out, "verdict: incomplete")) << half.out;
+  ASSERT_EQ(run("2/2"), 0);
+  const auto whole = certify();
+  EXPECT_EQ(whole.exit_code, 0) << whole.out << whole.err;
+  EXPECT_EQ(read()["predicate"]["campaign"]["shards"], Json::array({"1/2", "2/2"}));
+  EXPECT_EQ(run_assay("verify " + certificate).exit_code, 0);
+  // Of another seed.
+  expect_refused(certify("--seed 2"), "holds another run");
+}
+
+TEST_F(Certify, BadInputIsOneLine) {
+  expect_refused(run_assay("certify"), "--out");
+  expect_refused(certify("--frobnicate"), "frobnicate");
+  expect_refused(certify("--detector " + plan), "not a detector plug-in");
+  expect_refused(run_assay("certify --campaign nowhere --out " + out), "nowhere");
+  expect_refused(run_assay("verify " + scratch / "none.json"), "no such file");
+  expect_refused(run_assay("verify"), "certificate");
+}
+
+}  // namespace
+}  // namespace assay::tests

@@ -1,0 +1,82 @@
+// The part of JSON Schema (2020-12) that this project's schema files use.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace assay::tests {
+
+using SchemaJson = nlohmann::ordered_json;
+
+inline bool is_of_type(const SchemaJson& value, const std::string& type) {
+  if (type == "string") return value.is_string();
+  if (type == "boolean") return value.is_boolean();
+  if (type == "integer") return value.is_number_integer();
+  if (type == "number") return value.is_number();
+  if (type == "object") return value.is_object();
+  if (type == "array") return value.is_array();
+  return type == "null" && value.is_null();
+}
+
+// One line for each place where `value` is not what `schema` says.
+inline void check_schema(const SchemaJson& schema, const SchemaJson& value,
+                         const std::string& place, std::vector<std::string>& wrong) {
+  static const std::set<std::string> known = {"$schema",
+                                              "$id",
+                                              "title",
+                                              "const",
+                                              "enum",
+                                              "type",
+                                              "pattern",
+                                              "minimum",
+                                              "maximum",
+                                              "properties",
+                                              "items",
+                                              "required",
+                                              "additionalProperties"};
+  const auto fail = [&](const std::string& why) { wrong.push_back(place + ": " + why); };
+  for (const auto& [key, unused] : schema.items()) {
+    if (!known.contains(key)) fail("keyword " + key + " is checked by nobody");
+  }
+  if (schema.contains("const") && value != schema["const"]) fail("another constant");
+  if (schema.contains("enum") &&
+      std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
+    fail("none of the words");
+  if (schema.contains("type")) {
+    const auto types =
+        schema["type"].is_array() ? schema["type"] : SchemaJson::array({schema["type"]});
+    if (std::none_of(types.begin(), types.end(),
+                     [&](const SchemaJson& t) { return is_of_type(value, t); }))
+      return fail("of another type: " + value.dump());
+  }
+  if (value.is_string() && schema.contains("pattern") &&
+      !std::regex_search(value.get<std::string>(), std::regex(schema["pattern"])))
+    fail("of another form");
+  if (value.is_number() && schema.contains("minimum") && value < schema["minimum"])
+    fail("too small");
+  if (value.is_number() && schema.contains("maximum") && value > schema["maximum"])
+    fail("too large");
+  if (value.is_array() && schema.contains("items")) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      check_schema(schema["items"], value[i], place + "/" + std::to_string(i), wrong);
+  }
+  if (!value.is_object()) return;
+  for (const auto& key : schema.value("required", SchemaJson::array())) {
+    if (!value.contains(key.get<std::string>())) fail("no field " + key.get<std::string>());
+  }
+  const auto properties = schema.value("properties", SchemaJson::object());
+  for (const auto& [key, field] : value.items()) {
+    if (properties.contains(key)) {
+      check_schema(properties[key], field, place + "/" + key, wrong);
+    } else if (!schema.value("additionalProperties", true)) {
+      fail("field " + key + " is not in the schema");
+    }
+  }
+}
+
+}  // namespace assay::tests
