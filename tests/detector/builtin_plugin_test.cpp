@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "detector/detector.h"
-#include "detector/plugin/builtin.h"
+#include "detector/plugin/assay_builtin_detector.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "corpus/case_file.h"
+#include "properties/campaign/binding.h"
 #include "properties/campaign/campaign_facts.h"
 #include "properties/campaign/store.h"
 #include "properties/worker/worker_process.h"
