@@ -22,7 +22,7 @@ constexpr Suite suites[] = {{"elementary", elementary_suite, nullptr},
                             {"view", view_suite, nullptr},
                             {"growth", growth_suite, growth_picture},
                             {"claims", claims_suite, share_picture},
-                            {"stability", stability_suite, nullptr},
+                            {"stability", stability_suite, heat_picture},
                             {"speed-error", speed_error_suite, speed_error_picture},
                             {"harness", harness_suite, nullptr}};
 
@@ -37,7 +37,8 @@ const Suite* suite_named(std::string_view name) {
 std::string no_picture(const BenchRequest& request, const Suite& suite) {
   if (request.svg_file.empty()) return {};
   if (!suite.picture) {
-    return "suite " + request.suite + " has no picture; growth, claims and speed-error have one";
+    return "suite " + request.suite +
+           " has no picture; growth, claims, stability and speed-error have one";
   }
   return cannot_draw();
 }

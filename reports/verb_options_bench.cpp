@@ -28,8 +28,9 @@ void add_bench(CLI::App& app, BenchRequest& request) {
                    "what is not there say so");
   verb->add_option("--json", request.json_file, "Write all figures here (assay-bench/1)");
   verb->add_option("--csv", request.csv_file, "Write the raw samples here");
-  verb->add_option("--svg", request.svg_file,
-                   "Draw the suite's picture here (growth, claims, speed-error; needs gnuplot)");
+  verb->add_option(
+      "--svg", request.svg_file,
+      "Draw the suite's picture here (growth, claims, stability, speed-error; needs gnuplot)");
 }
 
 }  // namespace assay::reports

@@ -27,9 +27,6 @@ void add_spike(GridMesh& mesh, Variation& vary, const GridVertex& tip, std::int6
     case Side::all_around:
       top = {GridPoint{-far(), -far()}, GridPoint{far(), -far()}, GridPoint{0, far()}};
       break;
-    case Side::positive_x:
-      top = {GridPoint{far(), -far()}, GridPoint{far(), far()}, GridPoint{reach / 4, 0}};
-      break;
     case Side::positive_y:
       top = {GridPoint{-far(), far()}, GridPoint{far(), far()}, GridPoint{0, reach / 4}};
       break;

@@ -23,7 +23,7 @@ std::array<GridPoint, 3> wide_face(Variation& vary, std::int64_t reach);
 void add_block(GridMesh& mesh, Variation& vary, std::int64_t reach, std::int64_t depth);
 
 // Where a spike or edge may reach beside its tip.
-enum class Side { all_around, positive_x, positive_y, negative_y };
+enum class Side { all_around, positive_y, negative_y };
 
 // A tetrahedron carried by its tip: the other corners are up to `reach` away along x and y, to this
 // side only, and `height` to 3 `height` above.

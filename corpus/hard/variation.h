@@ -1,5 +1,6 @@
 // The free choices of a hard case, from its family, strength and variant alone: integers only, the
-// same on every platform.
+// same on every platform as long as no two draws are arguments or operands of one expression, which
+// have no order (items of a braced list have).
 #pragma once
 
 #include <cstdint>

@@ -85,11 +85,15 @@ Case line_ends(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), ends[] = {gap - 1, gap, gap + 1};
   const std::int64_t c = ends[kind % 3];
   const auto far = [&] { return vary.between(size / 4, size / 2); };
-  const auto point = [&](std::int64_t x, std::int64_t y) { return GridPoint{x, y, gap - x}; };
+  const auto in_plane = [&](GridPoint p) {
+    p.z = gap - p.x;
+    return p;
+  };
   const std::int64_t y = vary.between(-size / 16, size / 16);
-  std::array<GridVertex, 3> corners = {GridVertex{point(-vary.between(1, gap), y), point(c, y)},
-                                       at_rest(point(-far(), size / 16 + far())),
-                                       at_rest(point(-far(), -size / 16 - far()))};
+  std::array<GridVertex, 3> corners = {
+      GridVertex{in_plane({-vary.between(1, gap), y}), in_plane({c, y})},
+      at_rest(in_plane({-far(), size / 16 + far()})),
+      at_rest(in_plane({-far(), -size / 16 - far()}))};
   const bool mirrored = kind >= 3;
   if (mirrored) {
     for (auto& corner : corners) {

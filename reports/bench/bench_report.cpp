@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/bench/error_output.h"
+#include "reports/bench/stability_output.h"
 #include "reports/commands.h"
 
 namespace assay::reports {
@@ -78,37 +79,13 @@ std::string text_of(const BenchReport& report) {
                         measured, row.wanted ? text_of(*row.wanted) : "-", name_of(row.outcome()),
                         row.note.empty() ? "" : "  " + row.note);
   }
-  if (!report.variants.empty()) text += fmt::format("\n{}\n", text_of(std::span(report.variants)));
+  if (!report.variants.empty()) {
+    text += fmt::format("\n{}\n{}\n", families_text(report.families),
+                        text_of(std::span(report.variants)));
+  }
   for (const auto& line : report.wrong_answers) text += "WRONG ANSWER: " + line + "\n";
   return text;
 }
-
-namespace {
-
-Json heat_json(const std::vector<StabilityCell>& heat) {
-  Json cells = Json::array();
-  for (const auto& c : heat) {
-    cells.push_back({{"family", c.family},
-                     {"arithmetic", c.arithmetic},
-                     {"strength", c.strength},
-                     {"exponent", c.touches ? Json() : Json(c.exponent)},
-                     {"knob", c.knob},
-                     {"cases", c.cases},
-                     {"right", c.right},
-                     {"share_right", c.share_right()},
-                     {"exactly_right", c.exactly_right},
-                     {"missed", c.missed},
-                     {"late", c.late},
-                     {"early", c.early},
-                     {"spurious", c.spurious},
-                     {"wrong_signs", c.wrong_signs},
-                     {"time_errors", c.time_errors},
-                     {"time_errors_ulps", c.time_errors_ulps}});
-  }
-  return cells;
-}
-
-}  // namespace
 
 Json to_json(const BenchReport& report) {
   Json rows = Json::array(), scatter = Json::array();
@@ -140,7 +117,7 @@ Json to_json(const BenchReport& report) {
           {"suite", report.suite},
           {"rows", rows},
           {"scatter", scatter},
-          {"heat", heat_json(report.heat)},
+          {"heat", to_json(std::span(report.heat))},
           {"variants", to_json(std::span(report.variants))},
           {"families", to_json(std::span(report.families))},
           {"wrong_answers", report.wrong_answers}};
@@ -160,6 +137,7 @@ std::string quoted(const std::string& words) {
 
 std::string csv_of(const BenchReport& report) {
   if (!report.steps.empty()) return csv_of(std::span(report.steps));
+  if (!report.heat.empty()) return csv_of(std::span(report.heat));
   std::string text = "suite,what,unit,sample,value\n";
   for (const auto& row : report.rows) {
     if (!row.measured) continue;

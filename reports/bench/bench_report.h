@@ -76,7 +76,8 @@ std::string text_of(const Wanted& wanted);
 // A table, a line a row.
 std::string text_of(const BenchReport& report);
 nlohmann::ordered_json to_json(const BenchReport& report);
-// A line a raw sample; of suite speed-error a line a step and variant (error_output.h).
+// A line a raw sample; of suite speed-error a line a step and variant (error_output.h), of suite
+// stability a line a cell (stability_output.h).
 std::string csv_of(const BenchReport& report);
 
 }  // namespace assay::reports

@@ -35,6 +35,9 @@ void count_traversals_of_free_steps(const BenchSettings& settings, BenchReport& 
 void time_whole_steps(const std::vector<NamedStep>& steps, bool has_rod_twist,
                       const BenchSettings& settings, BenchReport& report);
 
+// thick-cloth and codim-ipc-kick: candidates and times of view-auto beside those of bvh.
+void compare_on_unclosed_data(const BenchSettings& settings, BenchReport& report);
+
 // All scenes and real sequences, step by step: the scatter of time over that of bvh and of
 // normal-cone against the share of V+, the break-even shares, view-auto's ratios by sequence.
 void measure_break_even(const BenchSettings& settings, Progress& progress, BenchReport& report);

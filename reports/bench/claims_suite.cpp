@@ -57,6 +57,8 @@ BenchReport claims_suite(const BenchSettings& settings, Progress& progress) {
   measure_as_printed(settings, report);
   progress.phase("marking");
   measure_marking(settings, report);
+  progress.phase("unclosed meshes");
+  compare_on_unclosed_data(settings, report);
   progress.phase("free steps");
   count_traversals_of_free_steps(settings, report);
   progress.phase("whole steps");

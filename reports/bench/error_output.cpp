@@ -65,6 +65,23 @@ Json to_json(const ShareOfSteps& share) {
 
 }  // namespace
 
+std::string families_text(std::span<const FamilySummary> families) {
+  std::vector<std::pair<std::string, int>> kinds;
+  std::size_t count = 0, steps = 0;
+  for (const auto& family : families) {
+    if (family.variant != reference_variant) continue;
+    ++count;
+    steps += family.errors.steps;
+    if (kinds.empty() || kinds.back().first != family.kind) kinds.emplace_back(family.kind, 0);
+    ++kinds.back().second;
+  }
+  std::string list;
+  for (const auto& [kind, number] : kinds) {
+    list += fmt::format("{}{} {}", list.empty() ? "" : ", ", number, kind);
+  }
+  return fmt::format("{} families ({}), {} steps", count, list, steps);
+}
+
 std::string text_of(std::span<const VariantSummary> variants) {
   constexpr const char* line = "{:<11}{:<12}{:<6}{:<18} {:>9}{:>9}{:>7}{:>7}{:>8}{:>9}  {:<25}{}\n";
   std::string text =

@@ -9,6 +9,9 @@
 
 namespace assay::reports {
 
+// "26 families (14 scene, 8 generated, 4 real), 971 steps": what the table below it is of.
+std::string families_text(std::span<const FamilySummary> families);
+
 // A line a variant: time over the reference's; unsafe and alarming steps, a star where the variant
 // is on the Pareto line of that error; answers and pairs that are wrong; first times, as steps:
 // median, largest in ulps (largest as a share of the step).

@@ -135,51 +135,84 @@ void add_survival_rows(std::span<const StabilitySubject> subjects, const Surviva
   }
 }
 
+// What is said of all families together.
+class AllFamilies {
+ public:
+  explicit AllFamilies(std::span<const StabilitySubject> subjects)
+      : subjects_(subjects),
+        survivals_(subjects.size(), std::vector<Survival>(case_changes().size())),
+        never_wrong_(subjects.size()) {}
+
+  void add(const corpus::HardFamily& family, std::vector<FamilyStability> found) {
+    add_up(found, survivals_);
+    for (std::size_t i = 0; i < subjects_.size(); ++i) {
+      if (found[i].breaks_at()) continue;
+      ++never_wrong_[i].families;
+      never_wrong_[i].names.append(never_wrong_[i].names.empty() ? "" : ", ").append(family.name);
+    }
+    found_.emplace_back(family.name, std::move(found));
+  }
+
+  void add_rows(BenchReport& report) const {
+    for (std::size_t i = 0; i < subjects_.size(); ++i) {
+      report.add("families in which " + subjects_[i].name + " is never wrong", "",
+                 exactly(never_wrong_[i].families), {},
+                 fmt::format("of {}: {}", found_.size(), never_wrong_[i].names));
+    }
+    add_survival_rows(subjects_, survivals_, report);
+    for (const auto& [name, found] : found_) {
+      for (std::size_t i = 0; i < subjects_.size(); ++i) {
+        const auto arithmetic = subjects_[i].arithmetic;
+        if (arithmetic == Arithmetic::exact || arithmetic == Arithmetic::bounded) {
+          add_rung_rows(name + ", " + subjects_[i].name, found[i], report);
+        }
+      }
+    }
+  }
+
+ private:
+  std::span<const StabilitySubject> subjects_;
+  Survivals survivals_;
+  struct NeverWrong {
+    int families = 0;
+    std::string names;
+  };
+  std::vector<NeverWrong> never_wrong_;  // by subject
+  std::vector<std::pair<std::string, std::vector<FamilyStability>>> found_;
+};
+
+StabilityPlan plan_for(const corpus::HardFamily& family, const BenchSettings& settings) {
+  constexpr int steps_when_small = 4;
+  StabilityPlan plan;
+  if (settings.scale >= 1) return plan;
+  plan.rounds = 1;
+  plan.touching_rounds = 2;
+  plan.most_triangles = settings.triangles(plan.most_triangles);
+  plan.strength_step = std::max(1, family.strongest / steps_when_small);
+  return plan;
+}
+
 }  // namespace
 
 BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          std::span<const StabilitySubject> subjects, const BenchSettings& settings,
                          Progress& progress) {
-  constexpr int full_rounds = 2, touching_rounds = 10, steps_when_small = 4;
   BenchReport report;
   report.suite = "stability";
-  Survivals survivals(subjects.size(), std::vector<Survival>(case_changes().size()));
-  std::vector<std::string> never_wrong(subjects.size());
-  std::vector<int> families_never_wrong(subjects.size(), 0);
-  std::vector<std::pair<std::string, FamilyStability>> rungs;
+  AllFamilies all(subjects);
   for (const auto& family : families) {
     progress.phase(std::string(family.name));
-    StabilityPlan plan;
-    plan.rounds = settings.scale < 1 ? 1 : full_rounds;
-    plan.touching_rounds = settings.scale < 1 ? 2 : touching_rounds;
-    plan.most_triangles = settings.triangles(plan.most_triangles);
-    if (settings.scale < 1) plan.strength_step = std::max(1, family.strongest / steps_when_small);
     std::vector<std::string> disagreements;
-    const auto found =
-        measure_stability(family, subjects, plan, disagreements, [&] { progress.tick(); });
+    auto found = measure_stability(family, subjects, plan_for(family, settings), disagreements,
+                                   [&] { progress.tick(); });
     for (const auto& id : disagreements) {
       report.wrong_answers.push_back(id +
                                      ": the oracle finds another answer than it was built for");
     }
     add_family_rows(family, subjects, found, report);
-    add_up(found, survivals);
-    for (std::size_t i = 0; i < subjects.size(); ++i) {
-      if (subjects[i].arithmetic == Arithmetic::exact ||
-          subjects[i].arithmetic == Arithmetic::bounded) {
-        rungs.emplace_back(fmt::format("{}, {}", family.name, subjects[i].name), found[i]);
-      }
-      if (found[i].breaks_at()) continue;
-      ++families_never_wrong[i];
-      never_wrong[i] += fmt::format("{}{}", never_wrong[i].empty() ? "" : ", ", family.name);
-    }
+    all.add(family, std::move(found));
   }
-  for (std::size_t i = 0; i < subjects.size(); ++i) {
-    report.add("families in which " + subjects[i].name + " is never wrong", "",
-               exactly(families_never_wrong[i]), {},
-               fmt::format("of {}: {}", families.size(), never_wrong[i]));
-  }
-  add_survival_rows(subjects, survivals, report);
-  for (const auto& [what, found] : rungs) add_rung_rows(what, found, report);
+  all.add_rows(report);
   return report;
 }
 

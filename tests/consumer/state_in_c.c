@@ -5,15 +5,18 @@
 
 #include "detector/plugin/assay_builtin_detector.h"
 
-enum { vertices = 4, steps = 40 };
+enum { vertices = 6, triangle_count = 7, steps = 40 };
 
-static const int32_t triangles[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+/* An octahedron without one of its triangles. */
+static const int32_t triangles[] = {2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
 
-/* A tetrahedron whose top goes up and down, each time a little lower; at last through the base. */
+/* Its lowest vertex goes out through the hole, stays there for a step and comes back, again and
+ * again, each time a little further. */
 static void place(double* x, int frame) {
-  static const double rest[3 * vertices] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 2};
+  static const double rest[3 * vertices] = {2, 0,  0, -2, 0, 0, 0, 2, 0,
+                                            0, -2, 0, 0,  0, 2, 0, 0, -2};
   memcpy(x, rest, sizeof rest);
-  x[11] = frame % 2 ? 2.0 : 2.0 - frame / 16.0;
+  if (frame % 4 == 1 || frame % 4 == 2) x[15] = x[16] = x[17] = 1.5 + frame / 64.0;
 }
 
 static assay_handle* make(void) {
@@ -23,7 +26,8 @@ static assay_handle* make(void) {
   double x[3 * vertices];
   options.culling = ASSAY_CULLING_VIEW_POINT;
   place(x, 0);
-  if (assay_builtin_create(triangles, 4, x, vertices, &options, &handle, &error) != ASSAY_OK) {
+  if (assay_builtin_create(triangles, triangle_count, x, vertices, &options, &handle, &error) !=
+      ASSAY_OK) {
     printf("%s: %s\n", assay_builtin_error_name(error.code), error.message);
     exit(1);
   }
@@ -50,11 +54,10 @@ static void play(assay_handle* handle, int begin, int end, int32_t* answers, uin
 int main(void) {
   int32_t answers[steps], again[steps];
   uint64_t dirty[steps], dirty_again[steps], size = 0, written = 0;
-  const int half = 35; /* the top has been through the base: some triangles are dirty */
+  const int half = 37; /* the vertex is outside: some triangles are dirty */
   assay_builtin_error error;
   assay_handle *first = make(), *second = make();
   unsigned char* bytes;
-  int collisions = 0;
 
   play(first, 0, half, answers, dirty);
   if (assay_builtin_save(first, NULL, 0, &size, &error) != ASSAY_OK) return 4;
@@ -70,14 +73,12 @@ int main(void) {
   bytes[30] ^= 1;
   if (assay_builtin_restore(second, bytes, size, &error) != ASSAY_OK) return 7;
   play(second, half, steps, again, dirty_again);
-  for (int s = 0; s < steps; ++s) collisions += answers[s] == ASSAY_COLLISION;
   for (int s = half; s < steps; ++s) {
     if (answers[s] != again[s] || dirty[s] != dirty_again[s]) return 8;
   }
-  printf("%d of %d steps collide; %d bytes of state, %d dirty after them\n", collisions, steps,
-         (int)size, (int)dirty[half]);
+  printf("%d bytes of state, %d triangles dirty at it\n", (int)size, (int)dirty[half]);
   free(bytes);
   assay_builtin_detector()->destroy(first);
   assay_builtin_detector()->destroy(second);
-  return collisions > 0 && dirty[half] > 0 ? 0 : 9;
+  return dirty[half] > 0 ? 0 : 9;
 }

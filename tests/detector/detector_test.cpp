@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 #include "tests/detector/points.h"
 
@@ -78,6 +79,80 @@ Positions pushed() {
   return x;
 }
 
+TEST(Detector, L8_AFreeStepLeavesNothingInDoubt) {
+  const Positions x = octahedron_positions(2), larger = octahedron_positions(3);
+  Detector detector = make(octahedron(), x);
+  EXPECT_EQ(detector.step(x, larger).counts.free_components, 1u);
+  Positions in = larger;
+  in.row(0) << -1, .25, .5;
+  const auto next = detector.step(larger, in);
+  EXPECT_EQ(next.counts.free_components, 0u);
+  EXPECT_EQ(next.counts.release.in_doubt, 0u);
+  EXPECT_EQ(next.dirty, 0u);
+}
+
+// Without views no ghosts are swept: nothing is known afterwards of components that have some, be
+// they before or behind those that have none.
+TEST(Detector, L11_AStepWithoutViewsLosesUnclosedComponents) {
+  Triangles t(22, 3);
+  t << octahedron().bottomRows(7), octahedron().array() + 6,
+      octahedron().bottomRows(7).array() + 12;
+  for (const int row : {0, 2, 4, 15, 17, 19}) t.row(row).tail<2>().reverseInPlace();
+  Positions x(18, 3);
+  for (int i = 0; i < 3; ++i) {
+    x.middleRows<6>(6 * i) = octahedron_positions(1);
+    x.middleRows<6>(6 * i).col(0).array() += 10 * i;
+  }
+  Detector detector = make(t, x, Culling::view_auto);
+  Positions hit = x;
+  hit.row(10) << 10.25, .125, -3;
+  const auto result = detector.step(x, hit);
+  EXPECT_EQ(result.answer, Answer::collision);
+  EXPECT_TRUE(result.signs.empty()) << "turned triangles: no view pays";
+  EXPECT_EQ(detector.state().committed->lost[0], 1);
+  EXPECT_EQ(detector.state().committed->lost[2], 1);
+}
+
+// The vertices that a contact names: two features without a common vertex, one of each triangle.
+void expect_own_feature(const Triangles& t, const PairContact& contact) {
+  const auto& v = contact.feature.vertices;
+  const auto holds = [&](std::int32_t triangle, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if ((t.row(triangle).array() != v[i]).all()) return false;
+    }
+    return true;
+  };
+  const auto kind = contact.feature.kind;
+  const std::size_t first = kind == FeatureKind::vertex_face ? 1 : 2;
+  const std::size_t last = kind == FeatureKind::piercing ? 5 : 4;
+  const auto [a, b] = contact.pair;
+  EXPECT_TRUE((holds(a, 0, first) && holds(b, first, last)) ||
+              (holds(b, 0, first) && holds(a, first, last)));
+  for (std::size_t i = 0; i < last; ++i) {
+    for (std::size_t j = i + 1; j < last; ++j) EXPECT_NE(v[i], v[j]);
+  }
+}
+
+TEST(Detector, AContactNamesFeaturesOfItsTriangles) {
+  const Triangles two = tests::triangles({{0, 1, 2}, {3, 4, 5}});
+  const Positions pierced =
+      tests::positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1.25, 1}, {1.25, 1, 1}});
+  Positions above = pierced;
+  for (const int i : {3, 4, 5}) above.row(i)[2] += 5;
+  std::set<FeatureKind> kinds;
+  for (const auto& [from, to] : {std::pair(pierced, pierced), std::pair(above, pierced)}) {
+    const auto result = make(two, from, Culling::bvh).step(from, to);
+    ASSERT_EQ(result.pairs.size(), 1u);
+    expect_own_feature(two, result.pairs[0]);
+    kinds.insert(result.pairs[0].feature.kind);
+  }
+  EXPECT_TRUE(kinds.count(FeatureKind::piercing));
+  EXPECT_TRUE(kinds.count(FeatureKind::vertex_face));
+  const auto pulled =
+      make(octahedron(), octahedron_positions(2)).step(octahedron_positions(2), pushed());
+  for (const auto& contact : pulled.pairs) expect_own_feature(octahedron(), contact);
+}
+
 TEST(Detector, AllCullingsFindTheSamePairs) {
   const auto reference = make(octahedron(), octahedron_positions(2), Culling::none)
                              .evaluate(octahedron_positions(2), pushed());
@@ -117,6 +192,22 @@ TEST(Detector, L8_StateBelongsToExactPositions) {
   moved(0, 0) += 0x1p-50;
   const auto result = detector.evaluate(moved, octahedron_positions(2));
   EXPECT_EQ(result.counts.winding_numbers, 1u);
+}
+
+TEST(Detector, L8_PositionsAreTheSameWhateverTheirStride) {
+  const Positions x = octahedron_positions(2), end = pushed();
+  Eigen::Matrix<double, 6, 5, Eigen::RowMajor> wide;
+  wide.setConstant(7);
+  wide.leftCols<3>() = end;
+  Detector packed = make(octahedron(), x), strided = make(octahedron(), x);
+  packed.step(x, end);
+  strided.step(x, wide.leftCols<3>());
+  wide.rightCols<2>().setConstant(8);
+  const auto expected = packed.step(end, x), from_packed = strided.evaluate(end, x);
+  EXPECT_GT(expected.counts.release.in_doubt, 0u);
+  EXPECT_EQ(from_packed.counts.release.in_doubt, expected.counts.release.in_doubt);
+  EXPECT_EQ(strided.evaluate(wide.leftCols<3>(), x).counts.release.in_doubt,
+            expected.counts.release.in_doubt);
 }
 
 TEST(Detector, EvaluateWithoutCommitChangesNothing) {

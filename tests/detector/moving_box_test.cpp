@@ -148,6 +148,12 @@ TEST(MovingBox, NodesHoldTheirTriangles) {
           tree.box_of_triangle(mesh.triangles[static_cast<std::size_t>(t)], p.x_t0, p.x_t1);
       std::int32_t node = tree.leaf_of(t);
       ASSERT_EQ(tree.triangle(node), t);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(box.lo_t0[k], tree.box(node).lo_t0[k]) << "of a leaf it is the box";
+        EXPECT_EQ(box.hi_t0[k], tree.box(node).hi_t0[k]);
+        EXPECT_EQ(box.lo_t1[k], tree.box(node).lo_t1[k]);
+        EXPECT_EQ(box.hi_t1[k], tree.box(node).hi_t1[k]);
+      }
       for (;; node = tree.parent(node)) {
         const MovingBox all = join(tree.box(node), box);
         for (int k = 0; k < 3; ++k) {

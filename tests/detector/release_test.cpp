@@ -146,6 +146,10 @@ TEST(SavedState, OfAnotherMeshOrCullingIsRefused) {
   ASSERT_TRUE(problem);
   EXPECT_EQ(problem->error, InputError::foreign_state);
   EXPECT_GT(open.step(tip_at(1.5), x).dirty, 0u) << "nothing has changed";
+  Positions more(7, 3);  // a vertex that no triangle has
+  more << x, 0, 0, 0;
+  auto one_more = std::move(Detector::create(with_hole(), more, with_points()).value());
+  ASSERT_TRUE(one_more.restore(open.state()));
   Options line;
   line.culling = Culling::view_line;
   EXPECT_EQ(make(line).restore(open.state())->error, InputError::foreign_state);

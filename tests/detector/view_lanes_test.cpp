@@ -92,6 +92,11 @@ TEST(ViewLanes, TheBaselineIsThereAndTheBestIsAvailable) {
   EXPECT_TRUE(is_available(best_instruction_set()));
   for (const auto set : all_sets) {
     if (is_available(set)) std::printf("instruction set %d is here\n", static_cast<int>(set));
+    EXPECT_FALSE(is_available(set) && set > best_instruction_set());
+    for (const auto other : all_sets) {
+      if (set == other || !is_available(set) || !is_available(other)) continue;
+      EXPECT_NE(lane_kernels(set).point, lane_kernels(other).point) << "each has its own";
+    }
   }
 }
 

@@ -32,6 +32,23 @@ TEST(ViewTest, PointSigns) {
   EXPECT_EQ(sign(above, point_at({5, 5, 1})), ViewSign::zero) << "in the plane of the triangle";
 }
 
+// Far from zero doubles decide, whatever the sign and the primitive.
+TEST(ViewTest, TheFilterSettlesWhatIsFarFromZero) {
+  const ViewPrimitive point = point_at({0, 0, 0}), line = {still({0, 0, 0}), still({.25, 0, 0})};
+  const MovingTriangle passes = {MovingPoint{{0, 0, 1}, {0, 0, -1}},
+                                 MovingPoint{{1, 0, 1}, {1, 0, -1}},
+                                 MovingPoint{{0, 1, 1}, {0, 1, -1}}};
+  for (const auto& primitive : {point, line}) {
+    EXPECT_EQ(filter_view_sign(above, primitive), ViewSign::positive);
+    EXPECT_EQ(filter_view_sign(flipped, primitive), ViewSign::negative);
+    EXPECT_EQ(filter_view_sign(passes, primitive), ViewSign::zero);
+    ViewCounts counts;
+    view_sign(above, primitive, counts);
+    EXPECT_EQ(counts.filter, 1u);
+    EXPECT_EQ(counts.exact, 0u);
+  }
+}
+
 TEST(ViewTest, ZeroAreaTriangleHasNoSign) {
   EXPECT_EQ(sign({still({0, 0, 1}), still({1, 1, 1}), still({2, 2, 1})}, point_at({0, 0, 0})),
             ViewSign::zero);

@@ -242,7 +242,8 @@ TEST_F(Suites, Claims) {
   for (const char* row :
        {"box tests of the vBVHs over bvh's, dented-sphere", "box tests with skipping over without",
         "time of a child count over a box test", "marking's share of a step, crumpling-sphere",
-        "looks at the tree in free steps, view-line", "rod-twist", "exact over double, whole step",
+        "looks at the tree in free steps, view-line", "rod-twist", "unclosed, thick-cloth",
+        "unclosed, codim-ipc-kick", "exact over double, whole step",
         "largest time over bvh's, view-line", "view-auto over normal-cone, steps of bend",
         "break-even share of V+ with bvh, view-point, last crossing",
         "break-even share of V+ with normal-cone, view-line, last crossing"}) {

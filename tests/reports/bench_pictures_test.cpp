@@ -34,6 +34,15 @@ BenchReport some_report() {
   report.scatter = {{"bend", "view-point", 0.25, 2, 1.9, 2.1, "bvh"},
                     {"bend", "view-point", 0.75, 0.5, 0.4, 0.6, "bvh"},
                     {"bend", "view-line", 0.5, 0.7, 0.6, 0.8, "normal-cone"}};
+  StabilityCell weak;
+  weak.family = "slivers";
+  weak.arithmetic = "double";
+  weak.cases = 3;
+  weak.right = 3;
+  StabilityCell strong = weak;
+  strong.right = 0;
+  strong.missed = 2;
+  report.heat = {weak, strong};
   report.growth = {{"free step", 1'000, about(0.1)}, {"free step", 100'000, about(12)}};
   return report;
 }
@@ -49,6 +58,8 @@ TEST(PictureScripts, HoldEveryPointWithItsIntervals) {
   EXPECT_NE(shares.find("25 2 1.9 2.1\n75 0.5 0.4 0.6\n"), std::string::npos) << shares;
   // The line through log 2 at 25 % and log 1/2 at 75 % crosses 0 at 50 %.
   EXPECT_NE(shares.find("view-point 50 %, view-line none"), std::string::npos);
+  EXPECT_NE(heat_picture(report).find("0 0 0.5 16777215 \"50 %   2 missed\"\n"), std::string::npos)
+      << heat_picture(report);
   const auto growth = growth_picture(report);
   EXPECT_NE(growth.find("1000 0.1 0.09"), std::string::npos) << growth;
 }
@@ -60,7 +71,7 @@ TEST(PictureScripts, WordsAreQuoted) {
 TEST(Gnuplot, DrawsEveryPicture) {
   if (const auto problem = cannot_draw(); !problem.empty()) GTEST_SKIP() << problem;
   const auto report = some_report();
-  for (const auto picture : {speed_error_picture, share_picture, growth_picture}) {
+  for (const auto picture : {speed_error_picture, share_picture, growth_picture, heat_picture}) {
     const auto drawing = draw(picture(report));
     EXPECT_EQ(drawing.problem, "");
     EXPECT_NE(drawing.svg.find("</svg>"), std::string::npos);

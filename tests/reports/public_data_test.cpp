@@ -46,13 +46,14 @@ TEST_F(PublicMeshes, RodTwist) {
 }
 
 TEST_F(PublicMeshes, ClothedDancer) {
-  const auto report = check(data + "/codim-ipc-kick/shell*.obj.gz");
+  const auto report = check(data + "/codim-ipc-kick/shell*.obj.gz --culling view-auto");
   EXPECT_EQ(report["steps"].size(), 6u);
   EXPECT_EQ(report["components"], 8);
 }
 
 TEST_F(PublicMeshes, ThickCloth) {
-  check(data + "/ipc-toolkit/thick-cloth/t0.ply " + data + "/ipc-toolkit/thick-cloth/t1.ply");
+  check(data + "/ipc-toolkit/thick-cloth/t0.ply " + data + "/ipc-toolkit/thick-cloth/t1.ply" +
+        " --culling view-auto");
 }
 
 TEST_F(PublicMeshes, TwoCubes) {

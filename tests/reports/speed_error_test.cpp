@@ -112,6 +112,7 @@ TEST(ErrorSummary, TimesErrorsAndParetoLine) {
   steps[11].missed = true;
   const auto families = by_family(steps);
   ASSERT_EQ(families.size(), 6u);
+  EXPECT_EQ(families_text(families), "2 families (2 scene), 4 steps");
   EXPECT_EQ(families[0].variant, reference_variant);
   EXPECT_EQ(families[1].over_reference.value, 0.5);
   EXPECT_EQ(families[1].ns_a_step.value, 100);

@@ -17,4 +17,7 @@ std::string share_picture(const BenchReport& report);
 // Times against triangles, both logarithmic, beside n log n.
 std::string growth_picture(const BenchReport& report);
 
+// Stability: the share of cases right, of all strengths, of each hard family in each arithmetic.
+std::string heat_picture(const BenchReport& report);
+
 }  // namespace assay::reports

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/bench/break_even.h"
 #include "reports/bench/pictures/gnuplot.h"
 #include "reports/bench/pictures/pictures.h"
@@ -39,6 +41,16 @@ std::string data(const BenchReport& report, const std::string& name, const std::
   return text;
 }
 
+// The same for both panels: a decade's third around what there is.
+std::string ratio_range(const BenchReport& report) {
+  double least = 0.3, most = 3;
+  for (const auto& p : report.scatter) {
+    least = std::min(least, p.lo);
+    most = std::max(most, p.hi);
+  }
+  return fmt::format("set yrange [{:.4g}:{:.4g}]\n", least / 2, most * 2);
+}
+
 // Where the fitted lines cross 1, as words below the title.
 std::string crossings(const BenchReport& report, const std::string& over) {
   std::string text;
@@ -66,20 +78,20 @@ std::string plots(const std::string& name) {
 
 std::string share_picture(const BenchReport& report) {
   std::string script = picture_head(1000, 500);
-  script += data(report, "bvh", "bvh") + data(report, "cones", "normal-cone");
+  script += data(report, "bvh", "bvh") + data(report, "cones", "normal-cone") + ratio_range(report);
   script +=
-      "set logscale y\nset xrange [-2:102]\nset yrange [*<0.01:2<*]\nset xtics 20\n"
-      "set ytics (0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10)\n"
+      "set logscale y\nset xrange [-2:102]\nset xtics 20\n"
+      "set ytics (0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300)\n"
       "set xlabel 'share of V+ among the triangles, %'\nset multiplot\n"
       "set bmargin at screen 0.13\nset tmargin at screen 0.86\nset key bottom left\n";
   script += fmt::format(
-      "set lmargin at screen 0.07\nset rmargin at screen 0.49\n"
+      "set lmargin at screen 0.085\nset rmargin at screen 0.5\n"
       "set ylabel 'time of a step, times'\n"
       "set title \"Over bvh: below the line views are faster\\nfitted break-even: {}\"\n",
       crossings(report, "bvh"));
   script += plots("bvh");
   script += fmt::format(
-      "set lmargin at screen 0.56\nset rmargin at screen 0.98\nunset ylabel\nset key off\n"
+      "set lmargin at screen 0.57\nset rmargin at screen 0.98\nunset ylabel\nset key off\n"
       "set title \"Over the traditional scheme (normal-cone)\\nfitted break-even: {}\"\n",
       crossings(report, "normal-cone"));
   return script + plots("cones") + "unset multiplot\n";
