@@ -9,7 +9,7 @@
 #include "properties/campaign/shrink.h"
 #include "reports/certificate/evidence.h"
 #include "reports/failure_text.h"
-#include "reports/page_data/run_notes.h"
+#include "reports/page_data/run_evidence.h"
 #include "reports/plain_progress.h"
 #include "reports/plugin_text.h"
 
@@ -31,8 +31,7 @@ class CampaignRun {
 
   std::optional<std::string> run() {
     announce();
-    note_detector(store_, request_);
-    note_end(store_, {});
+    note_library(store_, request_);
     meet_canary();
     run_trials();
     if (!results_.trials.store_problem.empty()) return results_.trials.store_problem;
@@ -85,7 +84,6 @@ class CampaignRun {
                    : "NOT FOUND: the harness sees nothing");
     std::fflush(stdout);
     store_canary(store_, shard_, results_.canary);
-    note_canary(store_, results_.canary);
   }
 
   void run_trials() {
@@ -128,7 +126,6 @@ class CampaignRun {
                                 show);
     }
     store_faults(store_, shard_, hunt, results_.faults, results_.time_for_faults);
-    note_faults(store_, results_.faults);
   }
 
   void explore_world() {

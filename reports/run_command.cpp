@@ -12,7 +12,6 @@
 #include "reports/detector_choice.h"
 #include "reports/failure_text.h"
 #include "reports/interruption.h"
-#include "reports/page_data/run_notes.h"
 #include "reports/shell_word.h"
 
 namespace assay::reports {
@@ -25,10 +24,10 @@ constexpr const char* go_on = "; what is stored stays: run the same again to go 
 class Conclusion {
  public:
   Conclusion(const RunCommandRequest& command, const properties::CampaignRequest& request,
-             const CampaignResults& results, properties::Store& store)
-      : command_(command), request_(request), results_(results), store_(store) {}
+             const CampaignResults& results)
+      : command_(command), request_(request), results_(results) {}
 
-  int conclude() {
+  int conclude() const {
     const auto& tally = results_.tally;
     const auto harness = harness_faults();
     for (const auto& line : harness) fmt::print("HARNESS: {}\n", line);
@@ -72,7 +71,6 @@ class Conclusion {
                               : "undecided: a bound is above what is wanted";
       code = exit_undecided;
     }
-    note_end(store_, {outcome, harness, bounds_met});
     fmt::print("\n{}: {} trials with a defect, {} undecided, {} laws broken, in {:.0f} s\n",
                outcome, defects, unsettled, broken_laws, results_.seconds);
     if (code != exit_holds) fmt::print("next: {}\n", next);
@@ -115,7 +113,6 @@ class Conclusion {
   const RunCommandRequest& command_;
   const properties::CampaignRequest& request_;
   const CampaignResults& results_;
-  properties::Store& store_;
 };
 
 }  // namespace
@@ -147,7 +144,7 @@ int run_campaign(const RunCommandRequest& command) {
     if (const auto wrong = run_phases(request, *store, command.out, results))
       return refuse(*wrong + go_on);
     if (const auto wrong = write_run_report(request, command.out)) return refuse(*wrong);
-    return Conclusion(command, request, results, *store).conclude();
+    return Conclusion(command, request, results).conclude();
   } catch (const properties::StoreProblem& broken) {
     return refuse(std::string(broken.what()) + go_on);
   }

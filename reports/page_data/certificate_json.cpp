@@ -89,49 +89,6 @@ Json strata_json(const Json& strata, const Json& times) {
   return list;
 }
 
-Json shrunk_json(const Json& shrunk) {
-  if (shrunk.is_null()) return nullptr;
-  const auto &before = shrunk.at("before"), &after = shrunk.at("after");
-  return {{"from_triangles", before.at("triangles")},
-          {"from_steps", before.at("steps")},
-          {"vertices", after.at("vertices")},
-          {"triangles", after.at("triangles")},
-          {"steps", after.at("steps")},
-          {"calls", shrunk.at("calls")},
-          {"seconds", nullptr}};
-}
-
-Json faults_json(const Json& faults) {
-  if (faults.empty()) return nullptr;
-  Json list = Json::array();
-  for (const auto& fault : faults) {
-    const auto known = fault.at("known_vertices");
-    list.push_back({{"name", fault.at("fault")},
-                    {"about", nullptr},
-                    {"law", fault.at("law")},
-                    {"status", fault.at("status")},
-                    {"found", fault.at("found")},
-                    {"median_cases", fault.at("median_cases")},
-                    {"cases", fault.at("needed")},
-                    {"by_curated", fault.at("curated")},
-                    {"known_vertices", known == 0 ? Json() : known},
-                    {"shrunk", shrunk_json(fault.at("shrunk"))}});
-  }
-  return list;
-}
-
-// That of the shard which needed most, or did not find it.
-Json canary_json(const Json& canaries) {
-  Json worst;
-  for (const auto& canary : canaries) {
-    const auto& after = canary.at("found_after");
-    const bool is_worse = worst.is_null() || after.is_null() ||
-                          (!worst["found_after"].is_null() && after > worst["found_after"]);
-    if (is_worse) worst = {{"fault", canary.at("fault")}, {"found_after", after}};
-  }
-  return worst;
-}
-
 Json speed_json(const Json& speed, const Json& limits) {
   Json list = Json::array();
   for (const auto& figure : speed) {
@@ -157,7 +114,6 @@ Json rest_json(const Json& p) {
           {"self_test", std::move(self_test)},
           {"corpus", p.at("corpus")},
           {"waivers", p.at("waivers")},
-          {"worlds", p.at("power").at("worlds")},
           {"speed", speed_json(p.at("times").at("speed"), policy.at("speed_limits"))},
           {"digests", p.at("digests")},
           {"replay", p.at("replay")}};
@@ -199,8 +155,6 @@ corpus::Expected<void> take_certificate(const Json& p, Json& run) {
     run["bounds"] = {{"confidence", p.at("confidence").at("family")},
                      {"together", p.at("confidence").at("bounds")}};
     run["strata"] = strata_json(p.at("strata"), p.at("times"));
-    run["canary"] = canary_json(p.at("power").at("canaries"));
-    run["faults"] = faults_json(p.at("power").at("faults"));
     run["certificate"] = rest_json(p);
   } catch (const Json::exception& wrong) {
     return corpus::problem_in(

@@ -12,8 +12,8 @@ namespace assay::reports {
 // there is no such file. Errors: a file that is no certificate.
 corpus::Expected<nlohmann::ordered_json> read_certificate(const std::filesystem::path& folder);
 
-// Puts verdict, gates, strata with bounds, canary and planted faults of the certificate into a run
-// of assay-report/1, and the rest into its `certificate`. Errors: a field is absent or of another
+// Puts verdict, gates and strata with bounds of the certificate into a run of assay-report/1, and
+// what only it holds into `certificate`. Errors: a field is absent or of another
 // type.
 corpus::Expected<void> take_certificate(const nlohmann::ordered_json& predicate,
                                         nlohmann::ordered_json& run);

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // As SceneMaker takes it.
-std::optional<std::string> library_of(const DetectorNote& detector) {
+std::optional<std::string> library_of(const StoredDetector& detector) {
   if (!detector.built_in && detector.library.empty()) return std::nullopt;
   return detector.library;
 }

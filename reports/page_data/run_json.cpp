@@ -24,11 +24,9 @@ std::string configuration_name(const StoredRun& run, std::size_t c) {
   return c < names.size() ? names[c] : fmt::format("configuration {}", c + 1);
 }
 
-std::size_t bounds_together(const StoredRun& run) {
-  std::size_t configurations = run.detector.configurations.size();
-  for (const auto& [family, tally] : run.tally.strata)
-    configurations = std::max(configurations, tally.by_configuration.size());
-  return std::max<std::size_t>(run.strata.size(), run.tally.strata.size()) * configurations;
+// Every claim is counted, as in the certificate (certificate/strata_section.cpp).
+std::uint64_t bounds_together(const StoredRun& run) {
+  return run.strata.size() * run.detector.claims;
 }
 
 Json stratum_row(const StoredRun& run, const PlannedStratum& planned,
@@ -144,6 +142,8 @@ Json set_pairs_json(const properties::Counts& counts) {
 
 }  // namespace
 
+Json run_strata(const StoredRun& run) { return strata_json(run); }
+
 std::uint64_t defect_trials(const StoredRun& run) {
   std::uint64_t sum = 0;
   for (const auto& [family, tally] : run.tally.strata) {
@@ -181,8 +181,9 @@ Json run_json(const StoredRun& run) {
           {"set_pairs", set_pairs_json(run.tally.counts)},
           {"tags", counts_json(run.tally.counts, "tag:")},
           {"laws", laws_json(run)},
-          {"canary", run.canary},
-          {"faults", run.faults},
+          {"canary", run.evidence.canary},
+          {"faults", run.evidence.faults},
+          {"worlds", run.evidence.worlds},
           {"signatures", counts_json(run.met, "")},
           {"certificate", nullptr}};
 }

@@ -14,31 +14,49 @@ constexpr const char* passed = "passed";
 constexpr const char* failed = "failed";
 constexpr const char* not_judged = "not judged";
 
-std::vector<std::string> missing_faults(const StoredRun& run) {
-  std::vector<std::string> names;
-  if (!run.faults.is_array()) return names;
-  for (const auto& fault : run.faults) {
-    if (fault.value("status", "") == "planted" && !fault.value("found", false))
-      names.push_back(fault.value("name", "?"));
+// What the harness owes of itself, and does not deliver: a line each.
+std::vector<std::string> harness_faults(const StoredRun& run) {
+  auto lines = run.evidence.problems;
+  const auto& canary = run.evidence.canary;
+  if (canary.is_object() && canary["found_after"].is_null())
+    lines.push_back("the canary was not found");
+  for (const auto& fault : run.evidence.faults) {
+    const auto name = fault["name"].get<std::string>();
+    const bool found = fault["found"].get<bool>(), time_over = fault["time_over"].get<bool>();
+    if (fault["status"] == "planted" && !found && !time_over)
+      lines.push_back(fmt::format("planted fault {} was not found", name));
+    if (fault["status"] == "equivalent" && found)
+      lines.push_back(fmt::format("{}, registered as equivalent, was found", name));
   }
-  return names;
+  if (run.detector.built_in && run.trials() == run.planned_trials()) {
+    for (auto& line : properties::starved_laws(run.tally.counts, run.wanted_premises))
+      lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+std::size_t faults_out_of_time(const StoredRun& run) {
+  return static_cast<std::size_t>(
+      std::count_if(run.evidence.faults.begin(), run.evidence.faults.end(), [](const auto& fault) {
+        return fault["status"] == "planted" && !fault["found"] && fault["time_over"];
+      }));
 }
 
 Gate harness_gate(const StoredRun& run) {
   const std::string name = "harness sound";
-  for (const auto& end : run.ends) {
-    if (!end.harness.empty()) return {name, failed, end.harness.front()};
+  const auto lines = harness_faults(run);
+  if (!lines.empty()) {
+    return {
+        name, failed,
+        lines.size() == 1 ? lines[0] : fmt::format("{}; and {} more", lines[0], lines.size() - 1)};
   }
-  if (!run.canary.is_object()) return {name, not_judged, "the store does not say"};
-  if (run.canary["found_after"].is_null()) return {name, failed, "the canary was not found"};
-  std::string text = fmt::format("the canary was found after {} cases",
-                                 run.canary["found_after"].get<std::uint64_t>());
-  if (!run.faults.is_array()) return {name, passed, text + "; no faults were planted"};
-  const auto missing = missing_faults(run);
-  if (missing.empty()) return {name, passed, text + "; every planted fault was found"};
-  return {name, not_judged,
-          fmt::format("{}; the time was over before {} planted faults were found", text,
-                      missing.size())};
+  const auto& canary = run.evidence.canary;
+  if (canary.is_null()) return {name, not_judged, "no canary was met"};
+  const auto text = fmt::format("the canary was found after {} cases",
+                                canary["found_after"].template get<std::uint64_t>());
+  if (run.evidence.faults.is_null()) return {name, passed, text + "; no faults were planted"};
+  return {name, passed,
+          faults_out_of_time(run) == 0 ? text + "; every planted fault was found" : text};
 }
 
 Gate complete_gate(const StoredRun& run) {
@@ -46,6 +64,11 @@ Gate complete_gate(const StoredRun& run) {
   if (run.shards.size() < run.shard_count) {
     return {name, failed,
             fmt::format("{} of {} shards are here", run.shards.size(), run.shard_count)};
+  }
+  const auto out_of_time = faults_out_of_time(run);
+  if (out_of_time > 0) {
+    return {name, failed,
+            fmt::format("the time was over before {} planted faults were found", out_of_time)};
   }
   const auto done = run.trials(), planned = run.planned_trials();
   return {name, done == planned ? passed : failed,
@@ -55,6 +78,10 @@ Gate complete_gate(const StoredRun& run) {
 Gate claims_gate(const StoredRun& run) {
   const auto broken = properties::broken_laws(run.tally.counts);
   const auto defects = defect_trials(run);
+  for (const auto& world : run.evidence.worlds) {
+    if (!world["counterexample"].is_null())
+      return {"claims hold", failed, world["counterexample"].get<std::string>()};
+  }
   if (defects == 0 && broken == 0) {
     return {"claims hold", run.trials() > 0 ? passed : not_judged,
             fmt::format("no defect in {} trials", run.trials())};
@@ -64,19 +91,24 @@ Gate claims_gate(const StoredRun& run) {
                       broken ? fmt::format("; {} laws are broken", broken) : "")};
 }
 
+// As the terminal judges it: a wanted bound is met; where none is wanted, nothing is left open.
 Gate bounds_gate(const StoredRun& run) {
   const std::string name = "bounds met";
-  const bool wanted = std::any_of(run.strata.begin(), run.strata.end(),
-                                  [](const auto& stratum) { return stratum.wanted_bound > 0; });
-  if (run.ends.size() < run.shard_count) return {name, not_judged, "the run did not end"};
-  if (run.shard_count > 1) return {name, not_judged, "bounds are of all shards together"};
-  const bool met = run.ends.front().bounds_met;
-  if (!wanted) {
-    return {name, met ? passed : failed,
-            met ? "this campaign wants none" : "trials were left without a verdict"};
+  bool wanted = false;
+  const auto rows = run_strata(run);
+  for (const auto& row : rows) {
+    const auto family = row["family"].get<std::string>();
+    if (row["wanted"].is_null()) {
+      if (row["undecided"] > 0)
+        return {name, failed, fmt::format("{}: trials have no verdict", family)};
+      continue;
+    }
+    wanted = true;
+    if (row["bound"] > row["wanted"])
+      return {name, failed, fmt::format("the bound of {} is above what is wanted", family)};
   }
-  return {name, met ? passed : failed,
-          met ? "every wanted bound is met" : "a bound is above what is wanted"};
+  if (run.trials() == 0) return {name, not_judged, "nothing was judged"};
+  return {name, passed, wanted ? "every wanted bound is met" : "this campaign wants none"};
 }
 
 }  // namespace

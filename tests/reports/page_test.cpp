@@ -1,8 +1,11 @@
 // The data of the page, assay-report/1, and the file that it is put into.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "properties/faults/fault.h"
 #include "reports/page_data/failure_scenes.h"
 #include "reports/page_data/page_file.h"
 #include "reports/page_data/run_json.h"
@@ -104,34 +107,36 @@ TEST_F(Runs, TheVerdictIsTheFirstGateThatFails) {
   EXPECT_EQ(whole.gates.size(), 6u);
 }
 
-TEST_F(Runs, WhatEndedIsReadBackFromItsNotes) {
-  const auto folder = RunToStore()
-                          .judge("closed-generic", 10, 'H')
-                          .judge("broken", 10, 'U')
-                          .store(scratch / "noted");
-  {
-    std::string problem;
-    RunToStore same;
-    auto store = properties::Store::open(reports::store_file(folder, {}),
-                                         properties::binding_of(same.request), problem);
-    ASSERT_TRUE(store) << problem;
-    reports::note_canary(*store, {"pair/zero-zero-dropped", 4});
-    reports::note_end(*store, {"undecided", {}, false});
-  }
-  const auto read = read_run(folder);
-  ASSERT_TRUE(read);
+TEST_F(Runs, TheHarnessGoesBeforeAllElse) {
+  const auto whole = [] {
+    return RunToStore().judge("closed-generic", 10, 'D').judge("broken", 10, 'H');
+  };
+  EXPECT_EQ(verdict_in(whole().meet_canary(4), "seen").word, "defect");
+  EXPECT_EQ(verdict_in(whole().meet_canary(std::nullopt), "blind").word, "unsound-harness");
+  auto survives = whole().meet_canary(4);
+  survives.evidence.push_back(
+      {"fault", "x/y", "1/1", 2,
+       R"({"law": "L3", "status": "planted", "curated": false, "needed": [null], "cases": 9,
+           "time_over": false, "known_vertices": 0, "shrunk": null})"});
+  EXPECT_EQ(verdict_in(survives, "survives").word, "unsound-harness");
+}
+
+TEST_F(Runs, WhatIsLeftOpenWhereNoBoundIsWantedIsUndecided) {
+  const auto verdict =
+      verdict_in(RunToStore().judge("closed-generic", 10, 'H').judge("broken", 10, 'U'), "open");
+  EXPECT_EQ(verdict.word, "undecided");
+  EXPECT_NE(verdict.why.find("broken"), std::string::npos) << verdict.why;
+}
+
+TEST_F(Runs, APlugInsLibraryIsReadBack) {
+  RunToStore run;
+  run.request.plugin = "some/where.so";
+  run.request.detector.built_in = false;
+  const auto read = read_run(run.store(scratch / "plugin"));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read.value().detector.library, "some/where.so");
+  EXPECT_FALSE(read.value().detector.built_in);
   EXPECT_EQ(read.value().detector.configurations.size(), 9u);
-  EXPECT_EQ(read.value().canary["found_after"], 4);
-  EXPECT_EQ(reports::verdict_of(read.value()).word, "undecided");
-  {
-    std::string problem;
-    RunToStore same;
-    auto store = properties::Store::open(reports::store_file(folder, {}),
-                                         properties::binding_of(same.request), problem);
-    ASSERT_TRUE(store) << problem;
-    reports::note_canary(*store, {"pair/zero-zero-dropped", std::nullopt});
-  }
-  EXPECT_EQ(reports::verdict_of(read_run(folder).value()).word, "unsound-harness");
 }
 
 TEST_F(Runs, BoundsAreThoseOfTheTerminal) {
@@ -144,9 +149,13 @@ TEST_F(Runs, BoundsAreThoseOfTheTerminal) {
   ASSERT_EQ(json["strata"].size(), 2u) << "nine configurations that agree are one row";
   const auto& row = json["strata"][0];
   EXPECT_EQ(row["n"], 10);
-  EXPECT_EQ(json["bounds"]["together"], 18);
-  // None of ten fails: (1 - p)^10 = 0.05 / 18.
-  EXPECT_NEAR(std::pow(1 - row["bound"].get<double>(), 10), 0.05 / 18, 1e-12);
+  std::size_t claims = 0;
+  const auto detector = properties::built_in_detector();
+  for (const auto& configuration : detector.configurations)
+    claims += properties::list_of(detector.claims_in(configuration)).size();
+  EXPECT_EQ(json["bounds"]["together"], 2 * claims);
+  // None of ten fails: (1 - p)^10 is the risk of one of them.
+  EXPECT_NEAR(std::pow(1 - row["bound"].get<double>(), 10), 0.05 / (2.0 * claims), 1e-12);
   EXPECT_GT(json["strata"][1]["bound"], row["bound"]);
 }
 
@@ -170,21 +179,17 @@ TEST_F(Runs, EveryFieldIsDocumented) {
   run.trials[0].counts["law:L4_X/premise"] = 3;
   run.fail("D8_release_arm_sequence", "all-pairs: missing", "one")
       .fail("B1_one_vertex_own_nearest", "all-pairs: missing", "two");
+  run.meet_canary(4);
+  run.evidence.push_back(
+      {"fault", std::string(properties::faults()[0].name), "1/1", 2,
+       R"({"law": "L3", "status": "planted", "curated": true, "needed": [5, null], "cases": 9,
+           "time_over": true, "known_vertices": 5, "shrunk": {"before": {"triangles": 9,
+           "vertices": 7, "steps": 2}, "after": {"triangles": 4, "vertices": 5, "steps": 1},
+           "calls": 12}})"});
+  run.evidence.push_back({"world", "square-2", "1/1", 3,
+                          R"({"classes": 3, "motions": 4, "all": 5, "collisions": 1,
+                              "complete": true, "counterexample": null})"});
   const auto folder = run.store(scratch / "fields");
-  {
-    std::string problem;
-    auto store = properties::Store::open(reports::store_file(folder, {}),
-                                         properties::binding_of(run.request), problem);
-    ASSERT_TRUE(store) << problem;
-    reports::note_canary(*store, {"pair/zero-zero-dropped", 4});
-    properties::FaultResult found;
-    found.fault = &properties::faults()[0];
-    found.needed = {5, std::nullopt};
-    found.shown_by = curated_case("B1_one_vertex_own_nearest");
-    found.reduction.emplace();
-    found.reduction->smallest = *found.shown_by;
-    reports::note_faults(*store, {found});
-  }
   const auto read = read_run(folder);
   ASSERT_TRUE(read);
   auto json = reports::run_json(read.value());

@@ -5,11 +5,10 @@
 
 #include "corpus/case_file.h"
 #include "properties/campaign/binding.h"
-#include "properties/campaign/campaign_facts.h"
 #include "properties/campaign/store.h"
 #include "properties/worker/worker_process.h"
 #include "reports/failure_text.h"
-#include "reports/page_data/run_notes.h"
+#include "reports/page_data/run_evidence.h"
 
 namespace assay::tests {
 
@@ -23,6 +22,7 @@ struct RunToStore {
   properties::CampaignRequest request;
   std::vector<properties::TrialRecord> trials;
   std::vector<properties::StoredFailure> failures;
+  std::vector<properties::Evidence> evidence;
 
   // Of the built-in detector, two families of ten cases, a bound wanted of the first.
   RunToStore() {
@@ -58,6 +58,12 @@ struct RunToStore {
                         what, text, text});
     return *this;
   }
+  RunToStore& meet_canary(std::optional<std::uint64_t> found_after) {
+    const auto facts = found_after ? std::to_string(*found_after) : "null";
+    evidence.push_back(
+        {"canary", "pair/zero-zero-dropped", "1/1", 1, "{\"found_after\": " + facts + "}"});
+    return *this;
+  }
   std::string store(const std::string& folder) const {
     std::filesystem::create_directories(folder);
     std::string problem;
@@ -65,11 +71,13 @@ struct RunToStore {
                                         properties::binding_of(request), problem);
     EXPECT_TRUE(made) << problem;
     if (!made) return folder;
-    reports::note_detector(*made, request);
+    reports::note_library(*made, request);
+    for (const auto& found : evidence) made->set(found);
     for (const auto& trial : trials) made->add(trial);
+    // With a trial of its own, whose outcome does not matter here.
     for (const auto& failure : failures) {
-      made->add(failure);
-      made->count_signature(failure.signature);
+      auto trial = trials.empty() ? properties::TrialRecord{} : trials.front();
+      made->add(trial, {failure}, {{failure.configuration, failure.signature}});
     }
     return folder;
   }

@@ -1,7 +1,7 @@
 // What the cases were: laws met, sizes, contacts, set pairs.
 import { html, section, table } from "./dom";
 import { barPlot } from "./plots";
-import type { Law, Run } from "./report";
+import type { Law, Run, World } from "./report";
 import { count } from "./words";
 
 export function laws(run: Run): HTMLElement | null {
@@ -20,6 +20,25 @@ export function laws(run: Run): HTMLElement | null {
         { head: "broken", cell: (l: Law) => count(l.broken), number: true },
       ],
       run.laws,
+    ),
+  );
+}
+
+// The exhaustive part: no bound, but all there is on a small grid.
+export function worlds(run: Run): HTMLElement | null {
+  if (run.worlds.length === 0) return null;
+  return section(
+    "worlds",
+    "Every motion of a tetrahedron",
+    table(
+      "On a small grid, up to symmetry",
+      [
+        { head: "world", cell: (w: World) => w.world },
+        { head: "classes proved", cell: (w: World) => (w.classes === null ? "\u2013" : count(w.classes)), number: true },
+        { head: "motions", cell: (w: World) => (w.motions === null ? "\u2013" : count(w.motions)), number: true },
+        { head: "outcome", cell: (w: World) => w.counterexample ?? (w.complete ? "all of it holds" : "the time was over") },
+      ],
+      run.worlds,
     ),
   );
 }

@@ -5,7 +5,7 @@ import type { Fault, Run } from "./report";
 import { count, counted } from "./words";
 
 function verdict(f: Fault): string {
-  if (f.status === "planted") return f.found ? "found" : "NOT FOUND";
+  if (f.status === "planted") return f.found ? "found" : f.time_over ? "the time was over" : "NOT FOUND";
   if (f.status === "open") return f.found ? "found: no longer open" : "open";
   return f.found ? "FOUND, but equivalent" : "survives, rightly";
 }
@@ -19,7 +19,7 @@ export function faults(run: Run): HTMLElement {
     ? run.canary.found_after === null
       ? `The canary (${run.canary.fault}) was NOT FOUND: the harness sees nothing.`
       : `The canary (${run.canary.fault}) was found after ${counted(run.canary.found_after, "case")}.`
-    : "The store says nothing of a canary.";
+    : "No canary was met.";
   const list = run.faults;
   if (!list) return section("faults", title, html("p", {}, canary, " No faults were planted in this run."));
   const planted = list.filter((f) => f.status === "planted");
@@ -68,7 +68,6 @@ export function faults(run: Run): HTMLElement {
             { head: "to vertices", cell: (f: Fault) => count(f.shrunk!.vertices), number: true },
             { head: "smallest known", cell: (f: Fault) => (f.known_vertices === null ? "\u2013" : count(f.known_vertices)), number: true },
             { head: "runs", cell: (f: Fault) => count(f.shrunk!.calls), number: true },
-            { head: "seconds", cell: (f: Fault) => f.shrunk!.seconds?.toFixed(1) ?? "\u2013", number: true },
           ],
           shrunk,
         ),

@@ -1,5 +1,5 @@
 // The page: what it shows of each run, and which run it shows.
-import { cases, laws } from "./cases";
+import { cases, laws, worlds } from "./cases";
 import { certificate } from "./certificate";
 import { html } from "./dom";
 import { failures, type FailuresView } from "./failures";
@@ -19,7 +19,7 @@ declare global {
 function runView(run: Run): { element: HTMLElement; failures: FailuresView } {
   const failed = failures(run);
   const element = html("div", { class: "run" });
-  const parts = [overview(run), gates(run), failed.element, strata(run), faults(run), ...certificate(run), laws(run), cases(run)];
+  const parts = [overview(run), gates(run), failed.element, strata(run), faults(run), worlds(run), ...certificate(run), laws(run), cases(run)];
   for (const part of parts) if (part) element.append(part);
   return { element, failures: failed };
 }

@@ -90,6 +90,7 @@ export interface Fault {
   law: string;
   status: "planted" | "open" | "equivalent";
   found: boolean;
+  time_over: boolean;
   median_cases: number | null;
   cases: (number | null)[];
   by_curated: boolean | null;
@@ -101,7 +102,6 @@ export interface Fault {
     triangles: number;
     steps: number;
     calls: number;
-    seconds: number | null;
   } | null;
 }
 
@@ -117,6 +117,14 @@ export interface Law {
   close: number;
   broken: number;
   wanted_premise: number;
+}
+
+export interface World {
+  world: string;
+  complete: boolean;
+  classes: number | null;
+  motions: number | null;
+  counterexample: string | null;
 }
 
 export interface CorpusRow {
@@ -150,7 +158,6 @@ export interface Certificate {
   self_test: { queries: number; contradictions: number; complete: boolean } | null;
   corpus: CorpusRow[] | null;
   waivers: Waiver[];
-  worlds: { world: string; complete: boolean; classes: number | null; motions: number | null; counterexample: string | null }[];
   speed: { what: string; median: number; lo: number; hi: number; limit: number | null }[];
   digests: Record<string, string | null>;
   replay: string[];
@@ -176,6 +183,7 @@ export interface Run {
   laws: Law[];
   canary: { fault: string; found_after: number | null } | null;
   faults: Fault[] | null;
+  worlds: World[];
   signatures: Record<string, number>;
   certificate: Certificate | null;
   failures: Failure[];
