@@ -103,13 +103,14 @@ TEST(Detector, L11_AStepWithoutViewsLosesUnclosedComponents) {
     x.middleRows<6>(6 * i) = octahedron_positions(1);
     x.middleRows<6>(6 * i).col(0).array() += 10 * i;
   }
-  Detector detector = make(t, x, Culling::view_auto);
+  Detector detector = make(t, x, Culling::view_auto, Start::clean);
   Positions hit = x;
   hit.row(10) << 10.25, .125, -3;
   const auto result = detector.step(x, hit);
   EXPECT_EQ(result.answer, Answer::collision);
   EXPECT_TRUE(result.signs.empty()) << "turned triangles: no view pays";
   EXPECT_EQ(detector.state().committed->lost[0], 1);
+  EXPECT_EQ(detector.state().committed->lost[1], 0) << "closed, and vouched for";
   EXPECT_EQ(detector.state().committed->lost[2], 1);
 }
 

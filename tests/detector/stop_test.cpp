@@ -19,7 +19,7 @@ Positions tip_at(Point p) {
 }
 
 // Small meshes: each stage asks when it begins, and no more often than every 256 tests.
-constexpr int most_askings = 24;
+constexpr int most_askings = 8;
 
 void stop_everywhere(Detector& detector, const Positions& x_t0, const Positions& x_t1) {
   int askings = 0;
