@@ -140,15 +140,17 @@ class Certification {
   std::optional<std::string> take_shards() {
     std::string problem;
     for (const auto& file : stored_shards(out_, problem)) {
-      const auto bound = Store::read(file, problem);
+      auto bound = Store::read(file, problem);
       if (!bound) return problem;
-      const auto difference =
-          properties::difference_of(bound->binding(), properties::binding_of(request_));
+      const std::string binding = bound->binding();
+      const auto difference = properties::difference_of(binding, properties::binding_of(request_));
       if (!difference.empty())
         return fmt::format("{}: of another run: {}", file.string(), difference);
       const auto failures = write_failures(*bound, out_, command_.detector);
       if (failures.problem) return failures.problem;
-      auto store = Store::open(file, bound->binding(), problem);
+      // Nobody else may hold the file when it is sealed.
+      bound.reset();
+      auto store = Store::open(file, binding, problem);
       if (!store) return problem;
       store->seal();
       fmt::print("{}: {} trials\n", file.filename().string(), store->trial_count());
