@@ -28,7 +28,7 @@ struct RunToStore {
   RunToStore() {
     request.plan.name = "tiny";
     request.plan.seconds = 60;
-    request.plan.strata = {{"closed-generic", 10, 0.5}, {"broken", 10, 0}};
+    request.plan.strata = {{"closed-generic", 10, 0.7}, {"broken", 10, 0}};
     request.detector = properties::built_in_detector();
     request.worker = properties::worker_program();
   }
