@@ -97,10 +97,13 @@ Lines complete(const Json& p) {
   }
   if (p["power"]["canaries"].empty()) lines.push_back("no canary was met");
   if (count(plan["fault_cases"]) > 0) {
-    if (p["power"]["planted"] != p["campaign"]["planted_faults"])
+    const auto& planted = p["campaign"]["planted_faults"];
+    if (planted.is_null()) {
+      lines.push_back("how many faults are planted was not stored");
+    } else if (p["power"]["planted"] != planted) {
       lines.push_back(fmt::format("{} of {} planted faults were tried",
-                                  count(p["power"]["planted"]),
-                                  count(p["campaign"]["planted_faults"])));
+                                  count(p["power"]["planted"]), count(planted)));
+    }
     for (const auto& fault : p["power"]["faults"]) {
       if (fault["status"] == "planted" && !fault["found"].get<bool>() &&
           fault["time_over"].get<bool>())
