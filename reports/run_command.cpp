@@ -53,6 +53,7 @@ class Conclusion {
         std::none_of(results_.worlds.begin(), results_.worlds.end(),
                      [](const auto& world) { return world.second.counterexample.has_value(); });
     const std::uint64_t broken_laws = properties::broken_laws(tally.counts);
+    const bool is_complete = results_.trials.complete && !lacks_faults();
     const char* outcome = "holds";
     std::string next = fmt::format("assay list failures {}", shell_word(command_.out));
     int code = exit_holds;
@@ -62,7 +63,7 @@ class Conclusion {
     } else if (defects > 0 || broken_laws > 0 || !world_holds) {
       outcome = "DEFECT";
       code = exit_defect;
-    } else if (!results_.trials.complete || lacks_faults()) {
+    } else if (!is_complete) {
       outcome = "incomplete: the time ended before all was done";
       next = "run the same again to go on, with --time for another limit";
       code = exit_undecided;
@@ -74,6 +75,9 @@ class Conclusion {
     fmt::print("\n{}: {} trials with a defect, {} undecided, {} laws broken, in {:.0f} s\n",
                outcome, defects, unsettled, broken_laws, results_.seconds);
     if (code != exit_holds) fmt::print("next: {}\n", next);
+    // The exit code may be of a defect as well: who waits for all shards reads this.
+    fmt::print("shard {}: {}\n", properties::text_of(request_.shard),
+               is_complete ? "complete" : "not complete");
     return code;
   }
 

@@ -190,6 +190,7 @@ TEST_F(Run, ABoundThatIsOutOfReachIsUndecided) {
   const auto outcome = run();
   EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "undecided: a bound is above what is wanted")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "\nshard 1/1: complete\n")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "next: ")) << outcome.out;
 }
 
@@ -204,6 +205,7 @@ TEST_F(Run, TimeThatEndsEarlyIsIncompleteAndGoesOn) {
   EXPECT_TRUE(contains(outcome.out, "incomplete: the time ended")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "planted faults")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "next: run the same again")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "\nshard 1/1: not complete\n")) << outcome.out;
   const auto before = trials_of(out).size();
   EXPECT_LT(before, 6000u);
   const auto again = run("--time 1.5");
