@@ -4,10 +4,14 @@
 # usage: nightly_test.sh ASSAY machine|parallel|slurm      77: what it needs is not installed
 # shellcheck disable=SC2317  # functions called by trap and expect
 set -uo pipefail
-assay=$1 by=$2
+by=$2
 here=$(cd "$(dirname "$0")" && pwd)
 nightly=$here/../../reports/nightly
 scratch=$(mktemp -d)
+# Stores of another build would be refused: this one stays while the test runs.
+assay=$scratch/bin/assay
+mkdir "$scratch/bin"
+cp "$1" "$(dirname "$1")/assay-worker" "$scratch/bin/"
 # shellcheck source=tests/nightly/slurm_cluster.sh
 . "$here/slurm_cluster.sh"
 cleanup() {
