@@ -8,7 +8,7 @@ shift
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cat >"$scratch/few.json" <<'JSON'
-{"schema": "assay-campaign/1", "name": "few", "seconds": 240, "strata": [
+{"schema": "assay-campaign/1", "name": "few", "seconds": 120, "strata": [
   {"family": "closed-generic", "cases": 150}, {"family": "closed-degenerate", "cases": 100},
   {"family": "unclosed-generic", "cases": 150}, {"family": "unclosed-degenerate", "cases": 100},
   {"family": "broken", "cases": 50}]}
