@@ -1,5 +1,5 @@
-// A planted fault (properties/faults) as a plug-in that claims what the built-in claims: certify has
-// to find it as it would find one in somebody's own detector.
+// A planted fault (properties/faults) as a plug-in that claims what the built-in claims: certify
+// has to find it as it would find one in somebody's own detector.
 #include "detector/plugin/builtin_handle.h"
 #include "properties/faults/fault.h"
 
