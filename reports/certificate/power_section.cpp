@@ -1,5 +1,4 @@
-#include <algorithm>
-
+#include "reports/certificate/fault_facts.h"
 #include "reports/certificate/sections.h"
 
 namespace assay::reports {
@@ -15,25 +14,6 @@ Json canaries_json(const Findings& findings) {
         {{"fault", row.name}, {"shard", row.shard}, {"found_after", facts["found_after"]}});
   }
   return list;
-}
-
-// Over seeds; null where at least half of them did not show it.
-Json median_of_needed(const Json& needed) {
-  std::vector<std::uint64_t> cases;
-  for (const auto& n : needed) {
-    if (!n.is_null()) cases.push_back(n.get<std::uint64_t>());
-  }
-  const std::size_t middle = (needed.size() - 1) / 2;
-  if (needed.empty() || cases.size() <= middle) return nullptr;
-  std::sort(cases.begin(), cases.end());
-  return cases[middle];
-}
-
-// By its curated case, or by a random one under any seed (FaultResult::found).
-bool is_found(const Json& facts) {
-  if (facts["curated"].get<bool>()) return true;
-  return std::any_of(facts["needed"].begin(), facts["needed"].end(),
-                     [](const Json& n) { return !n.is_null(); });
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 #include "reports/page_data/run_evidence.h"
 
-#include <algorithm>
-
 #include "properties/faults/fault.h"
+#include "reports/certificate/fault_facts.h"
 
 namespace assay::reports {
 namespace {
@@ -10,17 +9,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* library_key = "library";
-
-// Over seeds; null where it did not show under half of them or more.
-Json median_of(const Json& needed) {
-  std::vector<std::uint64_t> cases;
-  for (const auto& n : needed) {
-    if (!n.is_null()) cases.push_back(n.get<std::uint64_t>());
-  }
-  if (needed.empty() || cases.size() <= (needed.size() - 1) / 2) return nullptr;
-  std::sort(cases.begin(), cases.end());
-  return cases[(needed.size() - 1) / 2];
-}
 
 Json shrunk_json(const Json& shrunk) {
   if (shrunk.is_null()) return nullptr;
@@ -36,17 +24,15 @@ Json shrunk_json(const Json& shrunk) {
 Json fault_json(const std::string& name, const Json& facts) {
   const auto* fault = properties::find_fault(name);
   const auto& needed = facts.at("needed");
-  const bool found =
-      std::any_of(needed.begin(), needed.end(), [](const Json& n) { return !n.is_null(); });
   const bool has_case = !fault || !fault->curated.empty();
   const auto& known = facts.at("known_vertices");
   return {{"name", name},
           {"about", fault ? Json(fault->about) : Json()},
           {"law", facts.at("law")},
           {"status", facts.at("status")},
-          {"found", found},
+          {"found", is_found(facts)},
           {"time_over", facts.at("time_over")},
-          {"median_cases", median_of(needed)},
+          {"median_cases", median_of_needed(needed)},
           {"cases", needed},
           {"by_curated", has_case ? facts.at("curated") : Json()},
           {"known_vertices", known == 0 ? Json() : known},

@@ -113,12 +113,17 @@ TEST_F(Runs, TheHarnessGoesBeforeAllElse) {
   };
   EXPECT_EQ(verdict_in(whole().meet_canary(4), "seen").word, "defect");
   EXPECT_EQ(verdict_in(whole().meet_canary(std::nullopt), "blind").word, "unsound-harness");
-  auto survives = whole().meet_canary(4);
-  survives.evidence.push_back(
-      {"fault", "x/y", "1/1", 2,
-       R"({"law": "L3", "status": "planted", "curated": false, "needed": [null], "cases": 9,
-           "time_over": false, "known_vertices": 0, "shrunk": null})"});
-  EXPECT_EQ(verdict_in(survives, "survives").word, "unsound-harness");
+  const auto with_fault = [&](const std::string& curated) {
+    auto run = whole().meet_canary(4);
+    run.evidence.push_back({"fault", "x/y", "1/1", 2,
+                            R"({"law": "L3", "status": "planted", "curated": )" + curated +
+                                R"(, "needed": [null], "cases": 9, "time_over": false,
+                                "known_vertices": 0, "shrunk": null})"});
+    return run;
+  };
+  EXPECT_EQ(verdict_in(with_fault("false"), "survives").word, "unsound-harness");
+  EXPECT_EQ(verdict_in(with_fault("true"), "curated").word, "defect")
+      << "its curated case shows it, if no random one does";
 }
 
 TEST_F(Runs, WhatIsLeftOpenWhereNoBoundIsWantedIsUndecided) {
