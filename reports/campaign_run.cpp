@@ -7,8 +7,12 @@
 
 #include "properties/campaign/binding.h"
 #include "properties/campaign/shrink.h"
+#include "properties/worker/worker_process.h"
 #include "reports/certificate/evidence.h"
+#include "reports/detector_choice.h"
+#include "reports/exit_code.h"
 #include "reports/failure_text.h"
+#include "reports/interruption.h"
 #include "reports/page_data/run_evidence.h"
 #include "reports/plain_progress.h"
 #include "reports/plugin_text.h"
@@ -195,6 +199,25 @@ class CampaignRun {
 };
 
 }  // namespace
+
+std::optional<std::string> ask_for_campaign(const CampaignWords& words,
+                                            properties::CampaignRequest& request) {
+  end_when_interrupted(fmt::format("interrupted: what was judged is stored in {}; run the same "
+                                   "again to go on",
+                                   words.out),
+                       exit_undecided);
+  auto plan = properties::find_plan(words.campaign);
+  if (!plan) return plan.error().message;
+  request.plan = std::move(plan.value());
+  request.seed = words.seed;
+  request.jobs = words.jobs;
+  request.worker = properties::worker_program();
+  if (auto problem = choose_detector(words.detector, request)) return problem;
+  std::error_code error;
+  std::filesystem::create_directories(words.out, error);
+  if (error) return fmt::format("{}: cannot be made: {}", words.out, error.message());
+  return std::nullopt;
+}
 
 std::optional<std::string> run_phases(const properties::CampaignRequest& request,
                                       properties::Store& store, const std::string& out,

@@ -8,7 +8,6 @@
 
 #include "corpus/digest.h"
 #include "properties/campaign/binding.h"
-#include "properties/worker/worker_process.h"
 #include "reports/campaign_run.h"
 #include "reports/certificate/corpus_check.h"
 #include "reports/certificate/evidence.h"
@@ -20,9 +19,7 @@
 #include "reports/certificate/waivers.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"
-#include "reports/detector_choice.h"
 #include "reports/failure_text.h"
-#include "reports/interruption.h"
 #include "reports/json_output.h"
 #include "reports/shell_word.h"
 #include "reports/version.h"
@@ -230,21 +227,11 @@ class Certification {
 }  // namespace
 
 int run_certify(const CertifyRequest& command) {
-  end_when_interrupted(fmt::format("interrupted: what was judged is stored in {}; run the same "
-                                   "again to go on",
-                                   command.out),
-                       exit_undecided);
-  auto plan = properties::find_plan(command.campaign);
-  if (!plan) return refuse(plan.error().message);
   properties::CampaignRequest request;
-  request.plan = std::move(plan.value());
-  request.seed = command.seed;
-  request.jobs = command.jobs;
-  request.worker = properties::worker_program();
-  if (auto problem = choose_detector(command.detector, request)) return refuse(*problem);
-  std::error_code error;
-  std::filesystem::create_directories(command.out, error);
-  if (error) return refuse(fmt::format("{}: cannot be made: {}", command.out, error.message()));
+  if (const auto wrong = ask_for_campaign(
+          {command.campaign, command.seed, command.jobs, command.detector, command.out}, request)) {
+    return refuse(*wrong);
+  }
   std::string problem;
   auto checks = Store::open(
       checks_file(command.out),

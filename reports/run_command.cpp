@@ -4,14 +4,11 @@
 #include <algorithm>
 
 #include "properties/campaign/binding.h"
-#include "properties/worker/worker_process.h"
 #include "reports/campaign_run.h"
 #include "reports/certificate/run_report.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"
-#include "reports/detector_choice.h"
 #include "reports/failure_text.h"
-#include "reports/interruption.h"
 #include "reports/shell_word.h"
 
 namespace assay::reports {
@@ -122,23 +119,13 @@ class Conclusion {
 }  // namespace
 
 int run_campaign(const RunCommandRequest& command) {
-  end_when_interrupted(fmt::format("interrupted: what was judged is stored in {}; run the same "
-                                   "again to go on",
-                                   command.out),
-                       exit_undecided);
-  auto plan = properties::find_plan(command.campaign);
-  if (!plan) return refuse(plan.error().message);
   properties::CampaignRequest request;
-  request.plan = std::move(plan.value());
+  if (const auto wrong = ask_for_campaign(
+          {command.campaign, command.seed, command.jobs, command.detector, command.out}, request)) {
+    return refuse(*wrong);
+  }
   if (command.time_limit) request.plan.seconds = *command.time_limit;
-  request.seed = command.seed;
-  request.jobs = command.jobs;
   request.shard = command.shard;
-  request.worker = properties::worker_program();
-  if (auto problem = choose_detector(command.detector, request)) return refuse(*problem);
-  std::error_code error;
-  std::filesystem::create_directories(command.out, error);
-  if (error) return refuse(fmt::format("{}: cannot be made: {}", command.out, error.message()));
   std::string problem;
   auto store = properties::Store::open(store_file(command.out, request.shard),
                                        properties::binding_of(request), problem);
