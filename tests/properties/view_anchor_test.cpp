@@ -96,6 +96,16 @@ TEST(ViewAnchor, PointIsNearlyTheBestOfAThousandOnEveryScene) {
   }
 }
 
+// In contact with themselves, both are seen best from where the solid covers space twice.
+TEST(ViewAnchor, IsInsideOnceWhereThatCostsLittle) {
+  for (const char* name : {"bend", "crumpling-sphere"}) {
+    auto scene = corpus::make_scene(name, {});
+    ASSERT_TRUE(scene);
+    const auto& x = scene.value().frames.back();
+    EXPECT_EQ(judge(scene.value().triangles, x, name).winding, 1) << name;
+  }
+}
+
 TEST(ViewAnchor, L1_LineSettlesTubes) {
   for (const char* name : {"bend", "twist"}) {
     auto scene = corpus::make_scene(name, {});
