@@ -1,0 +1,116 @@
+// What is called for each triangle or pair asks for no memory. A program of its own: it counts
+// every operator new.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+#include "corpus/scenes.h"
+#include "detector/contact/contact_bounded.h"
+#include "detector/contact/contact_filter.h"
+#include "detector/contact/contact_fixed.h"
+#include "detector/detector.h"
+#include "detector/view/view_anchor.h"
+
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+}  // namespace
+
+// The array and nothrow forms of the standard library come here.
+void* operator new(std::size_t size) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace assay::properties {
+namespace {
+
+using namespace detector;
+
+template <class Call>
+std::uint64_t allocations_of(Call call) {
+  const std::uint64_t before = allocations;
+  call();
+  return allocations - before;
+}
+
+TEST(Allocation, IsCounted) {
+  EXPECT_GE(allocations_of([] { std::vector<int>(1000).shrink_to_fit(); }), 1u);
+}
+
+corpus::Sequence scene(const char* name, int size) {
+  corpus::SceneOptions options;
+  options.size = size;
+  auto made = corpus::make_scene(name, options);
+  EXPECT_TRUE(made);
+  return std::move(made.value());
+}
+
+TEST(Allocation, NoneInTheViewTest) {
+  const auto made = scene("breathing-sphere", 1280);
+  const PositionsView x_t0(made.frames[0]), x_t1(made.frames[1]);
+  const Topology mesh = make_topology(made.triangles, x_t0.rows());
+  for (const auto kind : {ViewKind::point, ViewKind::line}) {
+    for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded,
+                                  Arithmetic::double_precision, Arithmetic::single_precision}) {
+      const auto anchor = make_view_anchor(kind, mesh, mesh.components[0], x_t0.rows(), x_t0);
+      const auto view = place_view(anchor, x_t0, x_t1);
+      std::vector<ViewSign> signs(mesh.triangles.size());
+      ViewCounts counts;
+      EXPECT_EQ(allocations_of([&] {
+                  classify(mesh, mesh.components[0], x_t0, x_t1, view, signs, counts,
+                           best_instruction_set(), arithmetic);
+                }),
+                0u);
+      EXPECT_EQ(counts.exact, 0u);
+      EXPECT_EQ(counts.lanes + counts.filter, mesh.triangles.size());
+    }
+  }
+}
+
+// A face hit from above, and one whose corners end in a corner of it: integers decide.
+TEST(Allocation, NoneInElementaryTestsBeforeIntegersWithoutBound) {
+  const auto still = [](double x, double y, double z) { return MovingPoint{{x, y, z}, {x, y, z}}; };
+  FourPoints query{
+      {MovingPoint{{.25, .25, 1}, {.25, .25, -1}}, still(0, 0, 0), still(1, 0, 0), still(0, 1, 0)},
+      1};
+  for (const double x : {.25, 0., -.1}) {
+    query.points[0].t0[0] = query.points[0].t1[0] = x;
+    FixedResult fixed;
+    EXPECT_EQ(allocations_of([&] {
+                filter_contact(query, Want::first_time);
+                bounded_contact(query, Want::first_time);
+                fixed = fixed_contact(query, Want::first_time);
+              }),
+              0u);
+    EXPECT_EQ(fixed.verdict, x < 0 ? FixedVerdict::no_contact : FixedVerdict::contact);
+  }
+}
+
+// A later free step asks for as much memory of a large mesh as of a small one.
+TEST(Allocation, OfAFreeStepDoesNotGrowWithTheMesh) {
+  std::uint64_t of_small = 0;
+  for (const int size : {320, 5120}) {
+    const auto made = scene("breathing-sphere", size);
+    auto detector = Detector::create(made.triangles, made.frames[0], {});
+    ASSERT_TRUE(detector);
+    ASSERT_EQ(detector.value().step(made.frames[0], made.frames[1]).answer, Answer::free);
+    std::uint64_t count = 0;
+    Answer answer = Answer::error;
+    count = allocations_of(
+        [&] { answer = detector.value().step(made.frames[1], made.frames[2]).answer; });
+    EXPECT_EQ(answer, Answer::free);
+    std::printf("%ld triangles: %lu allocations in a free step\n",
+                static_cast<long>(made.triangles.rows()), static_cast<unsigned long>(count));
+    if (size == 320) of_small = count;
+    EXPECT_EQ(count, of_small);
+  }
+}
+
+}  // namespace
+}  // namespace assay::properties
