@@ -197,7 +197,10 @@ std::vector<ScoredLine> search_lines(const ViewPlanes& planes,
     return is_perfect(planes, tried.back().score);
   };
   for (const double part : {0.5, 0.75, 0.875, 0.9375, 0.25}) {
-    if (attempt(along(mean, direction, part * lo), along(mean, direction, part * hi))) return tried;
+    if (attempt(along(mean, direction, part * lo), along(mean, direction, part * hi))) {
+      rank(tried);
+      return tried;
+    }
   }
   constexpr std::size_t pool_size = 10;
   constexpr double apart = 0.25;

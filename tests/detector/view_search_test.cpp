@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "detector/view/view_anchor.h"
+#include "detector/view/view_test.h"
 #include "tests/detector/points.h"
 #include "tests/detector/revolved.h"
 
@@ -81,6 +83,28 @@ TEST_F(Places, LinesGoOnWhileOneMayBeBetter) {
   ASSERT_TRUE(is_best_first(lines));
   EXPECT_GE(lines.size(), 5u + 45u) << "along the tube, and between ten places";
   EXPECT_GT(lines.front().score, lines.back().score);
+}
+
+// Wide at both ends: each end sees all but the ring where the other begins. One ring is less than
+// what makes a line worth its test, had it not all of them.
+TEST(ViewAnchorKind, IsALineWhereThatAloneSeesAll) {
+  std::vector<tests::Ring> rings;
+  for (int k = 0; k < tube_rings; ++k) rings.push_back({1. * k, k < 4 || k >= 36 ? 3. : 1.5});
+  const Positions x = revolved(rings, -1, tube_rings);
+  const Topology mesh = make_topology(revolved(tube_rings), x.rows());
+  const auto positive_from = [&](const ViewAnchor& anchor) {
+    std::vector<ViewSign> signs(mesh.triangles.size());
+    ViewCounts counts;
+    classify(mesh, mesh.components[0], x, x, place_view(anchor, x, x), signs, counts);
+    return std::count(signs.begin(), signs.end(), ViewSign::positive);
+  };
+  const auto all = static_cast<long>(mesh.triangles.size());
+  const auto point = make_view_anchor(ViewKind::point, mesh, mesh.components[0], x.rows(), x);
+  EXPECT_LT(positive_from(point), all);
+  EXPECT_GT(positive_from(point), all - all / 30);
+  const auto chosen = choose_view_anchor(mesh, mesh.components[0], x.rows(), x);
+  EXPECT_EQ(chosen.kind, ViewKind::line);
+  EXPECT_EQ(positive_from(chosen), all);
 }
 
 // The corner at +x lies in the planes of four triangles and sees the other four.
