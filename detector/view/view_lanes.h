@@ -34,6 +34,7 @@ using LaneKernel = void (*)(const LaneInput& input, const std::int32_t* triangle
                             std::size_t count, std::int8_t* signs);
 
 struct LaneKernels {
+  std::size_t lanes;        // triangles at once
   LaneKernel point;         // the cubic of L1, L2; signs at both ends
   LaneKernel two_cubics;    // a line: h0 and h1 of one strict sign
   LaneKernel middle_piece;  // a line: (1-s) h0 + s h1 with s bounded over the step

@@ -279,8 +279,8 @@ void kernel(const LaneInput& input, const std::int32_t* triangles, std::size_t c
   for (std::size_t k = 0; i + k < count; ++k) signs[i + k] = rest_signs[k];
 }
 
-constexpr LaneKernels kernels_of_this_file = {kernel<point_group>, kernel<two_cubics_group>,
-                                              kernel<middle_group>};
+constexpr LaneKernels kernels_of_this_file = {lane_count, kernel<point_group>,
+                                              kernel<two_cubics_group>, kernel<middle_group>};
 
 }  // namespace
 }  // namespace assay::detector

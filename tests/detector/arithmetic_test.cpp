@@ -56,9 +56,11 @@ TEST(Arithmetic, FirstRootIsEnclosed) {
         of(b[0]) + t * (of(3 * (b[1] - b[0])) + t * (of(3 * (b[2] - 2 * b[1] + b[0])) +
                                                      t * of(b[3] - 3 * b[2] + 3 * b[1] - b[0])));
     const auto first = roots_in_unit_interval(f).front().enclosure();
-    for (const double bound : {0.0, 0x1p-40, 0x1p-20}) {
+    const double most = .4 * std::min(std::abs(b[0]), std::abs(b[3]));  // the ends stay beyond it
+    for (const double bound : {0.0, 0x1p-40, 0x1p-20, .1 * most, most}) {
+      const double all = draw.between(-1, 1);  // by as much, where it is not 0
       Cubic off;
-      for (std::size_t k = 0; k < 4; ++k) off[k] = b[k] + bound * draw.unit();
+      for (std::size_t k = 0; k < 4; ++k) off[k] = b[k] + bound * (all != 0 ? all : draw.unit());
       const auto found = enclose_first_root(off, bound, 0, 1);
       ASSERT_LE(found.lo, first.lo) << "cubic " << i << ", bound " << bound;
       ASSERT_GE(found.hi, first.hi) << "cubic " << i << ", bound " << bound;

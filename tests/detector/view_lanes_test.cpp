@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "detector/view/view_test.h"
@@ -23,11 +24,12 @@ struct Found {
   ViewCounts counts;
 };
 
-Found find(const TriangleBatch& batch, InstructionSet set) {
+Found find(const TriangleBatch& batch, InstructionSet set,
+           Arithmetic arithmetic = Arithmetic::exact) {
   Found found;
   found.signs.resize(batch.mesh.triangles.size());
   classify(batch.mesh, batch.mesh.components[0], batch.x_t0, batch.x_t1, batch.primitive,
-           found.signs, found.counts, set);
+           found.signs, found.counts, set, arithmetic);
   return found;
 }
 
@@ -93,9 +95,46 @@ TEST(ViewLanes, TheBaselineIsThereAndTheBestIsAvailable) {
   for (const auto set : all_sets) {
     if (is_available(set)) std::printf("instruction set %d is here\n", static_cast<int>(set));
     EXPECT_FALSE(is_available(set) && set > best_instruction_set());
+    if (is_available(set)) {
+      EXPECT_EQ(lane_kernels(set).lanes, std::size_t{2} << static_cast<int>(set));
+    }
     for (const auto other : all_sets) {
       if (set == other || !is_available(set) || !is_available(other)) continue;
       EXPECT_NE(lane_kernels(set).point, lane_kernels(other).point) << "each has its own";
+    }
+  }
+}
+
+template <class Change>
+TriangleBatch changed(TriangleBatch batch, Change change) {
+  for (auto* x : {&batch.x_t0, &batch.x_t1}) *x = x->unaryExpr(change);
+  for (auto* q : {&batch.primitive.q0, &batch.primitive.q1}) {
+    for (std::size_t k = 0; k < 3; ++k) q->t0[k] = change(q->t0[k]), q->t1[k] = change(q->t1[k]);
+  }
+  return batch;
+}
+
+// A power of two changes no rounding, so no rung settles more or less.
+TEST(ViewLanes, PowersOfTwoChangeNothing) {
+  BatchMaker maker(6);
+  int batches = 0;
+  for (const auto family : {BatchFamily::generic, BatchFamily::small_motion,
+                            BatchFamily::near_degenerate, BatchFamily::degenerate}) {
+    for (int b = 0; b < 40; ++b, ++batches) {
+      const TriangleBatch batch =
+          changed(maker.make(family, 96, b % 4 != 0),  // denormals would lose bits
+                  [](double c) { return std::abs(c) < 0x1p-1000 ? 0 : c; });
+      for (const auto arithmetic :
+           {Arithmetic::exact, Arithmetic::bounded, Arithmetic::double_precision}) {
+        const Found found = find(batch, best_instruction_set(), arithmetic);
+        for (const double scale : {0x1p-20, 0x1p20}) {
+          const TriangleBatch scaled = changed(batch, [=](double c) { return scale * c; });
+          const Found other = find(scaled, best_instruction_set(), arithmetic);
+          ASSERT_EQ(other.signs, found.signs) << "batch " << batches;
+          ASSERT_EQ(other.counts.lanes, found.counts.lanes) << "batch " << batches;
+          ASSERT_EQ(other.counts.exact, found.counts.exact) << "batch " << batches;
+        }
+      }
     }
   }
 }
