@@ -10,6 +10,7 @@
 #include "properties/campaign/binding.h"
 #include "reports/campaign_run.h"
 #include "reports/certificate/corpus_check.h"
+#include "reports/certificate/corpus_failures.h"
 #include "reports/certificate/evidence.h"
 #include "reports/certificate/findings.h"
 #include "reports/certificate/junit.h"
@@ -62,6 +63,7 @@ class Certification {
     if (const auto wrong = run_corpus()) return refuse(*wrong);
     if (const auto wrong = holds_shards(out_) ? take_shards() : run_campaign())
       return refuse(*wrong);
+    if (const auto wrong = show_corpus_failures()) return refuse(*wrong);
     run_self_test();
     if (request_.detector.built_in) run_speed();
     return issue();
@@ -105,7 +107,7 @@ class Certification {
     fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration", "cases",
                "steps", "collisions", "pairs", "defects");
     checks_.drop_evidence("corpus");
-    return check_corpus(request_, ASSAY_CORPUS_DIR, [&](const Json& row) {
+    const auto on_row = [&](const Json& row) {
       const auto input = row["input"].get<std::string>();
       const auto configuration = row["configuration"].get<std::string>();
       fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", input, configuration,
@@ -118,7 +120,17 @@ class Certification {
       }
       std::fflush(stdout);
       store_check(checks_, "corpus", input + ", " + configuration, row);
-    });
+    };
+    return check_corpus(request_, ASSAY_CORPUS_DIR, on_row,
+                        [&](const auto& failure) { corpus_failures_.push_back(failure); });
+  }
+
+  std::optional<std::string> show_corpus_failures() {
+    if (corpus_failures_.empty()) return std::nullopt;
+    keep_corpus_failures(request_, corpus_failures_, signatures_of_trials(out_), checks_);
+    const auto shown = write_failures(checks_, out_, command_.detector);
+    fmt::print("{}", shown.text);
+    return shown.problem;
   }
 
   std::optional<std::string> run_campaign() {
@@ -221,6 +233,7 @@ class Certification {
   const properties::CampaignRequest& request_;
   const std::filesystem::path out_;
   Store checks_;
+  std::vector<properties::StoredFailure> corpus_failures_;
   const Clock::time_point begin_;
 };
 

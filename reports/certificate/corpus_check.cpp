@@ -54,8 +54,11 @@ Row check_facts(const std::vector<corpus::Case>& cases, Culling culling, int job
 // Cases through the worker, a row for each configuration.
 class JudgedRows {
  public:
-  JudgedRows(const properties::CampaignRequest& request, const std::string& input)
-      : request_(request), worker_(request.worker, request.plugin, {case_seconds, 0}) {
+  JudgedRows(const properties::CampaignRequest& request, const std::string& input,
+             const OnCorpusFailure& on_failure)
+      : request_(request),
+        on_failure_(on_failure),
+        worker_(request.worker, request.plugin, {case_seconds, 0}) {
     for (const auto& configuration : request.detector.configurations)
       rows_.push_back({input, configuration.name});
   }
@@ -76,6 +79,14 @@ class JudgedRows {
       const auto& failure = verdict.failure;
       rows_[i].fail(c.id, failure ? failure->signature() : "undecided",
                     failure ? failure->what : "no verdict: " + runs[i].what);
+      if (failure) {
+        on_failure_({"corpus:" + c.id,
+                     configurations[i].name,
+                     failure->signature(),
+                     failure->what,
+                     corpus::case_text(c),
+                     {}});
+      }
     }
   }
   const std::vector<Row>& rows() const { return rows_; }
@@ -83,6 +94,7 @@ class JudgedRows {
  private:
   static constexpr double case_seconds = 60;  // scenes are larger than a campaign's cases
   const properties::CampaignRequest& request_;
+  const OnCorpusFailure& on_failure_;
   properties::WorkerProcess worker_;
   std::vector<Row> rows_;
 };
@@ -119,7 +131,8 @@ corpus::Expected<corpus::Case> case_of_scene(std::string_view name) {
 
 std::optional<std::string> check_corpus(const properties::CampaignRequest& request,
                                         const std::filesystem::path& corpus,
-                                        const OnCorpusRow& on_row) {
+                                        const OnCorpusRow& on_row,
+                                        const OnCorpusFailure& on_failure) {
   const auto cases = curated(corpus);
   if (!cases) return cases.error().message;
   if (request.detector.built_in) {
@@ -127,7 +140,7 @@ std::optional<std::string> check_corpus(const properties::CampaignRequest& reque
                                Culling::normal_cone, Culling::bvh})
       on_row(check_facts(cases.value(), culling, request.jobs).json());
   } else {
-    JudgedRows judged(request, "curated cases");
+    JudgedRows judged(request, "curated cases", on_failure);
     for (const auto& c : cases.value()) {
       // What has to be refused is no valid input, so nothing is claimed of it.
       if (c.expected.answer != detector::Answer::error) judged.add(c);
@@ -137,7 +150,7 @@ std::optional<std::string> check_corpus(const properties::CampaignRequest& reque
   for (const auto& scene : corpus::scenes()) {
     const auto c = case_of_scene(scene.name);
     if (!c) return c.error().message;
-    JudgedRows judged(request, std::string(scene.name));
+    JudgedRows judged(request, std::string(scene.name), on_failure);
     judged.add(c.value());
     for (const auto& row : judged.rows()) on_row(row.json());
   }

@@ -16,10 +16,15 @@ namespace assay::reports {
 // scenes are for both. One judgement of the oracle serves all configurations.
 using OnCorpusRow = std::function<void(const nlohmann::ordered_json&)>;
 
+// Called for each case that a configuration fails by the oracle, as a trial would be stored; its id
+// is "corpus:CASE". Expected facts that the built-in detector fails are told in the row alone.
+using OnCorpusFailure = std::function<void(const properties::StoredFailure&)>;
+
 // A line for the user when the corpus cannot be read. corpus: folder of the curated cases.
 std::optional<std::string> check_corpus(const properties::CampaignRequest& request,
                                         const std::filesystem::path& corpus,
-                                        const OnCorpusRow& on_row);
+                                        const OnCorpusRow& on_row,
+                                        const OnCorpusFailure& on_failure);
 
 // SHA-256 over names and bytes of the case files.
 std::string corpus_digest(const std::filesystem::path& corpus);

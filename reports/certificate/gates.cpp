@@ -137,7 +137,8 @@ Lines corpus(const Json& p) {
 Lines claims(const Json& p) {
   Lines lines;
   for (const auto& failure : p["failures"]) {
-    if (!failure["waived"].get<bool>())
+    // What the corpus alone shows is that gate's.
+    if (!failure["waived"].get<bool>() && count(failure["met"]) > 0)
       lines.push_back(fmt::format("{} ({}), met {} times; {}", text(failure["signature"]),
                                   text(failure["configuration"]), count(failure["met"]),
                                   text(failure["replay"])));

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "reports/certificate/summary.h"
+
 namespace assay::reports {
 namespace {
 
@@ -115,9 +117,9 @@ Suite corpus_suite(const Json& p) {
 Suite failures_suite(const Json& p) {
   Suite suite{"failures", {}};
   for (const auto& failure : p["failures"]) {
-    const auto what = fmt::format("{} ({}), met {} times; {}\n", text(failure["what"]),
-                                  text(failure["configuration"]),
-                                  failure["met"].get<std::uint64_t>(), text(failure["case"]));
+    const auto what =
+        fmt::format("{} ({}), {}; {}\n", text(failure["what"]), text(failure["configuration"]),
+                    met_text(failure), text(failure["case"]));
     TestCase test{text(failure["signature"]), {}, {}};
     if (failure["waived"].get<bool>()) {
       test.skipped = "waived: " + what;

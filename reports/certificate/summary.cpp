@@ -60,9 +60,9 @@ std::string failures_text(const Json& p) {
   std::string out;
   for (const auto& failure : p["failures"]) {
     const auto& after = failure["after"];
-    out += fmt::format("\n**{}** ({}{}), met {} times{}\n\n    {}\n", cell(failure["signature"]),
+    out += fmt::format("\n**{}** ({}{}), {}{}\n\n    {}\n", cell(failure["signature"]),
                        cell(failure["configuration"]),
-                       failure["waived"].get<bool>() ? ", waived" : "", count(failure["met"]),
+                       failure["waived"].get<bool>() ? ", waived" : "", met_text(failure),
                        after.is_null()
                            ? ""
                            : fmt::format("; shrunk to {} triangles, {} vertices",
@@ -73,6 +73,11 @@ std::string failures_text(const Json& p) {
 }
 
 }  // namespace
+
+std::string met_text(const Json& failure) {
+  const auto trials = count(failure["met"]);
+  return trials == 0 ? "met in the corpus alone" : fmt::format("met {} times", trials);
+}
 
 std::string summary_text(const Json& p) {
   const auto& power = p["power"];

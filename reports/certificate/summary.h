@@ -10,4 +10,7 @@ namespace assay::reports {
 // bytes.
 std::string summary_text(const nlohmann::ordered_json& predicate);
 
+// Of one of `failures`: "met 3 times", or that no trial showed it.
+std::string met_text(const nlohmann::ordered_json& failure);
+
 }  // namespace assay::reports

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "properties/campaign/binding.h"
+#include "reports/certificate/findings.h"
 #include "reports/failure_text.h"
 
 namespace assay::reports {
@@ -36,6 +37,10 @@ class RunReader {
     for (const auto& file : files) {
       BOOST_OUTCOME_TRY(add(file));
     }
+    std::error_code ignored;
+    if (std::filesystem::exists(checks_file(run_.folder), ignored)) {
+      BOOST_OUTCOME_TRY(add_checks(checks_file(run_.folder)));
+    }
     std::stable_sort(run_.failures.begin(), run_.failures.end(), [](const auto& a, const auto& b) {
       return std::pair(a.signature, a.smallest.empty()) <
              std::pair(b.signature, b.smallest.empty());
@@ -60,15 +65,31 @@ class RunReader {
     return boost::outcome_v2::success();
   }
 
+  // What the corpus shows; the rest of that store the certificate tells.
+  corpus::Expected<void> add_checks(const std::filesystem::path& file) {
+    std::string problem;
+    const auto store = properties::Store::read(file, problem);
+    if (!store) return corpus::Problem{FileProblem::malformed, problem};
+    try {
+      BOOST_OUTCOME_TRY(check_binding(store->binding()));
+      for (auto& failure : store->failures()) run_.failures.push_back(std::move(failure));
+    } catch (const properties::StoreProblem& damaged) {
+      return corpus::Problem{FileProblem::malformed, damaged.what()};
+    }
+    return boost::outcome_v2::success();
+  }
+
+  corpus::Expected<void> check_binding(const std::string& text) {
+    if (binding_.empty()) binding_ = text;
+    const auto difference = properties::difference_of(binding_, text);
+    if (difference.empty()) return boost::outcome_v2::success();
+    return problem_in(FileProblem::malformed, run_.folder,
+                      "holds shards of different runs: " + difference);
+  }
+
   corpus::Expected<void> take_binding(const properties::Store& store) {
     const auto text = store.binding();
-    if (binding_.empty()) {
-      binding_ = text;
-    } else if (const auto difference = properties::difference_of(binding_, text);
-               !difference.empty()) {
-      return problem_in(FileProblem::malformed, run_.folder,
-                        "holds shards of different runs: " + difference);
-    }
+    BOOST_OUTCOME_TRY(check_binding(text));
     const Json binding = Json::parse(text);
     const auto [shard, count] = shard_of(binding.at("shard").get<std::string>());
     run_.shards.insert(shard);

@@ -37,8 +37,9 @@ struct StoredRun {
   StoredDetector detector;
   RunEvidence evidence;
   properties::Tally tally;
-  properties::Counts met;                           // signatures
-  std::vector<properties::StoredFailure> failures;  // by signature; shrunk ones first
+  properties::Counts met;  // signatures
+  std::vector<properties::StoredFailure>
+      failures;  // by signature; shrunk ones first; the corpus' too
 
   std::uint64_t planned_trials() const;
   std::uint64_t trials() const;

@@ -156,6 +156,40 @@ TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
   expect_tampering_is_seen(out + "/" + failure["file"].get<std::string>(), certificate);
 }
 
+// Some faults show in a curated case alone: that one is shrunk and shown as a trial's mesh is.
+TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
+  const auto made = certify("--detector " + plugin("fault_view-line_one-corner"));
+  ASSERT_EQ(made.exit_code, 1) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "\nDEFECT ")) << made.out;
+  EXPECT_TRUE(contains(made.out, "  case corpus:M_Leither: ")) << made.out;
+  const Json statement = read(), &p = statement["predicate"];
+  expect_schema(statement);
+  EXPECT_EQ(p["failed_gate"], "corpus");
+  EXPECT_EQ(p["gates"][0]["holds"], true) << "no defect of a trial";
+  EXPECT_EQ(p["gates"][3]["holds"], true);
+  ASSERT_EQ(p["failures"].size(), 1u);
+  const Json& failure = p["failures"][0];
+  EXPECT_EQ(failure["met"], 0);
+  EXPECT_EQ(failure["case"], "corpus:M_Leither");
+  ASSERT_FALSE(failure["after"].is_null());
+  EXPECT_LT(failure["after"]["triangles"].get<int>(), failure["before"]["triangles"].get<int>());
+  EXPECT_EQ(run_assay(failure["replay"].get<std::string>().substr(6)).exit_code, 1);
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"), "met in the corpus alone"));
+  const auto verified = run_assay("verify " + certificate);
+  EXPECT_EQ(verified.exit_code, 1) << verified.out;
+  EXPECT_TRUE(contains(verified.out, "verdict defect\n")) << verified.out;
+  expect_tampering_is_seen(out + "/" + failure["file"].get<std::string>(), certificate);
+  const auto page = scratch / "page.html";
+  ASSERT_EQ(run_assay("report " + out + " --out " + page).exit_code, 0);
+  const auto text = read_text(page);
+  EXPECT_TRUE(contains(text, failure["signature"].get<std::string>()));
+  EXPECT_TRUE(contains(text, "\"scene\":{"));
+
+  // Once more: what is shrunk already stays as it is.
+  ASSERT_EQ(certify("--detector " + plugin("fault_view-line_one-corner")).exit_code, 1);
+  EXPECT_EQ(read()["predicate"]["failures"], p["failures"]);
+}
+
 TEST_F(Certify, NoCertificateWhileAShardIsAbsent) {
   const auto run = [&](const std::string& shard) {
     return run_assay("run --campaign " + plan + " --shard " + shard + " --out " + out).exit_code;

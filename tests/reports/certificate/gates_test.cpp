@@ -132,6 +132,9 @@ TEST(Gates, ABrokenClaimIsADefectUnlessWaived) {
   };
   expect(with(false), "claims", "defect", 1);
   EXPECT_EQ(with(true)["verdict"], "certified");
+  // What no trial showed, the corpus did: a matter of that gate.
+  EXPECT_EQ(verdict_after({{"/failures", Json::array({failure("late", 0, false)})}})["verdict"],
+            "certified");
   // A law is no claim of a trial's outcome.
   expect(verdict_after({{"/failures", Json::array({failure("law L3_X", 1, false)})}}), "claims",
          "defect", 1);
@@ -202,13 +205,14 @@ TEST(Junit, FailsWhereTheCertificateDoes) {
 
 TEST(Summary, NamesVerdictGatesAndFailures) {
   auto p = good();
-  p["failures"] = Json::array({failure("a|b", 3, false)});
+  p["failures"] = Json::array({failure("a|b", 3, false), failure("c", 0, true)});
   p["strata"][0]["bounds"][0]["defects"] = 3;
   const auto text = summary_text(judged(p));
   for (const std::string word :
        {"## Assay: defect\n", "| claims | **fails** | a\\|b (bvh), met 3 times",
         "| broken | 20 of 20 | 20 | 0 | 3 | 0 | 2.00e-01 | 5e-01 |", "\n    assay replay x\n",
-        "2 of 2 planted faults found", "All 8 bounds together hold with confidence 95 %"}) {
+        "2 of 2 planted faults found", "**c** (bvh, waived), met in the corpus alone\n",
+        "All 8 bounds together hold with confidence 95 %"}) {
     EXPECT_TRUE(contains(text, word)) << word << "\n" << text;
   }
 }
