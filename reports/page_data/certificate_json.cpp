@@ -123,7 +123,8 @@ std::string why_text(const Json& p) {
   if (p.at("failed_gate").is_null()) return "every gate is passed";
   for (const auto& gate : p.at("gates")) {
     if (gate.at("gate") == p.at("failed_gate"))
-      return gate_name(gate.at("gate")) + " fails: " + reasons_text(gate.at("reasons"));
+      return "gate \"" + gate_name(gate.at("gate")) +
+             "\" fails: " + reasons_text(gate.at("reasons"));
   }
   return "a gate fails";
 }

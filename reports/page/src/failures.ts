@@ -4,7 +4,7 @@ import { failureFacts } from "./failure_facts";
 import { pairTable } from "./pair_table";
 import { legend } from "./legend";
 import type { Failure, Run } from "./report";
-import { count, counted } from "./words";
+import { counted } from "./words";
 import { staticPicture, Viewer } from "./viewer/viewer";
 
 // What a missed contact breaks first, then what else is claimed, then laws.
@@ -67,7 +67,7 @@ export function failures(run: Run): FailuresView {
       : html(
           "p",
           {},
-          `${count(run.failures.length)} kinds, told apart by claim, difference, stage and feature. Each has the smallest mesh that was found for it.`,
+          `${counted(run.failures.length, "kind")}, told apart by claim, difference, stage and feature. Each has the smallest mesh that was found for it.`,
         ),
     run.failures.length === 0
       ? null
