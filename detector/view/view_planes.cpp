@@ -33,6 +33,9 @@ ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const P
   points_.reserve(component.vertices.size());
   for (const auto v : component.vertices) points_.push_back(to_unit(point_of(x, v)));
   const std::size_t count = std::min(component.triangles.size(), most);
+  // Grown by doubling they would be the largest memory of all preprocessing.
+  for (auto* row : {&nx_, &ny_, &nz_, &offset_}) row->reserve(count);
+  corners_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto t = component.triangles[i * component.triangles.size() / count];
     std::array<Point, 3> p;
