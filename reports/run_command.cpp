@@ -32,14 +32,17 @@ class Conclusion {
     bool bounds_met = true;
     for (const auto& stratum : request_.plan.strata) {
       const auto found = tally.strata.find(stratum.family);
+      // A bound is wanted of all shards together: merge and certify ask for it.
+      const bool is_of_all_shards = stratum.wanted_bound > 0 && request_.shard.count > 1;
       if (found == tally.strata.end()) {
-        bounds_met &= stratum.wanted_bound == 0;
+        bounds_met &= stratum.wanted_bound == 0 || is_of_all_shards;
         continue;
       }
       for (const auto& outcomes : found->second.by_configuration) {
         const auto open = outcomes.undecided + outcomes.errors;
         defects += outcomes.defects;
         unsettled += open;
+        if (is_of_all_shards) continue;
         // Where no bound is wanted, none may be left open.
         bounds_met &= stratum.wanted_bound == 0
                           ? open == 0

@@ -194,6 +194,18 @@ TEST_F(Run, ABoundThatIsOutOfReachIsUndecided) {
   EXPECT_TRUE(contains(outcome.out, "next: ")) << outcome.out;
 }
 
+TEST_F(Run, AShardIsNotHeldToTheBoundOfAll) {
+  plan = scratch.write("plan.json",
+                       R"({"schema": "assay-campaign/1", "name": "small", "seconds": 20,
+          "strata": [{"family": "closed-generic", "cases": 8, "bound": 0.01},
+                     {"family": "broken", "cases": 1, "bound": 0.01}]})");
+  for (const std::string shard : {"1/2", "2/2"}) {  // the second has no case of the last stratum
+    const auto outcome = run("--shard " + shard);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    EXPECT_TRUE(contains(outcome.out, "\nholds: 0 trials with a defect")) << outcome.out;
+  }
+}
+
 TEST_F(Run, TimeThatEndsEarlyIsIncompleteAndGoesOn) {
   plan =
       scratch.write("plan.json", plan_text(3000, R"(, "fault_cases": 200000, "fault_seeds": 1)"));
