@@ -27,6 +27,9 @@ void ask_for_the_run_alone(Json& predicate, const properties::CampaignRequest& r
   for (auto& stratum : predicate["strata"]) {
     const auto cases = stratum["planned"].get<std::uint64_t>();
     stratum["planned"] = (cases + shard.count - shard.index) / shard.count;
+    // Wanted of all shards together: of one any bound will do.
+    auto& wanted = stratum["wanted_bound"];
+    if (!wanted.is_null()) wanted = 1.0;
   }
   if (!predicate["laws"].is_null()) predicate["laws"]["wanted_premises"] = 0;
 }

@@ -203,6 +203,8 @@ TEST_F(Run, AShardIsNotHeldToTheBoundOfAll) {
     const auto outcome = run("--shard " + shard);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
     EXPECT_TRUE(contains(outcome.out, "\nholds: 0 trials with a defect")) << outcome.out;
+    const auto summary = out + "/summary-shard-" + shard.substr(0, 1) + "-of-2.md";
+    EXPECT_TRUE(contains(read_text(summary), "## Assay: holds\n")) << read_text(summary);
   }
 }
 
