@@ -128,11 +128,9 @@ std::vector<Fault> release_faults() {
       row<ReleaseHalfChecked<C::tested, G::tested, L::not_looked_at>>(
           "release/layers-not-checked", "what touches nothing is released, whatever its layer",
           "D8_release_arm_sequence", 22),
-      {"release/released-while-touched",
-       "what still touches something is released beside a clean neighbour", "L9", FaultStatus::open,
-       "where it meets the mesh in (V+,V+) alone, so far a dirty triangle next to it did too: none "
-       "of 60,000 changes of D8's second step shows it",
-       with_points, "", 0, "release", with<&Stages::release, ReleasedWhileTouched>},
+      row<ReleasedWhileTouched>("release/released-while-touched",
+                                "what still touches something is released beside a clean neighbour",
+                                "F_released_while_touched", 5),
   };
 }
 
