@@ -104,22 +104,13 @@ class Certification {
   }
 
   std::optional<std::string> run_corpus() {
-    fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration", "cases",
-               "steps", "collisions", "pairs", "defects");
+    fmt::print("{}", corpus_heading());
     checks_.drop_evidence("corpus");
     const auto on_row = [&](const Json& row) {
-      const auto input = row["input"].get<std::string>();
-      const auto configuration = row["configuration"].get<std::string>();
-      fmt::print("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", input, configuration,
-                 row["cases"].get<std::size_t>(), row["steps"].get<std::size_t>(),
-                 row["collisions"].get<std::size_t>(), row["pairs"].get<std::size_t>(),
-                 row["defects"].get<std::size_t>());
-      for (const auto& failed : row["failed"]) {
-        fmt::print("  {}: {}\n", failed["case"].get<std::string>(),
-                   failed["what"].get<std::string>());
-      }
+      fmt::print("{}", corpus_row_text(row));
       std::fflush(stdout);
-      store_check(checks_, "corpus", input + ", " + configuration, row);
+      const auto name = row["input"].get<std::string>() + ", ";
+      store_check(checks_, "corpus", name + row["configuration"].get<std::string>(), row);
     };
     return check_corpus(request_, ASSAY_CORPUS_DIR, on_row,
                         [&](const auto& failure) { corpus_failures_.push_back(failure); });

@@ -157,6 +157,24 @@ std::optional<std::string> check_corpus(const properties::CampaignRequest& reque
   return std::nullopt;
 }
 
+std::string corpus_heading() {
+  return fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration",
+                     "cases", "steps", "collisions", "pairs", "defects");
+}
+
+std::string corpus_row_text(const Json& row) {
+  const auto count = [&](const char* name) { return row[name].get<std::size_t>(); };
+  std::string text =
+      fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row["input"].get<std::string>(),
+                  row["configuration"].get<std::string>(), count("cases"), count("steps"),
+                  count("collisions"), count("pairs"), count("defects"));
+  for (const auto& failed : row["failed"]) {
+    text += fmt::format("  {}: {}\n", failed["case"].get<std::string>(),
+                        failed["what"].get<std::string>());
+  }
+  return text;
+}
+
 std::string corpus_digest(const std::filesystem::path& corpus) {
   std::string lines;
   if (const auto files = corpus::case_files(corpus)) {

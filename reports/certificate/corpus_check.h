@@ -26,6 +26,10 @@ std::optional<std::string> check_corpus(const properties::CampaignRequest& reque
                                         const OnCorpusRow& on_row,
                                         const OnCorpusFailure& on_failure);
 
+// A row as the terminal shows it, with a line for each case that fails, and what stands above.
+std::string corpus_heading();
+std::string corpus_row_text(const nlohmann::ordered_json& row);
+
 // SHA-256 over names and bytes of the case files.
 std::string corpus_digest(const std::filesystem::path& corpus);
 

@@ -63,25 +63,6 @@ TEST_F(Run, JobsDoNotChangeTheTallies) {
   EXPECT_EQ(trials_of(out), alone);
 }
 
-TEST_F(Run, ShardsShareAFolder) {
-  std::size_t trials = 0;
-  for (const std::string shard : {"1/3", "2/3", "3/3"}) {
-    const auto part = run("--shard " + shard + " --detector " + plugin("always_free"));
-    EXPECT_EQ(part.exit_code, 1) << part.out << part.err;
-    EXPECT_TRUE(contains(part.out, "shard " + shard)) << part.out;
-    // Lines of earlier shards go on to name their own failures.
-    for (const auto& line : replay_lines(part.out)) {
-      EXPECT_EQ(run_assay(line).exit_code, 1) << line;
-    }
-    std::string problem;
-    const auto store =
-        properties::Store::read(out + "/shard-" + shard.substr(0, 1) + "-of-3.sqlite", problem);
-    ASSERT_TRUE(store) << problem;
-    trials += store->trial_count();
-  }
-  EXPECT_EQ(trials, 32u);
-}
-
 TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   // A space in a name must not break the line.
   out = "'" + scratch / "with space" + "'";
@@ -192,20 +173,6 @@ TEST_F(Run, ABoundThatIsOutOfReachIsUndecided) {
   EXPECT_TRUE(contains(outcome.out, "undecided: a bound is above what is wanted")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "\nshard 1/1: complete\n")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "next: ")) << outcome.out;
-}
-
-TEST_F(Run, AShardIsNotHeldToTheBoundOfAll) {
-  plan = scratch.write("plan.json",
-                       R"({"schema": "assay-campaign/1", "name": "small", "seconds": 20,
-          "strata": [{"family": "closed-generic", "cases": 8, "bound": 0.01},
-                     {"family": "broken", "cases": 1, "bound": 0.01}]})");
-  for (const std::string shard : {"1/2", "2/2"}) {  // the second has no case of the last stratum
-    const auto outcome = run("--shard " + shard);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-    EXPECT_TRUE(contains(outcome.out, "\nholds: 0 trials with a defect")) << outcome.out;
-    const auto summary = out + "/summary-shard-" + shard.substr(0, 1) + "-of-2.md";
-    EXPECT_TRUE(contains(read_text(summary), "## Assay: holds\n")) << read_text(summary);
-  }
 }
 
 TEST_F(Run, TimeThatEndsEarlyIsIncompleteAndGoesOn) {
