@@ -29,8 +29,8 @@ class ViewAuto {
   // Whether this step is looked at. After looks that did not pay, 1, 2, 4 .. 32 steps are not.
   bool looks() const { return choice_.rest == 0; }
   // Whether a look at a few triangles of the large components, in doubles alone, leaves hope: where
-  // hardly any of them has a sign, as on a sheet seen along itself, the view test costs more than
-  // the rest of the step, for integers decide it.
+  // few of them have a sign that doubles can tell, as on a sheet seen along itself, the view test
+  // costs more than the rest of the step, for integers decide it.
   bool glances(const StepWork& work);
 
   // Where a component is looked at from; `first`: of preprocessing. Chooses again, from the

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "corpus/scenes.h"
 #include "properties/case_check.h"
@@ -89,24 +90,23 @@ void add_worst(const std::string& culling, const std::string& over,
                          points.size(), worst->scene, 100 * worst->share));
 }
 
-// Over the steps of each scene: how a user's whole sequence fares.
+// Over the steps of each scene: how a user's whole sequence fares. Of a single step over its
+// rounds.
 void add_medians(const std::string& culling, const std::string& over,
                  const std::vector<ScatterPoint>& points, BenchReport& report) {
-  std::vector<std::string> scenes;
-  for (const auto& p : points) {
-    if (scenes.empty() || scenes.back() != p.scene) scenes.push_back(p.scene);
-  }
-  for (const auto& scene : scenes) {
+  for (auto p = points.begin(); p != points.end();) {
+    const auto end =
+        std::find_if(p, points.end(), [&](const auto& q) { return q.scene != p->scene; });
     std::vector<double> ratios;
-    for (const auto& p : points) {
-      if (p.scene == scene) ratios.push_back(p.ratio);
-    }
+    std::transform(p, end, std::back_inserter(ratios), [](const auto& q) { return q.ratio; });
     const auto steps = ratios.size();
     const bool promised = over == "bvh";
-    report.add(fmt::format("{} over {}, steps of {}", culling, over, scene), "times",
-               bootstrap_median(std::move(ratios)),
-               promised ? std::optional(at_most(1.05)) : std::nullopt,
-               fmt::format("{} steps; bootstrap", steps));
+    report.add(
+        fmt::format("{} over {}, steps of {}", culling, over, p->scene), "times",
+        steps == 1 ? Estimate{p->ratio, p->lo, p->hi, ratios} : bootstrap_median(std::move(ratios)),
+        promised ? std::optional(at_most(1.05)) : std::nullopt,
+        steps == 1 ? "1 step, over its rounds" : fmt::format("{} steps; bootstrap", steps));
+    p = end;
   }
 }
 

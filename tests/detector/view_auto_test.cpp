@@ -91,27 +91,44 @@ TEST(ViewAuto, L10_EveryComponentIsSeenFromWhatSuitsIt) {
   EXPECT_TRUE(result.primitives[1].is_point());
 }
 
-// A flat sheet seen along itself: integers would decide that no triangle has a sign.
-TEST(ViewAuto, ALargeSheetIsGlancedAtAndNoMore) {
-  constexpr int side = 49;  // 4,608 triangles
-  Triangles t(2 * (side - 1) * (side - 1), 3);
-  Positions x(side * side, 3);
-  for (int i = 0, k = 0; i < side; ++i) {
-    for (int j = 0; j < side; ++j) {
-      const int v = i * side + j;
-      x.row(v) << i, j, 0;
-      if (i + 1 == side || j + 1 == side) continue;
-      t.row(k++) << v, v + side, v + 1;
-      t.row(k++) << v + 1, v + side, v + side + 1;
+constexpr int sheet_side = 49;
+Triangles sheet_triangles() {  // 4,608
+  Triangles t(2 * (sheet_side - 1) * (sheet_side - 1), 3);
+  for (int i = 0, k = 0; i + 1 < sheet_side; ++i) {
+    for (int j = 0; j + 1 < sheet_side; ++j) {
+      const int v = i * sheet_side + j;
+      t.row(k++) << v, v + sheet_side, v + 1;
+      t.row(k++) << v + 1, v + sheet_side, v + sheet_side + 1;
     }
   }
-  Positions moved = x;
-  moved.col(2).array() += .25;
-  const auto result = make(t, x).step(x, moved);
-  EXPECT_FALSE(was_looked_at(result));
-  EXPECT_TRUE(has_no_views(result));
-  EXPECT_EQ(result.answer, Answer::free);
-  expect_same_contacts(result, make(t, x, Culling::bvh).step(x, moved));
+  return t;
+}
+// Its last rows rise, so that those triangles alone have a sign where it is seen along the others.
+Positions sheet_positions(int rising_rows) {
+  Positions x(sheet_side * sheet_side, 3);
+  for (int i = 0; i < sheet_side; ++i) {
+    const int risen = std::max(0, i - (sheet_side - 1 - rising_rows));
+    for (int j = 0; j < sheet_side; ++j) x.row(i * sheet_side + j) << i, j, .5 * risen;
+  }
+  return x;
+}
+
+// A sheet seen along itself: integers would decide that the flat triangles have no sign, which
+// costs more than what the signs of the others can save.
+TEST(ViewAuto, ALargeSheetIsGlancedAtAndNoMore) {
+  const Triangles t = sheet_triangles();
+  const MovingPoint corner = {{0, 0, 0}, {0, 0, 0}};
+  const ViewPrimitive along = {corner, corner};
+  for (const int rising : {0, 24, 36}) {
+    const Positions x = sheet_positions(rising);
+    Positions moved = x;
+    moved.col(1).array() += .25;
+    const auto result = make(t, x).step(x, moved, {&along, 1});
+    EXPECT_FALSE(was_looked_at(result)) << rising;
+    EXPECT_TRUE(has_no_views(result)) << rising;
+    EXPECT_EQ(result.answer, Answer::free);
+    expect_same_contacts(result, make(t, x, Culling::bvh).step(x, moved));
+  }
 }
 
 // A sheet folded like an accordion. Of an unknown start nothing is clean, so views save nothing.
