@@ -54,8 +54,8 @@ bool has_more_ghost_pairs(const StepWork& work, double limit) {
   return false;
 }
 
-// A glance costs about what 500 triangles cost the view test. What doubles leave open takes integers:
-// 3 us a triangle.
+// A glance costs about what 500 triangles cost the view test. What doubles leave open takes
+// integers: 3 us a triangle.
 constexpr std::size_t seen_at_a_glance = 64, worth_a_glance = 4'096;
 constexpr double cost_of_open = 15;
 
