@@ -1,20 +1,12 @@
 // `assay run` through the program, as its user runs it.
 #include <gtest/gtest.h>
 
-#include "tests/reports/tiny_campaign.h"
+#include "tests/reports/run_fixture.h"
 
 namespace assay::tests {
 namespace {
 
-class Run : public testing::Test {
- protected:
-  const Scratch scratch;
-  std::string plan = scratch.write("plan.json", plan_text(16));
-  std::string out = scratch / "out";
-  Outcome run(const std::string& more = "", const std::string& prefix = "") const {
-    return run_assay("run --campaign " + plan + " --out " + out + " " + more, prefix);
-  }
-};
+class Run : public RunFixture {};
 
 TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
   const auto first = run("--seed 5 --jobs 2");

@@ -1,20 +1,12 @@
 // `assay run --shard I/N`: one part of a campaign.
 #include <gtest/gtest.h>
 
-#include "tests/reports/tiny_campaign.h"
+#include "tests/reports/run_fixture.h"
 
 namespace assay::tests {
 namespace {
 
-class RunShards : public testing::Test {
- protected:
-  const Scratch scratch;
-  std::string plan = scratch.write("plan.json", plan_text(16));
-  std::string out = scratch / "out";
-  Outcome run(const std::string& more) const {
-    return run_assay("run --campaign " + plan + " --out " + out + " " + more);
-  }
-};
+class RunShards : public RunFixture {};
 
 TEST_F(RunShards, ShareAFolder) {
   std::size_t trials = 0;
