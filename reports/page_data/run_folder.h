@@ -38,8 +38,8 @@ struct StoredRun {
   RunEvidence evidence;
   properties::Tally tally;
   properties::Counts met;  // signatures
-  std::vector<properties::StoredFailure>
-      failures;  // by signature; shrunk ones first; the corpus' too
+  // By signature, shrunk ones first; of the trials, and what the corpus alone shows.
+  std::vector<properties::StoredFailure> failures;
 
   std::uint64_t planned_trials() const;
   std::uint64_t trials() const;
