@@ -80,7 +80,7 @@ class JudgedRows {
       rows_[i].fail(c.id, failure ? failure->signature() : "undecided",
                     failure ? failure->what : "no verdict: " + runs[i].what);
       if (failure) {
-        on_failure_({"corpus:" + c.id,
+        on_failure_({corpus_id + c.id,
                      configurations[i].name,
                      failure->signature(),
                      failure->what,

@@ -16,8 +16,12 @@ namespace assay::reports {
 // scenes are for both. One judgement of the oracle serves all configurations.
 using OnCorpusRow = std::function<void(const nlohmann::ordered_json&)>;
 
-// Called for each case that a configuration fails by the oracle, as a trial would be stored; its id
-// is "corpus:CASE". Expected facts that the built-in detector fails are told in the row alone.
+// The id of a failure that the corpus shows: this and the name of its case. No trial's begins so:
+// the name of a campaign has no '/'.
+inline constexpr const char* corpus_id = "corpus/";
+
+// Called for each case that a configuration fails by the oracle, as a trial would be stored.
+// Expected facts that the built-in detector fails are told in the row alone.
 using OnCorpusFailure = std::function<void(const properties::StoredFailure&)>;
 
 // A line for the user when the corpus cannot be read. corpus: folder of the curated cases.

@@ -161,7 +161,7 @@ TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
   const auto made = certify("--detector " + plugin("fault_view-line_one-corner"));
   ASSERT_EQ(made.exit_code, 1) << made.out << made.err;
   EXPECT_TRUE(contains(made.out, "\nDEFECT ")) << made.out;
-  EXPECT_TRUE(contains(made.out, "  case corpus:M_Leither: ")) << made.out;
+  EXPECT_TRUE(contains(made.out, "  case corpus/M_Leither: ")) << made.out;
   const Json statement = read(), &p = statement["predicate"];
   expect_schema(statement);
   EXPECT_EQ(p["failed_gate"], "corpus");
@@ -170,7 +170,7 @@ TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
   ASSERT_EQ(p["failures"].size(), 1u);
   const Json& failure = p["failures"][0];
   EXPECT_EQ(failure["met"], 0);
-  EXPECT_EQ(failure["case"], "corpus:M_Leither");
+  EXPECT_EQ(failure["case"], "corpus/M_Leither");
   ASSERT_FALSE(failure["after"].is_null());
   EXPECT_LT(failure["after"]["triangles"].get<int>(), failure["before"]["triangles"].get<int>());
   EXPECT_EQ(run_assay(failure["replay"].get<std::string>().substr(6)).exit_code, 1);

@@ -132,9 +132,13 @@ TEST(Gates, ABrokenClaimIsADefectUnlessWaived) {
   };
   expect(with(false), "claims", "defect", 1);
   EXPECT_EQ(with(true)["verdict"], "certified");
-  // What no trial showed, the corpus did: a matter of that gate.
-  EXPECT_EQ(verdict_after({{"/failures", Json::array({failure("late", 0, false)})}})["verdict"],
-            "certified");
+  // Of the corpus: a matter of that gate. Any other counts, were it met in no trial.
+  auto of_corpus = failure("late", 0, false);
+  expect(verdict_after({{"/failures", Json::array({of_corpus})}}), "claims", "defect", 1);
+  of_corpus["case"] = "corpus:1:broken:3";  // of a campaign of that name
+  expect(verdict_after({{"/failures", Json::array({of_corpus})}}), "claims", "defect", 1);
+  of_corpus["case"] = "corpus/M_Leither";
+  EXPECT_EQ(verdict_after({{"/failures", Json::array({of_corpus})}})["verdict"], "certified");
   // A law is no claim of a trial's outcome.
   expect(verdict_after({{"/failures", Json::array({failure("law L3_X", 1, false)})}}), "claims",
          "defect", 1);
