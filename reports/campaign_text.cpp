@@ -4,71 +4,68 @@
 
 #include <algorithm>
 
-#include "reports/statistics.h"
+#include "properties/campaign/bounds.h"
+#include "properties/campaign/count_names.h"
 
 namespace assay::reports {
-
-using properties::Counts;
-using properties::FaultResult;
-using properties::FaultStatus;
-
-double bound_of(const properties::StratumTally::Outcomes& outcomes,
-                const properties::CampaignRequest& request) {
-  // Every claim is counted (certificate/strata_section.cpp).
-  std::uint64_t claims = 0;
-  for (const auto& configuration : request.detector.configurations)
-    claims += properties::list_of(request.detector.claims_in(configuration)).size();
-  const auto bounds = request.plan.strata.size() * claims;
-  const auto trials = outcomes.holds + outcomes.defects + outcomes.undecided + outcomes.errors;
-  return upper_bound(trials - outcomes.holds, trials, risk_of_each(bounds));
-}
-
 namespace {
 
-bool same(const properties::StratumTally::Outcomes& a,
-          const properties::StratumTally::Outcomes& b) {
-  return a.holds == b.holds && a.defects == b.defects && a.undecided == b.undecided &&
-         a.errors == b.errors;
+using properties::FaultProof;
+using properties::FaultStatus;
+using properties::GateState;
+using properties::RunFindings;
+using properties::StratumTally;
+
+std::string stratum_row(const RunFindings& findings, const properties::StratumPlan& stratum,
+                        std::size_t c, const std::string& name) {
+  const auto& tally = findings.tally_of(stratum);
+  const auto& outcomes = tally.by_configuration[c];
+  const double seconds = 1e-6 * static_cast<double>(tally.oracle_us + tally.detector_us);
+  return fmt::format("{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9.2e} {:>9} {:>13}\n",
+                     c == 0 ? stratum.family : "", name, outcomes.trials(), outcomes.holds,
+                     outcomes.defects, outcomes.open(), bound_of(outcomes, findings.run),
+                     stratum.wanted_bound > 0 ? fmt::format("{:.0e}", stratum.wanted_bound) : "-",
+                     c == 0 && seconds > 0
+                         ? fmt::format("{:.0f}", static_cast<double>(tally.steps) / seconds)
+                         : "");
 }
 
-}  // namespace
-
-std::string strata_text(const properties::Tally& tally,
-                        const properties::CampaignRequest& request) {
-  const auto& configurations = request.detector.configurations;
+// A row for each family and configuration, one where all configurations agree.
+std::string strata_text(const RunFindings& findings) {
+  const auto& configurations = findings.run.configurations;
   std::string out = fmt::format("{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n",
                                 "stratum", "configuration", "n", "holds", "defects", "undecided",
                                 "bound", "wanted", "steps/s/core");
-  for (const auto& stratum : request.plan.strata) {
-    const auto found = tally.strata.find(stratum.family);
-    if (found == tally.strata.end()) continue;
-    const auto& t = found->second;
-    const double seconds = 1e-6 * static_cast<double>(t.oracle_us + t.detector_us);
-    const auto row = [&](std::size_t c, const std::string& name) {
-      const auto& outcomes = t.by_configuration[c];
-      return fmt::format(
-          "{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9.2e} {:>9} {:>13}\n",
-          c == 0 ? stratum.family : "", name,
-          outcomes.holds + outcomes.defects + outcomes.undecided + outcomes.errors, outcomes.holds,
-          outcomes.defects, outcomes.undecided + outcomes.errors, bound_of(outcomes, request),
-          stratum.wanted_bound > 0 ? fmt::format("{:.0e}", stratum.wanted_bound) : "-",
-          c == 0 && seconds > 0 ? fmt::format("{:.0f}", static_cast<double>(t.steps) / seconds)
-                                : "");
-    };
-    const bool all_same =
-        std::all_of(t.by_configuration.begin(), t.by_configuration.end(),
-                    [&](const auto& outcomes) { return same(outcomes, t.by_configuration[0]); });
-    if (all_same && configurations.size() > 1) {
-      out += row(0, fmt::format("each of {}", configurations.size()));
-      continue;
-    }
-    for (std::size_t c = 0; c < t.by_configuration.size(); ++c)
-      out += row(c, configurations[c].name);
+  for (const auto& stratum : findings.run.plan.strata) {
+    const auto& all = findings.tally_of(stratum).by_configuration;
+    const bool all_same = std::all_of(all.begin(), all.end(),
+                                      [&](const auto& outcomes) { return outcomes == all[0]; });
+    const std::size_t rows = all_same ? std::min<std::size_t>(all.size(), 1) : all.size();
+    for (std::size_t c = 0; c < rows; ++c)
+      out += stratum_row(findings, stratum, c,
+                         all_same && configurations.size() > 1
+                             ? fmt::format("each of {}", configurations.size())
+                             : configurations[c].name);
   }
   return out;
 }
 
-namespace {
+// Trials that were killed from outside and ran again, and those that came near their limit.
+std::string disturbance_text(const RunFindings& findings) {
+  const auto& tally = findings.tally;
+  std::string out;
+  if (tally.disturbances > 0)
+    out += fmt::format("{} trials ran again: their worker was killed from outside ({} times)\n",
+                       tally.disturbed(), tally.disturbances);
+  if (tally.near.empty()) return out;
+  out += fmt::format("{} trials took more than a third of the limit of {} s:", tally.near.size(),
+                     findings.run.plan.case_seconds);
+  constexpr std::size_t most = 5;
+  for (std::size_t i = 0; i < std::min(most, tally.near.size()); ++i)
+    out += fmt::format("{} {} ({:.1f} s)", i ? "," : "", tally.near[i].id,
+                       1e-6 * static_cast<double>(tally.near[i].slowest_us));
+  return out + (tally.near.size() > most ? ", ...\n" : "\n");
+}
 
 std::string range_text(int log2) {
   if (log2 < 0) return "none";
@@ -84,8 +81,6 @@ std::string histogram(const std::map<int, std::uint64_t>& counts) {
   return out;
 }
 
-}  // namespace
-
 std::string distribution_text(const properties::Tally& tally) {
   std::string out;
   for (const auto& [family, t] : tally.strata) {
@@ -100,129 +95,161 @@ std::string distribution_text(const properties::Tally& tally) {
   return out;
 }
 
-namespace {
-
-// Names and counts behind a prefix.
-std::vector<std::pair<std::string, std::uint64_t>> with_prefix(const Counts& counts,
-                                                               std::string_view prefix) {
-  std::vector<std::pair<std::string, std::uint64_t>> list;
-  for (auto it = counts.lower_bound(prefix); it != counts.end() && it->first.starts_with(prefix);
-       ++it) {
-    list.emplace_back(it->first.substr(prefix.size()), it->second);
+std::string tags_text(const properties::Counts& counts) {
+  std::string out;
+  for (const auto& [sets, contacts, first] : properties::set_pairs_in(counts)) {
+    if (out.empty())
+      out = fmt::format("{:16} {:>12} {:>14}\n", "sets of a pair", "in contact", "first contact");
+    out += fmt::format("{:16} {:>12} {:>14}\n", sets, contacts, first);
   }
-  return list;
-}
-
-std::uint64_t count_of(const Counts& counts, const std::string& name) {
-  const auto found = counts.find(name);
-  return found == counts.end() ? 0 : found->second;
-}
-
-}  // namespace
-
-std::string tags_text(const Counts& counts) {
-  std::string out =
-      fmt::format("{:16} {:>12} {:>14}\n", "sets of a pair", "in contact", "first contact");
-  for (const auto& [block, count] : with_prefix(counts, "block:")) {
-    out += fmt::format("{:16} {:>12} {:>14}\n", block, count, count_of(counts, "first:" + block));
-  }
+  const auto tags = properties::tags_in(counts);
+  if (tags.empty()) return out;
   out += "cases by tag:\n";
   std::string line;
-  for (const auto& [tag, count] : with_prefix(counts, "tag:")) {
+  for (const auto& [tag, count] : tags) {
     const std::string word = fmt::format("{} {}", tag, count);
     constexpr std::size_t width = 100;
     if (!line.empty() && line.size() + word.size() + 2 > width) {
-      out += "  " + line + "\n";
+      out += fmt::format("  {}\n", line);
       line.clear();
     }
     line += (line.empty() ? "" : ", ") + word;
   }
-  return line.empty() ? out : out + "  " + line + "\n";
+  return out + fmt::format("  {}\n", line);
 }
 
-std::string laws_text(const Counts& counts, std::uint64_t wanted_premises) {
+std::string laws_text(const RunFindings& findings) {
+  const auto wanted = findings.run.plan.law_premises;
   std::string out = fmt::format("{:52} {:>9} {:>7} {:>7}\n", "law", "premise", "close", "broken");
-  for (const auto& [name, premise] : with_prefix(counts, "law:")) {
-    if (!name.ends_with("/premise")) continue;
-    const std::string law = name.substr(0, name.size() - std::string("/premise").size());
-    out += fmt::format(
-        "{:52} {:>9} {:>6.0f}% {:>7}{}\n", law, premise,
-        premise ? 100.0 * static_cast<double>(count_of(counts, "law:" + law + "/close")) /
-                      static_cast<double>(premise)
-                : 0.0,
-        count_of(counts, "law:" + law + "/broken"), premise < wanted_premises ? "  too few" : "");
+  for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
+    const double close = tally.premise ? 100.0 * static_cast<double>(tally.close) /
+                                             static_cast<double>(tally.premise)
+                                       : 0.0;
+    out += fmt::format("{:52} {:>9} {:>6.0f}% {:>7}{}\n", law->name, tally.premise, close,
+                       tally.broken, tally.premise < wanted ? "  too few" : "");
   }
   return out;
 }
 
-std::string faults_text(const std::vector<FaultResult>& results) {
+const char* word_of(const FaultProof& proof) {
+  switch (proof.status) {
+    case FaultStatus::planted:
+      return proof.found() ? "found" : proof.time_over ? "the time was over" : "NOT FOUND";
+    case FaultStatus::open:
+      return proof.found() ? "found: no longer open" : "open";
+    case FaultStatus::equivalent:
+      return proof.found() ? "FOUND, but registered as equivalent" : "survives, rightly";
+  }
+  return "";
+}
+
+std::string faults_text(const RunFindings& findings) {
+  const auto& power = findings.evidence.power;
+  const auto count =
+      fmt::format("{} of {} planted faults found", findings.found(), findings.planted());
+  if (!power.empty())
+    return fmt::format("{}, by campaign {}, seed {}, of this build\n", count, power[0].campaign,
+                       power[0].seed);
   std::string out = fmt::format("{:44} {:18} {:>10} {:>12} {:>9}  {}\n", "fault", "law", "cases",
                                 "curated", "vertices", "verdict");
-  for (const auto& r : results) {
-    const auto median = r.median();
-    std::string verdict;
-    switch (r.fault->status) {
-      case FaultStatus::planted:
-        verdict = r.found() ? "found" : "NOT FOUND";
-        break;
-      case FaultStatus::open:
-        verdict = r.found() ? "found: no longer open" : "open";
-        break;
-      case FaultStatus::equivalent:
-        verdict = r.found() ? "FOUND, but registered as equivalent" : "survives, rightly";
-        break;
-    }
-    out += fmt::format(
-        "{:44} {:18} {:>10} {:>12} {:>9}  {}\n", r.fault->name, r.fault->law,
-        median ? fmt::format("{}", *median) : "-",
-        r.fault->curated.empty() ? "-" : (r.by_curated ? "yes" : "no"),
-        r.fault->smallest_vertices ? fmt::format("{}", r.fault->smallest_vertices) : "-", verdict);
+  for (const auto& proof : findings.evidence.faults) {
+    const auto* fault = properties::find_fault(proof.fault);
+    const auto median = proof.median();
+    out += fmt::format("{:44} {:18} {:>10} {:>12} {:>9}  {}\n", proof.fault, proof.law,
+                       median ? fmt::format("{}", *median) : "-",
+                       fault && fault->curated.empty() ? "-" : (proof.by_curated ? "yes" : "no"),
+                       proof.known_vertices ? fmt::format("{}", proof.known_vertices) : "-",
+                       word_of(proof));
   }
-  return out;
+  return out + count + "\n";
 }
 
-std::string worlds_text(const WorldResults& worlds) {
-  std::string out = "every motion of a tetrahedron on a grid, up to symmetry:\n";
-  for (const auto& [world, result] : worlds) {
-    out += fmt::format("  {:18} {} classes proved, of {} motions (of {}){}; {} collide; {:.1f} s\n",
-                       world->name, result.classes, result.motions, result.all,
-                       result.counterexample ? "; COUNTEREXAMPLE: " + result.what
-                       : result.complete     ? ", all of it"
-                                             : ", the time was over",
-                       result.collisions, result.seconds);
-  }
-  return out;
-}
-
-std::string shrinking_text(const std::vector<FaultResult>& results) {
-  std::string out = fmt::format("{:44} {:>22} {:>14} {:>7} {:>8} {:>8}\n", "fault",
-                                "triangles, steps from", "to", "known", "calls", "seconds");
+// How small what the planted faults show became; empty where nothing was shrunk.
+std::string shrinking_text(const RunFindings& findings) {
+  std::string out = fmt::format("{:44} {:>22} {:>14} {:>7} {:>8}\n", "fault",
+                                "triangles, steps from", "to", "known", "calls");
   std::size_t tried = 0, reached = 0;
-  std::vector<double> seconds;
-  for (const auto& r : results) {
-    if (!r.reduction || !r.shown_by || r.fault->status != FaultStatus::planted) continue;
-    const auto vertices = r.reduction->smallest.frames[0].rows();
-    const bool near = vertices <= r.fault->smallest_vertices + 1;
-    if (r.fault->smallest_vertices > 0) {
-      ++tried;
-      reached += near ? 1 : 0;
-    }
-    seconds.push_back(r.reduction->seconds);
-    out += fmt::format(
-        "{:44} {:>22} {:>14} {:>7} {:>8} {:>8.1f}{}\n", r.fault->name,
-        fmt::format("{}, {}", r.shown_by->triangles.rows(), corpus::steps_of(*r.shown_by).size()),
-        fmt::format("{} vertices", vertices),
-        r.fault->smallest_vertices ? fmt::format("{}", r.fault->smallest_vertices) : "-",
-        r.reduction->calls, r.reduction->seconds,
-        near || r.fault->smallest_vertices == 0 ? "" : "  larger");
+  bool any = false;
+  for (const auto& proof : findings.evidence.faults) {
+    if (!proof.shrunk || proof.status != FaultStatus::planted) continue;
+    any = true;
+    const auto& [before, after, calls] = *proof.shrunk;
+    const bool near = after.vertices <= proof.known_vertices + 1;
+    tried += proof.known_vertices > 0 ? 1 : 0;
+    reached += proof.known_vertices > 0 && near ? 1 : 0;
+    out += fmt::format("{:44} {:>22} {:>14} {:>7} {:>8}{}\n", proof.fault,
+                       fmt::format("{}, {}", before.triangles, before.steps),
+                       fmt::format("{} vertices", after.vertices),
+                       proof.known_vertices ? fmt::format("{}", proof.known_vertices) : "-", calls,
+                       near || proof.known_vertices == 0 ? "" : "  larger");
   }
-  if (seconds.empty()) return "";
-  std::sort(seconds.begin(), seconds.end());
+  if (!any) return "";
   return out +
-         fmt::format(
-             "{} of {} within one vertex of the smallest known mesh; median {:.1f} s, at most "
-             "{:.1f} s\n",
-             reached, tried, seconds[seconds.size() / 2], seconds.back());
+         fmt::format("{} of {} within one vertex of the smallest known mesh\n", reached, tried);
+}
+
+std::string worlds_text(const RunFindings& findings) {
+  std::string out = "every motion of a tetrahedron on a grid, up to symmetry:\n";
+  for (const auto& world : findings.evidence.worlds) {
+    out += fmt::format("  {:18} {} classes proved, of {} motions (of {}){}; {} collide\n",
+                       world.world, world.classes, world.motions, world.all,
+                       world.counterexample ? "; COUNTEREXAMPLE: " + *world.counterexample
+                       : world.complete     ? ", all of it"
+                                            : ", the time was over",
+                       world.collisions);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string findings_text(const RunFindings& findings) {
+  const auto& run = findings.run;
+  std::string out;
+  if (!run.plan.strata.empty()) {
+    out += fmt::format("\n{}{}\n{}\n{}", strata_text(findings), disturbance_text(findings),
+                       distribution_text(findings.tally), tags_text(findings.tally.counts));
+    if (!run.built_in)
+      out += fmt::format(
+          "the contract leaves out what would have been a miss in {} steps\n",
+          properties::count_of(findings.tally.counts, properties::left_out_misses_name));
+    if (run.built_in && run.plan.laws_every > 0) out += fmt::format("\n{}", laws_text(findings));
+  }
+  if (!findings.evidence.faults.empty()) out += fmt::format("\n{}", faults_text(findings));
+  const auto shrinking = shrinking_text(findings);
+  if (!shrinking.empty()) out += fmt::format("\n{}", shrinking);
+  if (!findings.evidence.worlds.empty()) out += fmt::format("\n{}", worlds_text(findings));
+  return out;
+}
+
+std::string gates_text(const properties::Judgement& judgement) {
+  std::string out = fmt::format("{:<10} {}\n", "gate", "outcome");
+  constexpr std::size_t most = 5;
+  for (const auto& [gate, state, reasons] : judgement.gates) {
+    out += fmt::format("{:<10} {}\n", properties::rule_of(gate).name,
+                       state == GateState::fails ? "FAILS" : name_of(state));
+    for (std::size_t i = 0; i < std::min(most, reasons.size()); ++i)
+      out += fmt::format("  {}\n", reasons[i]);
+    if (reasons.size() > most) out += fmt::format("  and {} more\n", reasons.size() - most);
+  }
+  return out;
+}
+
+std::string verdict_text(const RunFindings& findings, const properties::Judgement& judgement) {
+  std::uint64_t defects = 0, open = 0;
+  for (const auto& [family, stratum] : findings.tally.strata) {
+    for (const auto& outcomes : stratum.by_configuration) {
+      defects += outcomes.defects;
+      open += outcomes.open();
+    }
+  }
+  std::string word = judgement.verdict;
+  // What has to be looked at stands out.
+  if (judgement.exit_code == 1 || judgement.exit_code == 4)
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](char c) { return c == '-' ? ' ' : static_cast<char>(std::toupper(c)); });
+  return fmt::format("{}: {} trials with a defect, {} undecided, {} laws broken", word, defects,
+                     open, properties::broken_laws(findings.tally.counts));
 }
 
 }  // namespace assay::reports

@@ -1,38 +1,20 @@
-// The tables of a campaign, as plain text.
+// What a campaign came to, as plain text: a rendering of its findings and gates.
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "properties/campaign/fault_hunt.h"
-#include "properties/campaign/record.h"
-#include "properties/campaign/runner.h"
-#include "properties/tetrahedron_world.h"
+#include "properties/campaign/gates.h"
 
 namespace assay::reports {
 
-// A row for each family and configuration: n, holds, defects, undecided, the bound on the share of
-// what does not hold, steps a second and core.
-std::string strata_text(const properties::Tally& tally, const properties::CampaignRequest& request);
+// All tables that the findings fill: strata, what the cases were, laws, planted faults, worlds.
+std::string findings_text(const properties::RunFindings& findings);
 
-// Cases by number of triangles and of contacts.
-std::string distribution_text(const properties::Tally& tally);
+// A row for each gate with its outcome, and below it at most five reasons.
+std::string gates_text(const properties::Judgement& judgement);
 
-// Set pairs of contacts, then tags.
-std::string tags_text(const properties::Counts& counts);
-
-std::string laws_text(const properties::Counts& counts, std::uint64_t wanted_premises);
-
-std::string faults_text(const std::vector<properties::FaultResult>& results);
-
-using WorldResults =
-    std::vector<std::pair<const properties::TetrahedronWorld*, properties::TetrahedronWorldResult>>;
-std::string worlds_text(const WorldResults& worlds);
-
-std::string shrinking_text(const std::vector<properties::FaultResult>& results);
-
-// The bound of a stratum in one configuration, all of the campaign's bounds together at 95 %.
-double bound_of(const properties::StratumTally::Outcomes& outcomes,
-                const properties::CampaignRequest& request);
+// "DEFECT: 3 trials with a defect, 0 undecided, 1 laws broken".
+std::string verdict_text(const properties::RunFindings& findings,
+                         const properties::Judgement& judgement);
 
 }  // namespace assay::reports

@@ -8,12 +8,11 @@
 
 #include "corpus/digest.h"
 #include "properties/campaign/binding.h"
-#include "reports/campaign_run.h"
+#include "properties/campaign/run_folder.h"
+#include "reports/campaign_terminal.h"
+#include "reports/campaign_text.h"
 #include "reports/certificate/corpus_check.h"
 #include "reports/certificate/corpus_failures.h"
-#include "reports/certificate/evidence.h"
-#include "reports/certificate/findings.h"
-#include "reports/certificate/junit.h"
 #include "reports/certificate/other_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
@@ -29,8 +28,9 @@ namespace assay::reports {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Json = nlohmann::ordered_json;
+using properties::DroppedKind;
 using properties::Store;
+using properties::stored_shards;
 
 constexpr const char* known_failures = ASSAY_CORPUS_DIR "/../known.json";
 
@@ -38,7 +38,7 @@ constexpr const char* known_failures = ASSAY_CORPUS_DIR "/../known.json";
 bool holds_shards(const std::filesystem::path& out) {
   std::string ignored;
   for (const auto& file : stored_shards(out, ignored)) {
-    if (file != store_file(out, {})) return true;
+    if (file != properties::store_file(out, {})) return true;
   }
   return false;
 }
@@ -55,14 +55,13 @@ class Certification {
 
   // Exit code of the verdict, or of what kept it from being reached.
   int run() {
-    if (const auto wrong = write_text_file(campaign_file(out_).string(),
+    if (const auto wrong = write_text_file(properties::campaign_file(out_).string(),
                                            properties::plan_text(request_.plan) + "\n"))
       return refuse(*wrong);
     store_subject();
     if (const auto wrong = store_waivers()) return refuse(*wrong);
     if (const auto wrong = run_corpus()) return refuse(*wrong);
-    if (const auto wrong = holds_shards(out_) ? take_shards() : run_campaign())
-      return refuse(*wrong);
+    if (const auto wrong = holds_shards(out_) ? take_shards() : run_trials()) return refuse(*wrong);
     if (const auto wrong = show_corpus_failures()) return refuse(*wrong);
     run_self_test();
     if (request_.detector.built_in) run_speed();
@@ -71,46 +70,39 @@ class Certification {
 
  private:
   void store_subject() {
-    store_check(checks_, "subject", "versions",
-                {{"assay", ASSAY_VERSION}, {"commit", commit()}, {"libraries", version_text()}});
-    store_check(checks_, "subject", "paths",
-                {{"out", command_.out}, {"detector", command_.detector}});
-    store_check(checks_, "subject", "planted", {{"faults", properties::planted_count()}});
-    store_check(checks_, "digest", "generator", {{"sha256", generator_digest()}});
-    store_check(checks_, "digest", "corpus", {{"sha256", corpus_digest(ASSAY_CORPUS_DIR)}});
+    const auto commit = commit_text();
+    keep(properties::Versions{ASSAY_VERSION, commit.empty() ? std::nullopt : std::optional(commit),
+                              version_text()});
+    keep(properties::Paths{command_.out, command_.detector});
+    const auto waivers = corpus::sha256_of_file(known_failures);
+    keep(properties::InputDigests{corpus_digest(ASSAY_CORPUS_DIR),
+                                  waivers ? std::optional(waivers.value()) : std::nullopt});
+    keep(to_words(properties::asked_of_a_certificate()));
   }
 
-  static Json commit() {
-    const auto text = commit_text();
-    return text.empty() ? Json(nullptr) : Json(text);
+  template <class T>
+  void keep(const T& evidence) {
+    checks_.set(to_row(evidence));
   }
 
   std::optional<std::string> store_waivers() {
     const auto waivers = read_waivers(known_failures);
     if (!waivers) return waivers.error().message;
-    const auto digest = corpus::sha256_of_file(known_failures);
-    store_check(checks_, "digest", "waivers",
-                {{"sha256", digest ? Json(digest.value()) : Json(nullptr)}});
     const auto today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
-    checks_.drop_evidence("waiver");
-    for (const auto& waiver : waivers.value()) {
-      store_check(checks_, "waiver", waiver.signature,
-                  {{"reason", waiver.reason},
-                   {"link", waiver.link},
-                   {"expires", waiver.expires},
-                   {"expired", is_expired(waiver, today)}});
-    }
+    drop(checks_, DroppedKind::waiver);
+    for (const auto& waiver : waivers.value())
+      keep(properties::StoredWaiver{waiver.signature, waiver.reason, waiver.link, waiver.expires,
+                                    is_expired(waiver, today)});
     return std::nullopt;
   }
 
   std::optional<std::string> run_corpus() {
     fmt::print("{}", corpus_heading());
-    checks_.drop_evidence("corpus");
-    const auto on_row = [&](const Json& row) {
+    drop(checks_, DroppedKind::corpus);
+    const auto on_row = [&](const properties::CorpusRow& row) {
       fmt::print("{}", corpus_row_text(row));
       std::fflush(stdout);
-      const auto name = row["input"].get<std::string>() + ", ";
-      store_check(checks_, "corpus", name + row["configuration"].get<std::string>(), row);
+      keep(row);
     };
     return check_corpus(request_, ASSAY_CORPUS_DIR, on_row,
                         [&](const auto& failure) { corpus_failures_.push_back(failure); });
@@ -124,14 +116,13 @@ class Certification {
     return shown.problem;
   }
 
-  std::optional<std::string> run_campaign() {
+  std::optional<std::string> run_trials() {
     fmt::print("\n");
     std::string problem;
-    auto store =
-        Store::open(store_file(out_, request_.shard), properties::binding_of(request_), problem);
+    auto store = Store::open(properties::store_file(out_, request_.shard),
+                             properties::binding_of(request_), problem);
     if (!store) return problem;
-    CampaignResults results;
-    const auto wrong = run_phases(request_, *store, command_.out, results);
+    const auto wrong = run_on_terminal(request_, *store, command_.out);
     store->seal();
     return wrong;
   }
@@ -159,14 +150,14 @@ class Certification {
   }
 
   void run_self_test() {
-    checks_.drop_evidence("self-test");
+    drop(checks_, DroppedKind::self_test);
     const auto queries = request_.plan.policy.self_test_queries;
     if (queries == 0) return;
     std::uint64_t asked = 0, contradictions = 0;
-    check_oracle(queries, request_.jobs, [&](const std::string& family, const Json& facts) {
-      asked += facts["queries"].get<std::uint64_t>();
-      contradictions += facts["contradictions"].get<std::uint64_t>();
-      store_check(checks_, "self-test", family, facts);
+    check_oracle(queries, request_.jobs, [&](const properties::SelfTestRow& row) {
+      asked += row.queries;
+      contradictions += row.contradictions;
+      keep(row);
     });
     fmt::print("\nself-test of the oracle: {} contradictions in {} queries\n", contradictions,
                asked);
@@ -174,50 +165,34 @@ class Certification {
   }
 
   void run_speed() {
-    checks_.drop_evidence("times");
+    drop(checks_, DroppedKind::times);
     fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
-    measure_speed([&](const std::string& what, const Json& figure) {
-      fmt::print(
-          "{:<24} {:>9.4f} {:>19}\n", what, figure["median"].get<double>(),
-          fmt::format("[{:.4f}, {:.4f}]", figure["lo"].get<double>(), figure["hi"].get<double>()));
+    measure_speed([&](const properties::SpeedFigure& figure) {
+      fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.what, figure.median,
+                 fmt::format("[{:.4f}, {:.4f}]", figure.lo, figure.hi));
       std::fflush(stdout);
-      store_check(checks_, "times", what, figure);
+      keep(figure);
     });
   }
 
   int issue() {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-    store_check(checks_, "times", "issued",
-                {{"at", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
-                 {"seconds", seconds}});
+    keep(properties::Issued{fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
+                            seconds});
     checks_.seal();
     std::string problem;
     const auto statement = make_statement(out_, problem);
-    if (!statement) return refuse(problem);
-    const auto& predicate = (*statement)["predicate"];
-    for (const auto& [name, text] : {std::pair(certificate_file(out_), statement_text(*statement)),
-                                     std::pair(out_ / "junit.xml", junit_text(predicate)),
-                                     std::pair(out_ / "summary.md", summary_text(predicate))}) {
-      if (const auto wrong = write_text_file(name.string(), text)) return refuse(*wrong);
-    }
-    return conclude(predicate, seconds);
-  }
-
-  int conclude(const Json& predicate, double seconds) const {
-    fmt::print("\n{:<10} {}\n", "gate", "outcome");
-    for (const auto& gate : predicate["gates"]) {
-      fmt::print("{:<10} {}\n", gate["gate"].get<std::string>(),
-                 gate["holds"].get<bool>() ? "holds" : "FAILS");
-      constexpr std::size_t most = 5;
-      const auto& reasons = gate["reasons"];
-      for (std::size_t i = 0; i < std::min(most, reasons.size()); ++i)
-        fmt::print("  {}\n", reasons[i].get<std::string>());
-      if (reasons.size() > most) fmt::print("  and {} more\n", reasons.size() - most);
-    }
-    fmt::print("\nverdict: {} in {:.0f} s; {}\nnext: assay verify {}\n",
-               predicate["verdict"].get<std::string>(), seconds, certificate_file(out_).string(),
-               shell_word(certificate_file(out_).string()));
-    return predicate["exit_code"].get<int>();
+    const auto findings = statement ? properties::read_findings(out_, problem) : std::nullopt;
+    if (!findings) return refuse(problem);
+    const auto certificate = properties::certificate_file(out_).string();
+    if (const auto wrong = write_text_file(certificate, statement_text(*statement)))
+      return refuse(*wrong);
+    if (const auto wrong = write_for_ci((*statement)["predicate"], out_)) return refuse(*wrong);
+    const auto judgement = judge(*findings);
+    fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nnext: assay verify {}\n",
+               findings_text(*findings), gates_text(judgement), judgement.verdict, seconds,
+               certificate, shell_word(certificate));
+    return judgement.exit_code;
   }
 
   const CertifyRequest& command_;
@@ -232,13 +207,15 @@ class Certification {
 
 int run_certify(const CertifyRequest& command) {
   properties::CampaignRequest request;
-  if (const auto wrong = ask_for_campaign(
-          {command.campaign, command.seed, command.jobs, command.detector, command.out}, request)) {
+  if (const auto wrong =
+          ask_for_campaign({command.campaign, command.seed, command.jobs, command.detector,
+                            command.out, command.power, command.time_limit},
+                           request)) {
     return refuse(*wrong);
   }
   std::string problem;
   auto checks = Store::open(
-      checks_file(command.out),
+      properties::checks_file(command.out),
       *properties::with_shard(properties::binding_of(request), properties::checks_shard), problem);
   if (!checks) return refuse(problem);
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "detector/options.h"
-#include "properties/campaign/runner.h"
+#include "properties/campaign/request.h"
 
 namespace assay::reports {
 
@@ -58,7 +58,9 @@ int run_list_scenes();
 struct CertifyRequest {
   std::string campaign = "smoke";  // a name or a file
   std::uint64_t seed = 1;
-  std::string detector;  // a plug-in's library; empty: the built-in detector
+  std::optional<double> time_limit;  // seconds, in place of the campaign's
+  std::string power;                 // a folder with the proof of planted faults; empty: none
+  std::string detector;              // a plug-in's library; empty: the built-in detector
   std::string out;
   int jobs = 1;
 };
@@ -82,6 +84,7 @@ struct RunCommandRequest {
   std::string campaign = "quick";  // a name or a file
   std::uint64_t seed = 1;
   std::optional<double> time_limit;  // seconds, in place of the campaign's
+  std::string power;                 // a folder with the proof of planted faults; empty: none
   properties::Shard shard;
   int jobs = 1;
   std::string detector;  // a plug-in's library; empty: the built-in detector

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "properties/campaign/runner.h"
+#include "properties/campaign/request.h"
 
 namespace assay::reports {
 

@@ -3,63 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "corpus/atomic_file.h"
+#include "properties/campaign/run_folder.h"
 #include "properties/reducer/mesh_size.h"
 #include "reports/picture/scene_maker.h"
 #include "reports/shell_word.h"
 
 namespace assay::reports {
 
-std::filesystem::path store_file(const std::filesystem::path& out, const properties::Shard& shard) {
-  return out / fmt::format("shard-{}-of-{}.sqlite", shard.index, shard.count);
-}
-
-std::filesystem::path merged_file(const std::filesystem::path& out) {
-  return out / "merged.sqlite";
-}
-
-std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& folder,
-                                                 std::string& problem) {
-  std::error_code error;
-  std::vector<std::filesystem::path> stores;
-  for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
-    const std::string name = file.path().filename().string();
-    const bool is_shard = name.starts_with("shard-") && name.ends_with(".sqlite");
-    if (is_shard || name == merged_file("").filename()) stores.push_back(file.path());
-  }
-  if (error) {
-    problem = fmt::format("{}: {}", folder.string(), error.message());
-  } else if (stores.empty()) {
-    problem = fmt::format("{}: no run is stored here", folder.string());
-  }
-  std::sort(stores.begin(), stores.end());
-  return stores;
-}
-
-namespace {
-
-constexpr const char* failures_folder = "failures";
-
-// The same in every run that finds it: "tiny-1-broken-3-view-point-first".
-std::string file_stem(const properties::StoredFailure& failure) {
-  std::string stem = fmt::format("{}-{}", failure.id, failure.configuration);
-  std::erase(stem, ',');
-  for (char& c : stem) {
-    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
-    if (!is_plain) c = '-';
-  }
-  return stem;
-}
-
-}  // namespace
-
-std::filesystem::path failure_file(const properties::StoredFailure& failure, bool smallest) {
-  return std::filesystem::path(failures_folder) /
-         (file_stem(failure) + (smallest ? "-smallest.json" : "-original.json"));
-}
+using properties::failure_file;
 
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
                         const std::string& plugin) {
@@ -83,7 +37,7 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
   if (failures.empty()) return report;
   std::stable_partition(failures.begin(), failures.end(),
                         [](const auto& failure) { return !failure.smallest.empty(); });
-  const auto folder = out / failures_folder;
+  const auto folder = (out / failure_file(failures[0], false)).parent_path();
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {

@@ -4,25 +4,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "properties/campaign/runner.h"
+#include "properties/campaign/store.h"
 
 namespace assay::reports {
-
-// OUT/shard-1-of-4.sqlite
-std::filesystem::path store_file(const std::filesystem::path& out, const properties::Shard& shard);
-
-// OUT/merged.sqlite
-std::filesystem::path merged_file(const std::filesystem::path& out);
-
-// The stores of trials in a folder, by name: of shards, and a merged one. One line in `problem`
-// where there are none.
-std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& folder,
-                                                 std::string& problem);
-
-// Below OUT, the same in every run that finds it: failures/tiny-1-broken-3-bvh-smallest.json.
-std::filesystem::path failure_file(const properties::StoredFailure& failure, bool smallest);
 
 // "assay replay OUT/failures/... --detector LIB.so"
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,

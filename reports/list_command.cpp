@@ -1,15 +1,11 @@
 // `assay list`: laws, planted faults, campaigns, and the failures of a run.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-
-#include "properties/campaign/plan.h"
+#include "properties/campaign/findings.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"
-#include "reports/failure_text.h"
 
 namespace assay::reports {
 namespace {
@@ -37,36 +33,24 @@ int list_campaigns() {
   for (const auto& plan : properties::named_plans()) {
     std::uint64_t cases = 0;
     for (const auto& stratum : plan.strata) cases += stratum.cases;
-    fmt::print("{:10} {:>9} {:>9.0f}  {}\n", plan.name, cases, plan.seconds, plan.about);
+    fmt::print("{:10} {:>9} {:>9}  {}\n", plan.name, cases,
+               plan.seconds > 0 ? fmt::format("{:.0f}", plan.seconds) : "no limit", plan.about);
   }
   return exit_holds;
 }
 
 int list_failures(const std::string& folder) {
-  std::string missing;
-  const auto stores = stored_shards(folder, missing);
-  if (!missing.empty()) return refuse(missing);
-  properties::Counts met;
-  std::vector<properties::StoredFailure> failures;
-  try {
-    for (const auto& file : stores) {
-      std::string problem;
-      const auto store = properties::Store::read(file, problem);
-      if (!store) return refuse(problem);
-      properties::add(met, store->signatures());
-      for (auto& failure : store->failures()) failures.push_back(std::move(failure));
-    }
-  } catch (const properties::StoreProblem& damaged) {
-    return refuse(damaged.what());
-  }
-  for (const auto& [signature, count] : met) {
+  std::string problem;
+  const auto findings = properties::read_findings(folder, problem);
+  if (!findings) return refuse(problem);
+  for (const auto& [signature, count] : findings->met) {
     fmt::print("{:>8} times  {}\n", count, signature);
-    for (const auto& failure : failures) {
-      if (failure.signature != signature) continue;
-      fmt::print("    {} ({}): {}\n", failure.id, failure.configuration, failure.what);
+    for (const auto& failure : findings->failures) {
+      if (failure.signature == signature)
+        fmt::print("    {} ({}): {}\n", failure.id, failure.configuration, failure.what);
     }
   }
-  if (met.empty()) fmt::print("no failures\n");
+  if (findings->met.empty()) fmt::print("no failures\n");
   return exit_holds;
 }
 

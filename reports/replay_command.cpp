@@ -8,7 +8,7 @@
 
 #include "properties/campaign/case_tally.h"
 #include "properties/campaign/clean_starts.h"
-#include "properties/campaign/runner.h"
+#include "properties/campaign/request.h"
 #include "properties/case_check.h"
 #include "properties/generators/families.h"
 #include "properties/reducer/mesh_size.h"

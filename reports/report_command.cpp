@@ -1,12 +1,11 @@
 // `assay report`: runs as one HTML page that works offline.
 #include <fmt/format.h>
 
-#include <boost/outcome/try.hpp>
-
+#include "properties/campaign/run_folder.h"
+#include "reports/certificate/verify.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"
 #include "reports/json_output.h"
-#include "reports/page_data/certificate_json.h"
 #include "reports/page_data/failure_scenes.h"
 #include "reports/page_data/page_file.h"
 #include "reports/page_data/run_json.h"
@@ -18,17 +17,26 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// All that the page says of the run in a folder.
-corpus::Expected<Json> describe_run(const std::string& folder, PlainProgress& progress) {
-  BOOST_OUTCOME_TRY(run, read_run(folder));
-  progress.show(
-      fmt::format("{}: {} trials, {} failures kept", folder, run.trials(), run.failures.size()));
-  Json json = run_json(run);
-  BOOST_OUTCOME_TRY(certificate, read_certificate(folder));
-  if (!certificate.is_null()) {
-    BOOST_OUTCOME_TRY(take_certificate(certificate, json));
+// All that the page says of the run in a folder. What stands in a certificate there is believed
+// only where it verifies.
+std::optional<Json> describe_run(const std::string& folder, PlainProgress& progress,
+                                 std::string& problem) {
+  const auto findings = properties::read_findings(folder, problem);
+  if (!findings) return std::nullopt;
+  progress.show(fmt::format("{}: {} trials, {} failures kept", folder, findings->tally.trials(),
+                            findings->failures.size()));
+  const auto certificate = properties::certificate_file(folder);
+  std::error_code ignored;
+  Json json;
+  if (std::filesystem::exists(certificate, ignored)) {
+    const auto [differences, statement] = verify_certificate(certificate);
+    json = differences.empty()
+               ? run_json(*findings, judge(*findings), statement)
+               : run_json(*findings, judge(*findings), nullptr, differences.front());
+  } else {
+    json = run_json(*findings, judge(*findings, properties::asked_of_a_run()));
   }
-  json["failures"] = failures_json(run);
+  json["failures"] = failure_scenes(*findings);
   return json;
 }
 
@@ -39,13 +47,14 @@ int run_report(const ReportRequest& request) {
   Json runs = Json::array();
   PlainProgress progress("report");
   for (const auto& folder : request.folders) {
-    auto run = describe_run(folder, progress);
-    if (!run) return refuse(run.error().message);
-    runs.push_back(std::move(run.value()));
+    std::string wrong;
+    auto run = describe_run(folder, progress, wrong);
+    if (!run) return refuse(wrong);
+    runs.push_back(std::move(*run));
   }
   progress.finish();
   const Json data = {
-      {"schema", "assay-report/1"}, {"version", version_text()}, {"runs", std::move(runs)}};
+      {"schema", "assay-report/2"}, {"version", version_text()}, {"runs", std::move(runs)}};
   if (auto problem = write_text_file(request.out, page_text(page_template(), data)))
     return refuse(*problem);
   for (const auto& run : data["runs"]) {

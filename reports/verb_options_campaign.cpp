@@ -30,6 +30,19 @@ std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
   return pair;
 }
 
+void add_time_limit(CLI::App& verb, std::optional<double>& seconds) {
+  verb.add_option("--time", seconds,
+                  "Seconds by the clock for the campaign, in place of its own limit; what is left "
+                  "over then is incomplete")
+      ->check(positive());
+}
+
+void add_power(CLI::App& verb, std::string& folder) {
+  verb.add_option("--power", folder,
+                  "Folder of a run or certificate of this build: planted faults are proved by it, "
+                  "not again");
+}
+
 }  // namespace
 
 void add_run(CLI::App& app, RunCommandRequest& request) {
@@ -41,9 +54,8 @@ void add_run(CLI::App& app, RunCommandRequest& request) {
   verb->add_option("--seed", request.seed, "Of all random cases")
       ->check(whole_number())
       ->capture_default_str();
-  verb->add_option("--time", request.time_limit,
-                   "Seconds for all of it, in place of the campaign's own")
-      ->check(positive());
+  add_time_limit(*verb, request.time_limit);
+  add_power(*verb, request.power);
   verb->add_option_function<std::string>(
           "--shard", [&request](const std::string& word) { request.shard = *parse_shard(word); },
           "I/N: the part of the cases that this run makes (default 1/1)")
@@ -106,6 +118,8 @@ void add_certify(CLI::App& app, CertifyRequest& request) {
   verb->add_option("--seed", request.seed, "Of all random cases; a fresh one a night")
       ->check(whole_number())
       ->capture_default_str();
+  add_time_limit(*verb, request.time_limit);
+  add_power(*verb, request.power);
   verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
   verb->add_option("--out", request.out,
                    "Folder for the certificate; shards that it holds are taken")

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "properties/campaign/count_names.h"
+#include "properties/campaign/store.h"
 #include "properties/campaign/trial.h"
 #include "properties/generators/tag_table.h"
 #include "properties/laws/case_facts.h"
@@ -24,8 +26,8 @@ void count_blocks(const CaseRun& run, std::span<const oracle::StepJudgement> tru
       const auto b = static_cast<std::size_t>(contact.pair.b);
       const auto block =
           block_of(result.signs[a], result.signs[b], (result.doubts[a] | result.doubts[b]) != 0);
-      ++counts[fmt::format("block:{}", name_of(block))];
-      if (contact.time == truth[s].first) ++counts[fmt::format("first:{}", name_of(block))];
+      ++counts[contact_count(name_of(block))];
+      if (contact.time == truth[s].first) ++counts[first_contact_count(name_of(block))];
     }
   }
 }
@@ -35,10 +37,7 @@ void count_laws(const LawTable& table, const Configuration& configuration, CaseT
   for (std::size_t i = 0; i < all.size(); ++i) {
     const LawTally& met = table.tallies()[i];
     if (met.premise == 0) continue;
-    const auto name = [&](const char* what) { return fmt::format("law:{}/{}", all[i].name, what); };
-    tally.counts[name("premise")] += met.premise;
-    tally.counts[name("close")] += met.close;
-    tally.counts[name("broken")] += met.broken;
+    add_law(tally.counts, all[i].name, met);
     if (met.broken > 0) {
       tally.broken.push_back({std::string(all[i].name), configuration.name, met.first_broken});
     }
@@ -51,7 +50,7 @@ CaseTally tally_case(const GeneratedCase& made, std::span<const Configuration> c
                      std::span<const CaseRun> runs, std::span<const oracle::StepJudgement> truth,
                      bool with_laws) {
   CaseTally tally;
-  for (const auto& tag : made.tags) ++tally.counts["tag:" + tag];
+  for (const auto& tag : made.tags) ++tally.counts[tag_count(tag)];
   bool counted_blocks = false;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].end != RunEnd::completed || !has_view_sets(configurations[i]) ||
@@ -81,7 +80,7 @@ Judge judge_of_law(const Law& law, const Configuration& configuration) {
     LawTally tally;
     law.check(facts, tally);
     if (tally.broken == 0) return std::nullopt;
-    return Finding{fmt::format("law {}", law.name), {}, 0};
+    return Finding{fmt::format("{}{}", law_in_signature, law.name), {}, 0};
   };
 }
 

@@ -17,9 +17,7 @@ struct BrokenLaw {
 };
 
 struct CaseTally {
-  // "tag:NAME": 1 for each tag. "block:NAME", "first:NAME": contacts, and first contacts, by the
-  // view sets of their two triangles, seen from the view-point. "law:NAME/premise", "/close",
-  // "/broken": steps (law.h).
+  // By the names of count_names.h: its tags, contacts by the sets that the view-point sees, laws.
   Counts counts;
   std::vector<BrokenLaw> broken;
 };

@@ -9,21 +9,9 @@
 #include "properties/campaign/explicit_view.h"
 #include "properties/faults/fault_run.h"
 #include "properties/generators/families.h"
+#include "properties/reducer/mesh_size.h"
 
 namespace assay::properties {
-
-bool FaultResult::found() const {
-  return by_curated ||
-         std::any_of(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
-}
-
-std::optional<std::uint64_t> FaultResult::median() const {
-  if (needed.empty()) return std::nullopt;
-  auto sorted = needed;
-  std::sort(sorted.begin(), sorted.end(),
-            [](const auto& a, const auto& b) { return a && (!b || *a < *b); });
-  return sorted[(sorted.size() - 1) / 2];
-}
 
 std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& c,
                                         const std::vector<oracle::StepJudgement>& truth) {
@@ -53,15 +41,27 @@ namespace {
 
 class Hunt {
  public:
-  Hunt(const FaultHunt& hunt, std::span<const Fault> faults, RunDeadline deadline,
-       const std::function<void(const std::string&)>& progress)
+  Hunt(const FaultHunt& hunt, RunDeadline deadline, const OnHunt& progress)
       : hunt_(hunt), deadline_(deadline), progress_(progress) {
-    for (const auto& fault : faults) results_.push_back({&fault, false, {}, {}, {}});
+    std::uint64_t place = 0;
+    for (const auto& fault : faults()) {
+      if (!hunt.shard.holds(place++)) continue;
+      FaultResult result{&fault, {}, {}};
+      auto& proof = result.proof;
+      proof.fault = fault.name;
+      proof.shard = text_of(hunt.shard);
+      proof.law = fault.law;
+      proof.status = fault.status;
+      proof.cases = hunt.cases;
+      proof.known_vertices = static_cast<std::uint64_t>(fault.smallest_vertices);
+      results_.push_back(std::move(result));
+    }
   }
 
   std::vector<FaultResult> run() {
     if (!hunt_.curated.empty()) try_curated();
     for (int s = 1; s <= hunt_.seeds && !over(); ++s) run_seed(s);
+    for (auto& result : results_) result.proof.time_over = over();
     return std::move(results_);
   }
 
@@ -76,7 +76,7 @@ class Hunt {
       const auto c =
           corpus::read_case(hunt_.curated / (std::string(result.fault->curated) + ".json"));
       if (!c) continue;
-      result.by_curated =
+      result.proof.by_curated =
           failure_of_fault(*result.fault, c.value(), judge_case(c.value())).has_value();
     }
   }
@@ -94,21 +94,18 @@ class Hunt {
     for (std::uint64_t begin = 0; begin < hunt_.cases && !over(); begin += chunk) {
       const std::uint64_t end = std::min(hunt_.cases, begin + chunk);
       run_chunk(seed, begin, end, found);
-      const auto left =
-          static_cast<std::size_t>(std::count(found.begin(), found.end(), std::nullopt));
-      if (progress_) {
-        progress_(fmt::format("seed {}: {} cases, {} of {} faults still hidden", seed, end, left,
-                              found.size()));
+      HuntProgress state{seed, hunt_.seeds, end, hunt_.cases, 0, 0};
+      for (std::size_t f = 0; f < found.size(); ++f) {
+        if (results_[f].fault->status != FaultStatus::planted) continue;
+        ++state.planted;
+        state.hidden += found[f] ? 0 : 1;
       }
-      const bool all_planted_found = std::all_of(results_.begin(), results_.end(), [&](auto& r) {
-        return r.fault->status != FaultStatus::planted ||
-               found[static_cast<std::size_t>(&r - results_.data())];
-      });
+      if (progress_) progress_(state);
       // Equivalent and open ones must have had their share of cases too.
-      if (all_planted_found && end >= hunt_.cases / 4) break;
+      if (state.hidden == 0 && end >= hunt_.cases / 4) break;
     }
     for (std::size_t f = 0; f < results_.size(); ++f) {
-      results_[f].needed.push_back(found[f] ? std::optional(*found[f] + 1) : std::nullopt);
+      results_[f].proof.needed.push_back(found[f] ? std::optional(*found[f] + 1) : std::nullopt);
       if (found[f] && !results_[f].shown_by) results_[f].shown_by = case_of(seed, *found[f]).c;
     }
   }
@@ -145,22 +142,25 @@ class Hunt {
 
   const FaultHunt& hunt_;
   const RunDeadline deadline_;
-  const std::function<void(const std::string&)>& progress_;
+  const OnHunt& progress_;
   std::vector<FaultResult> results_;
 };
 
 }  // namespace
 
-std::vector<FaultResult> hunt_faults(const FaultHunt& hunt, std::span<const Fault> faults,
-                                     RunDeadline deadline,
-                                     const std::function<void(const std::string&)>& progress) {
-  return Hunt(hunt, faults, deadline, progress).run();
+std::vector<FaultResult> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
+                                     const OnHunt& progress) {
+  return Hunt(hunt, deadline, progress).run();
 }
 
 void shrink_faults(std::vector<FaultResult>& results, const ReduceLimits& limits, int jobs,
                    RunDeadline deadline, const std::function<void(const std::string&)>& progress) {
   std::mutex mutex;
   std::size_t next = 0;
+  const auto counts_of = [](const corpus::Case& c) {
+    const auto size = size_of(c);
+    return MeshCounts{size.triangles, size.vertices, size.steps};
+  };
   const auto work = [&] {
     while (true) {
       FaultResult* result = nullptr;
@@ -171,12 +171,14 @@ void shrink_faults(std::vector<FaultResult>& results, const ReduceLimits& limits
       }
       if (!result->shown_by) continue;
       const auto options = result->fault->options;
-      result->reduction =
+      const auto reduction =
           reduce(*result->shown_by, judge_of_fault(*result->fault), limits, {},
                  [&options](const corpus::Case& c) { return with_explicit_view(c, options); });
+      result->proof.shrunk = {counts_of(*result->shown_by), counts_of(reduction.smallest),
+                              reduction.calls};
       if (!progress) continue;
       const std::lock_guard lock(mutex);
-      progress(fmt::format("{} shrunk", result->fault->name));
+      progress(result->proof.fault);
     }
   };
   std::vector<std::thread> threads;

@@ -2,27 +2,21 @@
 // it.
 #pragma once
 
+#include <functional>
 #include <optional>
-#include <span>
 
-#include "properties/campaign/runner.h"
+#include "properties/campaign/evidence.h"
+#include "properties/campaign/request.h"
 #include "properties/faults/fault.h"
 #include "properties/reducer/reducer.h"
 
 namespace assay::properties {
 
 struct FaultResult {
-  const Fault* fault = nullptr;
-  bool by_curated = false;  // its curated case shows it
-  // For each seed: the number of cases until it showed; nothing within the limit.
-  std::vector<std::optional<std::uint64_t>> needed;
+  const Fault* fault = nullptr;  // of faults()
+  FaultProof proof;
   // The first case that showed it, under the first seed that did.
   std::optional<corpus::Case> shown_by;
-  std::optional<Reduction> reduction;  // of `shown_by`, when asked for
-
-  bool found() const;
-  // Median over seeds, those without counted as above all; nothing when that is one of them.
-  std::optional<std::uint64_t> median() const;
 };
 
 struct FaultHunt {
@@ -32,14 +26,23 @@ struct FaultHunt {
   std::uint64_t cases = 0;  // at most, of a seed, over all families in turn
   int jobs = 1;
   std::filesystem::path curated;  // folder of the curated cases; empty: not tried
+  Shard shard;                    // of the registered faults, by their place in the list
 };
+
+// How far a hunt is: in seed `seed` of `seeds`, `cases` of at most `most_cases` were judged, and of
+// the `planted` faults `hidden` did not show yet.
+struct HuntProgress {
+  int seed = 0, seeds = 0;
+  std::uint64_t cases = 0, most_cases = 0;
+  std::size_t hidden = 0, planted = 0;
+};
+using OnHunt = std::function<void(const HuntProgress&)>;
 
 // One judgement of a case serves all faults; a fault found under a seed leaves that seed's round.
 // Equivalent and open ones run along to the end. The result does not depend on the number of jobs,
 // unless the deadline ends it. About 0.2 ms a case and fault left.
-std::vector<FaultResult> hunt_faults(const FaultHunt& hunt, std::span<const Fault> faults,
-                                     RunDeadline deadline,
-                                     const std::function<void(const std::string&)>& progress);
+std::vector<FaultResult> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
+                                     const OnHunt& progress);
 
 // What the fault shows in a case, by the claims of its options; nothing: it holds.
 std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& c,
@@ -48,7 +51,8 @@ std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& 
 // The reducer's judge for a fault, its own oracle included.
 Judge judge_of_fault(const Fault& fault);
 
-// Shrinks `shown_by` of each result that has one; results are updated in place.
+// Shrinks `shown_by` of each result that has one; how small it became is told in its proof.
+// `progress` is called with the fault's name.
 void shrink_faults(std::vector<FaultResult>& results, const ReduceLimits& limits, int jobs,
                    RunDeadline deadline, const std::function<void(const std::string&)>& progress);
 

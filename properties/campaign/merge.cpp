@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "properties/campaign/binding.h"
+#include "properties/campaign/evidence.h"
 #include "properties/campaign/store.h"
 
 namespace assay::properties {
@@ -25,9 +26,11 @@ struct Table {
 };
 
 constexpr Table tables[] = {
-    {"trial", "trial", 12, 1,
+    {"trial", "trial", 14, 1,
      "(id) DO UPDATE SET oracle_us=min(oracle_us,excluded.oracle_us), "
-     "detector_us=min(detector_us,excluded.detector_us) WHERE family=excluded.family AND "
+     "detector_us=min(detector_us,excluded.detector_us), "
+     "slowest_us=min(slowest_us,excluded.slowest_us), "
+     "disturbed=max(disturbed,excluded.disturbed) WHERE family=excluded.family AND "
      "place=excluded.place AND outcomes=excluded.outcomes AND triangles=excluded.triangles AND "
      "steps=excluded.steps AND collisions=excluded.collisions AND pairs=excluded.pairs AND "
      "counts=excluded.counts AND mesh=excluded.mesh"},

@@ -36,15 +36,17 @@ struct Policy {
 struct CampaignPlan {
   std::string name, about;
   std::vector<StratumPlan> strata;
-  double seconds = 0;              // of the whole run; trials left over make it incomplete
-  double case_seconds = 10;        // of one case in one configuration; then it hangs: undecided
+  double seconds = 0;              // of the whole run, by the clock; trials left over make it
+                                   // incomplete. 0: it runs to its end
+  double case_seconds = 10;        // processor time of one case in one configuration; then it
+                                   // hangs: undecided
   std::uint64_t laws_every = 1;    // every k-th case of a family goes through the laws
   std::uint64_t law_premises = 0;  // each law's premise must hold at least so often
   std::uint64_t fault_cases = 0;   // a planted fault must show within so many cases of a seed
   int fault_seeds = 0;             // seeds over which the median is taken
   bool shrink_faults = false;      // also shrink what each planted fault shows
   double tetrahedron_seconds = 0;  // of the exhaustive world
-  double shrink_share = 0.2;       // of `seconds`, at most, for shrinking failures
+  double shrink_share = 0.2;       // of `seconds`, if any, at most, for shrinking failures
   Policy policy;
 };
 
@@ -53,6 +55,10 @@ const std::vector<CampaignPlan>& named_plans();
 
 // A plan by its name, or from a file: schema `assay-campaign/1`, see properties/README.md.
 corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file);
+
+// The same from the text of such a file; `name` stands in problems.
+corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
+                                          const std::filesystem::path& name);
 
 // The same plan, the same text: what a store is bound to.
 std::string plan_text(const CampaignPlan& plan);

@@ -60,6 +60,7 @@ void StratumTally::add(const TrialRecord& record) {
   pairs += record.pairs;
   oracle_us += record.oracle_us;
   detector_us += record.detector_us;
+  disturbed += record.disturbed > 0 ? 1 : 0;
   discards += record.outcomes.empty() ? 1 : 0;
   meshes.insert(record.mesh);
   by_configuration.resize(std::max(by_configuration.size(), record.outcomes.size()));
@@ -86,6 +87,23 @@ void StratumTally::add(const TrialRecord& record) {
 void Tally::add(const TrialRecord& record) {
   strata[record.family].add(record);
   properties::add(counts, record.counts);
+  disturbances += record.disturbed;
+  const bool has_ended = record.outcomes.find(letter_of(Outcome::undecided)) == std::string::npos;
+  if (record.slowest_us < near_from_us || !has_ended) return;
+  near.push_back(record);
+  near.back().counts.clear();
+}
+
+std::uint64_t Tally::trials() const {
+  std::uint64_t sum = 0;
+  for (const auto& [family, stratum] : strata) sum += stratum.trials;
+  return sum;
+}
+
+std::uint64_t Tally::disturbed() const {
+  std::uint64_t sum = 0;
+  for (const auto& [family, stratum] : strata) sum += stratum.disturbed;
+  return sum;
 }
 
 }  // namespace assay::properties

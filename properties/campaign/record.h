@@ -12,7 +12,7 @@
 
 namespace assay::properties {
 
-// Named counts: laws, tags, blocks of set pairs.
+// Named counts: laws, tags, blocks of set pairs (count_names.h).
 using Counts = std::map<std::string, std::uint64_t, std::less<>>;
 
 void add(Counts& sum, const Counts& more);
@@ -27,12 +27,12 @@ struct TrialRecord {
   std::string outcomes;  // one letter a configuration: H(olds) D(efect) U(ndecided) E(rror)
   std::uint64_t triangles = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
-  Counts counts;           // "law:..", "tag:..", "block:..", left_out_misses_name
+  Counts counts;
   std::uint64_t mesh = 0;  // hash of the case's triangles and frames: equal cases, equal hashes
+  // How often a worker was killed from outside while it ran this trial, which was then run again.
+  std::uint64_t disturbed = 0;
+  std::uint64_t slowest_us = 0;  // the most processor time that one configuration took
 };
-
-// Counts steps that only a plug-in's contract saves from being a miss.
-inline constexpr const char* left_out_misses_name = "contract:left-out-misses";
 
 char letter_of(Outcome outcome);
 
@@ -40,10 +40,14 @@ char letter_of(Outcome outcome);
 struct StratumTally {
   std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
+  std::uint64_t disturbed = 0;     // trials that somebody killed from outside, and that ran again
   std::uint64_t discards = 0;      // cases beyond the numbers that the detector's contract takes
   std::set<std::uint64_t> meshes;  // hashes of the cases: their number is that of distinct cases
   struct Outcomes {
     std::uint64_t holds = 0, defects = 0, undecided = 0, errors = 0;
+    std::uint64_t trials() const { return holds + defects + undecided + errors; }
+    std::uint64_t open() const { return undecided + errors; }
+    friend bool operator==(const Outcomes&, const Outcomes&) = default;
   };
   std::vector<Outcomes> by_configuration;
   std::map<int, std::uint64_t> sizes;     // cases by floor(log2(triangles))
@@ -52,9 +56,15 @@ struct StratumTally {
 };
 
 struct Tally {
+  // Processor time of a configuration from which on a trial is near its limit.
+  std::uint64_t near_from_us = ~std::uint64_t{0};
   std::map<std::string, StratumTally, std::less<>> strata;  // by family
   Counts counts;
+  std::vector<TrialRecord> near;  // in the order in which they were added; without their counts
+  std::uint64_t disturbances = 0;
   void add(const TrialRecord& record);
+  std::uint64_t trials() const;
+  std::uint64_t disturbed() const;  // trials
 };
 
 }  // namespace assay::properties

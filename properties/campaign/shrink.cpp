@@ -95,9 +95,8 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
       failure.smallest = corpus::case_text(better);
       store.set_smallest(failure);
     };
-    const std::string prefix = "law ";
-    const Law* law = failure.signature.starts_with(prefix)
-                         ? law_named(failure.signature.substr(prefix.size()))
+    const Law* law = failure.signature.starts_with(law_in_signature)
+                         ? law_named(failure.signature.substr(law_in_signature.size()))
                          : nullptr;
     const Reduction reduction =
         law ? reduce(failing.value(), judge_of_law(*law, *configuration), bounded, keep)

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "properties/campaign/explicit_view.h"
-#include "properties/campaign/runner.h"
+#include "properties/campaign/request.h"
+#include "properties/campaign/store.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 namespace assay::properties {
@@ -14,10 +15,12 @@ namespace assay::properties {
 const char* Store::tables() {
   return "CREATE TABLE IF NOT EXISTS note(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
          "CREATE TABLE IF NOT EXISTS trial(id TEXT PRIMARY KEY, family TEXT NOT NULL, place "
-         "INTEGER "
-         "NOT NULL, outcomes TEXT NOT NULL, triangles INTEGER NOT NULL, steps INTEGER NOT NULL, "
+         "INTEGER NOT NULL, outcomes TEXT NOT NULL, triangles INTEGER NOT NULL, steps INTEGER NOT "
+         "NULL, "
          "collisions INTEGER NOT NULL, pairs INTEGER NOT NULL, oracle_us INTEGER NOT NULL, "
-         "detector_us INTEGER NOT NULL, counts TEXT NOT NULL, mesh INTEGER NOT NULL) WITHOUT ROWID;"
+         "detector_us INTEGER NOT NULL, counts TEXT NOT NULL, mesh INTEGER NOT NULL, disturbed "
+         "INTEGER "
+         "NOT NULL, slowest_us INTEGER NOT NULL) WITHOUT ROWID;"
          "CREATE TABLE IF NOT EXISTS failure(id TEXT NOT NULL, configuration TEXT NOT NULL, "
          "signature TEXT NOT NULL, what TEXT NOT NULL, mesh TEXT NOT NULL, smallest TEXT NOT NULL, "
          "flaky INTEGER NOT NULL, PRIMARY KEY(id, configuration)) WITHOUT ROWID;"
@@ -52,6 +55,14 @@ class FileLock {
 
 }  // namespace
 
+// The schema that a binding names, where it is another than this build's.
+static std::optional<std::string> other_schema(const std::string& binding) {
+  const auto json = nlohmann::json::parse(binding, nullptr, false);
+  if (!json.is_object() || !json.contains("schema")) return std::nullopt;  // told by its reader
+  if (json["schema"] == store_schema) return std::nullopt;
+  return json["schema"].dump();
+}
+
 struct Store::Parts {
   std::optional<FileLock> lock;  // outlives the database
   Database db;
@@ -78,8 +89,15 @@ std::optional<Store> Store::read(const std::filesystem::path& file, std::string&
     const bool is_store =
         Statement(parts->db, "SELECT 1 FROM sqlite_master WHERE name='note'").next();
     Store store(std::move(parts));
-    if (is_store && store.note("binding")) return store;
-    problem = fmt::format("{}: not the store of a run", file.string());
+    const auto binding = is_store ? store.note("binding") : std::nullopt;
+    if (!binding) {
+      problem = fmt::format("{}: not the store of a run", file.string());
+    } else if (const auto older = other_schema(*binding)) {
+      problem = fmt::format("{}: is of schema {}, this assay reads {}: run it again", file.string(),
+                            *older, store_schema);
+    } else {
+      return store;
+    }
   } catch (const StoreProblem& failure) {
     problem = failure.what();
   }
@@ -113,7 +131,7 @@ std::optional<Store> Store::open(const std::filesystem::path& file, const std::s
 std::string Store::binding() const { return note("binding").value_or(""); }
 
 void Store::add(const TrialRecord& r) {
-  Statement(parts_->db, "INSERT OR REPLACE INTO trial VALUES(?,?,?,?,?,?,?,?,?,?,?,?)")
+  Statement(parts_->db, "INSERT OR REPLACE INTO trial VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
       .bind(r.id)
       .bind(r.family)
       .bind(r.index)
@@ -126,6 +144,8 @@ void Store::add(const TrialRecord& r) {
       .bind(r.detector_us)
       .bind(counts_text(r.counts))
       .bind(r.mesh)
+      .bind(r.disturbed)
+      .bind(r.slowest_us)
       .next();
 }
 
@@ -195,11 +215,11 @@ std::optional<std::string> Store::note(const std::string& key) const {
 void Store::for_each_trial(const std::function<void(const TrialRecord&)>& visit) const {
   Statement query(parts_->db,
                   "SELECT id,family,place,outcomes,triangles,steps,collisions,pairs,oracle_us,"
-                  "detector_us,counts,mesh FROM trial ORDER BY family, place");
+                  "detector_us,counts,mesh,disturbed,slowest_us FROM trial ORDER BY family, place");
   while (query.next()) {
     visit({query.text(0), query.text(1), query.number(2), query.text(3), query.number(4),
            query.number(5), query.number(6), query.number(7), query.number(8), query.number(9),
-           parse_counts(query.text(10)), query.number(11)});
+           parse_counts(query.text(10)), query.number(11), query.number(12), query.number(13)});
   }
 }
 

@@ -13,6 +13,9 @@
 
 namespace assay::properties {
 
+// Of the text that binds a store to a run (binding.h). A store of another schema is refused.
+inline constexpr const char* store_schema = "assay-store/2";
+
 // A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
 struct StoredFailure {
   std::string id;  // of the trial
@@ -22,8 +25,13 @@ struct StoredFailure {
   bool flaky = false;    // two runs of it differ: a failure of its own
 };
 
-// Of a broken law `configuration` is "view-point, law L3_...": a case may break a law and a claim.
-inline constexpr const char* law_in_configuration = ", law ";
+// Of a broken law the signature is "law L3_...", and `configuration` is "view-point, law L3_...",
+// for a case may break a law and a claim.
+inline constexpr std::string_view law_in_signature = "law ", law_in_configuration = ", law ";
+
+// The id of a failure that the shipped corpus shows is this and the name of its case. No trial's id
+// begins so: the name of a campaign has no '/'.
+inline constexpr std::string_view corpus_in_id = "corpus/";
 
 // That a trial showed something in a configuration: kept of every failure, its mesh of a few.
 struct MetFailure {

@@ -27,6 +27,13 @@ const Fault* find_fault(std::string_view name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+std::size_t planted_count() {
+  const auto all = faults();
+  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const Fault& fault) {
+    return fault.status == FaultStatus::planted;
+  }));
+}
+
 const char* name_of(FaultStatus status) {
   switch (status) {
     case FaultStatus::planted:

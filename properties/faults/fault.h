@@ -43,6 +43,9 @@ std::span<const Fault> faults();
 // The fault of this name, or null.
 const Fault* find_fault(std::string_view name);
 
+// How many of them have to be found.
+std::size_t planted_count();
+
 const char* name_of(FaultStatus status);
 
 }  // namespace assay::properties

@@ -34,6 +34,8 @@ struct CaseRun {
   // One for each step of the case when completed, else none. A pair or first time that a plug-in
   // does not state is [0, 1].
   std::vector<detector::StepResult> steps;
+  std::uint64_t disturbances = 0;
+  double processor_seconds = 0;
 };
 
 // Steps of the case that commit advance the state. The case's view primitive is given where the

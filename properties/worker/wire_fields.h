@@ -53,7 +53,7 @@ void fields(Wire& wire, detector::StepResult& result) {
 
 template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
-  auto& [end, what, steps] = run;
+  auto& [end, what, steps, disturbances, processor_seconds] = run;
   wire(end, what, steps);
 }
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "reports/bench/bootstrap.h"
-#include "reports/statistics.h"
+#include "properties/campaign/statistics.h"
 
 namespace assay::reports {
 namespace {
@@ -78,8 +78,8 @@ ShareOfSteps share_of(std::size_t part, std::size_t all) {
   constexpr double risk_of_a_side = 0.025;
   ShareOfSteps out;
   if (all > 0) out.share = static_cast<double>(part) / static_cast<double>(all);
-  out.hi = upper_bound(part, all, risk_of_a_side);
-  out.lo = 1 - upper_bound(all - part, all, risk_of_a_side);
+  out.hi = properties::upper_bound(part, all, risk_of_a_side);
+  out.lo = 1 - properties::upper_bound(all - part, all, risk_of_a_side);
   return out;
 }
 

@@ -5,48 +5,39 @@
 #include "corpus/digest.h"
 #include "corpus/scenes.h"
 #include "properties/case_check.h"
-#include "properties/generators/families.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::reports {
 namespace {
 
 using detector::Culling;
+using properties::CorpusRow;
 using properties::Outcome;
-using Json = nlohmann::ordered_json;
 
-struct Row {
-  std::string input, configuration;
-  std::size_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0, defects = 0;
-  Json failed = Json::array();
+void count(CorpusRow& row, const oracle::StepJudgement& step) {
+  ++row.steps;
+  row.collisions += step.pairs.empty() ? 0 : 1;
+  row.pairs += step.pairs.size();
+}
 
-  void count(const oracle::StepJudgement& step) {
-    ++steps;
-    collisions += step.pairs.empty() ? 0 : 1;
-    pairs += step.pairs.size();
-  }
-  void fail(const std::string& id, const std::string& signature, const std::string& what) {
-    failed.push_back({{"case", id}, {"signature", signature}, {"what", what}});
-  }
-  Json json() const {
-    return {{"input", input},  {"configuration", configuration},
-            {"cases", cases},  {"left_out", left_out},
-            {"steps", steps},  {"collisions", collisions},
-            {"pairs", pairs},  {"defects", defects},
-            {"failed", failed}};
-  }
-};
+CorpusRow row_of(const std::string& input, const std::string& configuration) {
+  CorpusRow row;
+  row.input = input;
+  row.configuration = configuration;
+  return row;
+}
 
 // Expected facts of the built-in detector, one culling.
-Row check_facts(const std::vector<corpus::Case>& cases, Culling culling, int jobs) {
-  Row row{"curated cases", properties::name_of(culling)};
+CorpusRow check_facts(const std::vector<corpus::Case>& cases, Culling culling, int jobs) {
+  CorpusRow row = row_of("curated cases", properties::name_of(culling));
   for (const auto& c : cases) {
     const auto report = properties::check_case(c, culling, jobs);
     ++row.cases;
-    for (const auto& step : report.steps) row.count(step.judgement);
+    for (const auto& step : report.steps) count(row, step.judgement);
     row.defects += report.outcome == Outcome::holds ? 0 : 1;
     for (const auto& line : report.failed)
-      row.fail(c.id, fmt::format("corpus: {} with {}", c.id, row.configuration), line);
+      row.failed.push_back(
+          {c.id, fmt::format("corpus: {} with {}", c.id, row.configuration), line});
   }
   return row;
 }
@@ -60,7 +51,7 @@ class JudgedRows {
         on_failure_(on_failure),
         worker_(request.worker, request.plugin, {case_seconds, 0}) {
     for (const auto& configuration : request.detector.configurations)
-      rows_.push_back({input, configuration.name});
+      rows_.push_back(row_of(input, configuration.name));
   }
 
   void add(const corpus::Case& c) {
@@ -71,16 +62,16 @@ class JudgedRows {
     const auto& configurations = request_.detector.configurations;
     const auto runs = worker_.run(c, configurations);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      for (const auto& step : truth) rows_[i].count(step);
+      for (const auto& step : truth) count(rows_[i], step);
       const auto verdict =
           properties::judge_trial(*seen, truth, runs[i], configurations[i], request_.detector);
       if (verdict.outcome == Outcome::holds) continue;
       ++rows_[i].defects;
       const auto& failure = verdict.failure;
-      rows_[i].fail(c.id, failure ? failure->signature() : "undecided",
-                    failure ? failure->what : "no verdict: " + runs[i].what);
+      rows_[i].failed.push_back({c.id, failure ? failure->signature() : "undecided",
+                                 failure ? failure->what : "no verdict: " + runs[i].what});
       if (failure) {
-        on_failure_({corpus_id + c.id,
+        on_failure_({std::string(properties::corpus_in_id) + c.id,
                      configurations[i].name,
                      failure->signature(),
                      failure->what,
@@ -89,14 +80,14 @@ class JudgedRows {
       }
     }
   }
-  const std::vector<Row>& rows() const { return rows_; }
+  const std::vector<CorpusRow>& rows() const { return rows_; }
 
  private:
   static constexpr double case_seconds = 60;  // scenes are larger than a campaign's cases
   const properties::CampaignRequest& request_;
   const OnCorpusFailure& on_failure_;
   properties::WorkerProcess worker_;
-  std::vector<Row> rows_;
+  std::vector<CorpusRow> rows_;
 };
 
 corpus::Expected<std::vector<corpus::Case>> curated(const std::filesystem::path& folder) {
@@ -138,21 +129,21 @@ std::optional<std::string> check_corpus(const properties::CampaignRequest& reque
   if (request.detector.built_in) {
     for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
                                Culling::normal_cone, Culling::bvh})
-      on_row(check_facts(cases.value(), culling, request.jobs).json());
+      on_row(check_facts(cases.value(), culling, request.jobs));
   } else {
     JudgedRows judged(request, "curated cases", on_failure);
     for (const auto& c : cases.value()) {
       // What has to be refused is no valid input, so nothing is claimed of it.
       if (c.expected.answer != detector::Answer::error) judged.add(c);
     }
-    for (const auto& row : judged.rows()) on_row(row.json());
+    for (const auto& row : judged.rows()) on_row(row);
   }
   for (const auto& scene : corpus::scenes()) {
     const auto c = case_of_scene(scene.name);
     if (!c) return c.error().message;
     JudgedRows judged(request, std::string(scene.name), on_failure);
     judged.add(c.value());
-    for (const auto& row : judged.rows()) on_row(row.json());
+    for (const auto& row : judged.rows()) on_row(row);
   }
   return std::nullopt;
 }
@@ -162,16 +153,11 @@ std::string corpus_heading() {
                      "cases", "steps", "collisions", "pairs", "defects");
 }
 
-std::string corpus_row_text(const Json& row) {
-  const auto count = [&](const char* name) { return row[name].get<std::size_t>(); };
+std::string corpus_row_text(const CorpusRow& row) {
   std::string text =
-      fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row["input"].get<std::string>(),
-                  row["configuration"].get<std::string>(), count("cases"), count("steps"),
-                  count("collisions"), count("pairs"), count("defects"));
-  for (const auto& failed : row["failed"]) {
-    text += fmt::format("  {}: {}\n", failed["case"].get<std::string>(),
-                        failed["what"].get<std::string>());
-  }
+      fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row.input, row.configuration,
+                  row.cases, row.steps, row.collisions, row.pairs, row.defects);
+  for (const auto& failed : row.failed) text += fmt::format("  {}: {}\n", failed.id, failed.what);
   return text;
 }
 
@@ -184,19 +170,6 @@ std::string corpus_digest(const std::filesystem::path& corpus) {
     }
   }
   return corpus::sha256_of(lines);
-}
-
-std::string generator_digest() {
-  constexpr std::uint64_t cases = 16;  // of a family
-  std::string digests;
-  for (const auto& family : properties::families()) {
-    for (std::uint64_t i = 0; i < cases; ++i) {
-      const auto made =
-          properties::make_case(family, fmt::format("generator-digest:1:{}:{}", family.name, i));
-      digests += corpus::sha256_of(corpus::case_text(made.c)) + "\n";
-    }
-  }
-  return corpus::sha256_of(digests);
 }
 
 }  // namespace assay::reports

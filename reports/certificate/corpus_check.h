@@ -2,23 +2,18 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
-#include "properties/campaign/runner.h"
+#include "properties/campaign/evidence.h"
+#include "properties/campaign/request.h"
 
 namespace assay::reports {
 
-// Called for each row as it is known: {input, configuration, cases, left_out, steps, collisions,
-// pairs, defects, failed: [{case, signature, what}]}. Curated cases: of the built-in detector held
+// Called for each row as it is known. Curated cases: of the built-in detector held
 // to their expected facts with every culling; of a plug-in to the oracle under its claims, as
 // scenes are for both. One judgement of the oracle serves all configurations.
-using OnCorpusRow = std::function<void(const nlohmann::ordered_json&)>;
-
-// The id of a failure that the corpus shows: this and the name of its case. No trial's begins so:
-// the name of a campaign has no '/'.
-inline constexpr const char* corpus_id = "corpus/";
+using OnCorpusRow = std::function<void(const properties::CorpusRow&)>;
 
 // Called for each case that a configuration fails by the oracle, as a trial would be stored.
 // Expected facts that the built-in detector fails are told in the row alone.
@@ -32,12 +27,9 @@ std::optional<std::string> check_corpus(const properties::CampaignRequest& reque
 
 // A row as the terminal shows it, with a line for each case that fails, and what stands above.
 std::string corpus_heading();
-std::string corpus_row_text(const nlohmann::ordered_json& row);
+std::string corpus_row_text(const properties::CorpusRow& row);
 
 // SHA-256 over names and bytes of the case files.
 std::string corpus_digest(const std::filesystem::path& corpus);
-
-// SHA-256 over the first cases of every family: another generator makes other cases.
-std::string generator_digest();
 
 }  // namespace assay::reports

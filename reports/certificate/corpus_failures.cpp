@@ -3,8 +3,9 @@
 #include <chrono>
 #include <map>
 
+#include "properties/campaign/phases.h"
+#include "properties/campaign/run_folder.h"
 #include "properties/campaign/shrink.h"
-#include "reports/failure_text.h"
 #include "reports/plain_progress.h"
 
 namespace assay::reports {
@@ -15,7 +16,7 @@ using properties::StoredFailure;
 std::set<std::string> signatures_of_trials(const std::filesystem::path& out) {
   std::set<std::string> signatures;
   std::string problem;
-  for (const auto& file : stored_shards(out, problem)) {
+  for (const auto& file : properties::stored_shards(out, problem)) {
     const auto store = Store::read(file, problem);
     if (!store) continue;  // told where the stores are read for the certificate
     for (const auto& failure : store->failures()) signatures.insert(failure.signature);
@@ -36,7 +37,7 @@ void keep_corpus_failures(const properties::CampaignRequest& request,
   }
   for (const auto& [signature, failure] : smallest) checks.add(*failure);
   using Clock = std::chrono::steady_clock;
-  const std::chrono::duration<double> share(request.plan.shrink_share * request.plan.seconds);
+  const auto share = properties::shrinking_time(request.plan);
   PlainProgress progress("shrinking");
   constexpr double seconds_each = 60;
   properties::shrink_failures(request, checks, {seconds_each, 1'000'000},

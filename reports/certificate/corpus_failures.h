@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/runner.h"
+#include "properties/campaign/request.h"
+#include "properties/campaign/store.h"
 
 namespace assay::reports {
 

@@ -12,55 +12,48 @@ namespace {
 using detector::Arithmetic;
 using detector::Culling;
 using detector::Options;
-using Json = nlohmann::ordered_json;
+using properties::SpeedFigure;
 
 constexpr int rounds = 9;
 
 // Of the first over the second, in turn.
-Json ratio_json(std::string_view what, const corpus::Sequence& step, const Options& measured,
-                const Options& beside) {
+SpeedFigure figure_of(std::string_view what, const corpus::Sequence& step, const Options& measured,
+                      const Options& beside) {
   BenchReport unused;
   TimedStep one("", step.triangles, step.frames, measured, unused);
   TimedStep other("", step.triangles, step.frames, beside, unused);
   const auto samples =
       interleave(rounds, {[&] { return one.time(); }, [&] { return other.time(); }});
   const Estimate ratio = ratio_of(samples[0], samples[1]);
-  return {{"what", what},
-          {"median", ratio.value},
-          {"lo", ratio.lo},
-          {"hi", ratio.hi},
-          {"samples", ratio.samples}};
+  return {std::string(what), ratio.value, ratio.lo, ratio.hi, ratio.samples};
 }
 
 }  // namespace
 
-void check_oracle(std::uint64_t queries, int jobs, const OnFacts& on_family) {
+void check_oracle(std::uint64_t queries, int jobs, const OnSelfTestRow& on_family) {
   properties::SelfTestOptions options;
   options.queries = queries;
   options.jobs = jobs;
   for (const auto& family : properties::self_test_families()) {
     if (family->indices(queries) == 0) continue;
     const auto result = properties::run_family(*family, options, [](std::uint64_t) {});
-    on_family(family->name(), {{"queries", result.tally.queries},
-                               {"contacts", result.tally.contacts},
-                               {"contradictions", result.tally.contradictions},
-                               {"open", result.tally.open},
-                               {"complete", result.complete}});
+    const auto& tally = result.tally;
+    on_family({family->name(), tally.queries, tally.contacts, tally.contradictions, tally.open,
+               result.complete});
   }
 }
 
-void measure_speed(const OnFacts& on_figure) {
+void measure_speed(const OnSpeedFigure& on_figure) {
   constexpr int free_triangles = 20'480, search_triangles = 4'000, frames = 3;
   const auto exact = bench_options(Culling::view_auto), bvh = bench_options(Culling::bvh);
-  const auto tell = [&](const Json& figure) { on_figure(figure["what"], figure); };
   const auto sphere = bench_scene("breathing-sphere", free_triangles, frames);
-  tell(ratio_json(properties::speed_figures[0], sphere, exact, bvh));
+  on_figure(figure_of(properties::speed_figures[0], sphere, exact, bvh));
   // The scene most like the step for which that limit is stated (rod-twist).
   const auto twist = bench_scene("twist", search_triangles, frames);
-  tell(ratio_json(properties::speed_figures[2], twist, exact,
-                  bench_options(Culling::view_auto, Arithmetic::double_precision)));
+  on_figure(figure_of(properties::speed_figures[2], twist, exact,
+                      bench_options(Culling::view_auto, Arithmetic::double_precision)));
   const auto contact = step_at_first_contact("pinching-torus", search_triangles);
-  if (contact) tell(ratio_json(properties::speed_figures[1], *contact, exact, bvh));
+  if (contact) on_figure(figure_of(properties::speed_figures[1], *contact, exact, bvh));
 }
 
 }  // namespace assay::reports

@@ -2,18 +2,18 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
-#include <string>
+
+#include "properties/campaign/evidence.h"
 
 namespace assay::reports {
 
-using OnFacts = std::function<void(const std::string& name, const nlohmann::ordered_json& facts)>;
+// Called for each family of `assay self-test` as it is known.
+using OnSelfTestRow = std::function<void(const properties::SelfTestRow&)>;
+void check_oracle(std::uint64_t queries, int jobs, const OnSelfTestRow& on_family);
 
-// Each family of `assay self-test`: {queries, contacts, contradictions, open, complete}.
-void check_oracle(std::uint64_t queries, int jobs, const OnFacts& on_family);
-
-// Each of speed_figures: {what, median, lo, hi, samples}, the ratio of processor times of
-// interleaved steps of the built-in detector. 10 s.
-void measure_speed(const OnFacts& on_figure);
+// Called for each of properties::speed_figures: the ratio of processor times of interleaved steps
+// of the built-in detector. 10 s in all.
+using OnSpeedFigure = std::function<void(const properties::SpeedFigure&)>;
+void measure_speed(const OnSpeedFigure& on_figure);
 
 }  // namespace assay::reports

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "reports/statistics.h"
+#include "properties/campaign/statistics.h"
 
 namespace assay::reports {
 namespace {
@@ -61,7 +61,7 @@ std::optional<Json> pool(const std::vector<Json>& predicates, std::string& probl
                       {"configuration", first["bounds"][c]["configuration"]},
                       {"n", n},
                       {"holds", holds},
-                      {"bound", upper_bound(n - holds, n, risk)}});
+                      {"bound", properties::upper_bound(n - holds, n, risk)}});
     }
   }
   return list;

@@ -1,119 +1,142 @@
-#include "reports/certificate/fault_facts.h"
 #include "reports/certificate/sections.h"
 
 namespace assay::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using properties::RunFindings;
 
-Json canaries_json(const Findings& findings) {
+// What the row says of it, under the keys of evidence.cpp.
+template <class T>
+Json facts_of(const T& evidence) {
+  return Json::parse(to_row(evidence).facts);
+}
+
+template <class T>
+Json named(const char* key, const std::string& name, const T& evidence) {
+  Json json = {{key, name}};
+  json.update(facts_of(evidence));
+  return json;
+}
+
+Json number_or_null(const std::optional<std::uint64_t>& number) {
+  return number ? Json(*number) : Json(nullptr);
+}
+
+Json canaries_json(const RunFindings& findings) {
   Json list = Json::array();
-  for (const auto& row : findings.of("canary")) {
-    const auto facts = Json::parse(row.facts);
+  for (const auto& canary : findings.evidence.canaries)
+    list.push_back({{"fault", canary.fault},
+                    {"shard", canary.shard},
+                    {"found_after", number_or_null(canary.found_after)}});
+  return list;
+}
+
+Json faults_json(const RunFindings& findings) {
+  Json list = Json::array();
+  for (const auto& proof : findings.evidence.faults) {
+    Json fault = named("fault", proof.fault, proof);
+    fault["found"] = proof.found();
+    fault["median_cases"] = number_or_null(proof.median());
+    list.push_back(std::move(fault));
+  }
+  return list;
+}
+
+Json worlds_json(const RunFindings& findings) {
+  Json list = Json::array();
+  for (const auto& world : findings.evidence.worlds) {
+    // Of one that the time ended only the times tell how far it came.
+    const bool is_settled = world.complete || world.counterexample;
     list.push_back(
-        {{"fault", row.name}, {"shard", row.shard}, {"found_after", facts["found_after"]}});
+        {{"world", world.world},
+         {"complete", world.complete},
+         {"classes", is_settled ? Json(world.classes) : Json(nullptr)},
+         {"motions", is_settled ? Json(world.motions) : Json(nullptr)},
+         {"counterexample", world.counterexample ? Json(*world.counterexample) : Json(nullptr)}});
   }
   return list;
 }
 
 }  // namespace
 
-Json power_json(const Findings& findings) {
-  Json faults = Json::array();
-  std::uint64_t planted = 0, found = 0;
-  for (const auto& row : findings.of("fault")) {
-    auto facts = Json::parse(row.facts);
-    const bool is_planted = facts["status"] == "planted";
-    planted += is_planted ? 1 : 0;
-    found += is_planted && is_found(facts) ? 1 : 0;
-    faults.push_back({{"fault", row.name},
-                      {"law", facts["law"]},
-                      {"status", facts["status"]},
-                      {"found", is_found(facts)},
-                      {"median_cases", median_of_needed(facts["needed"])},
-                      {"needed", facts["needed"]},
-                      {"cases", facts["cases"]},
-                      {"time_over", facts["time_over"]},
-                      {"curated", facts["curated"]},
-                      {"known_vertices", facts["known_vertices"]},
-                      {"shrunk", facts["shrunk"]}});
-  }
-  Json worlds = Json::array();
-  for (const auto& row : findings.of("world")) {
-    // Of one that the time ended only the times tell how far it came.
-    const auto facts = Json::parse(row.facts);
-    const bool is_settled = facts["complete"].get<bool>() || !facts["counterexample"].is_null();
-    worlds.push_back({{"world", row.name},
-                      {"complete", facts["complete"]},
-                      {"classes", is_settled ? facts["classes"] : Json(nullptr)},
-                      {"motions", is_settled ? facts["motions"] : Json(nullptr)},
-                      {"counterexample", facts["counterexample"]}});
-  }
+Json power_json(const RunFindings& findings) {
+  const auto& taken = findings.evidence.power;
   return {{"canaries", canaries_json(findings)},
-          {"planted", planted},
-          {"found", found},
-          {"faults", std::move(faults)},
-          {"worlds", std::move(worlds)}};
+          {"taken_from", taken.empty() ? Json(nullptr) : facts_of(taken.front())},
+          {"planted", findings.planted()},
+          {"found", findings.found()},
+          {"faults", faults_json(findings)},
+          {"worlds", worlds_json(findings)}};
 }
 
-Json self_test_json(const Findings& findings) {
+Json self_test_json(const RunFindings& findings) {
+  if (findings.evidence.self_test.empty()) return nullptr;
   Json families = Json::array();
   std::uint64_t queries = 0, contradictions = 0;
   bool complete = true;
-  for (const auto& row : findings.of("self-test")) {
-    auto facts = Json::parse(row.facts);
-    queries += facts["queries"].get<std::uint64_t>();
-    contradictions += facts["contradictions"].get<std::uint64_t>();
-    complete &= facts["complete"].get<bool>();
-    Json family = {{"family", row.name}};
-    family.update(facts);
-    families.push_back(std::move(family));
+  for (const auto& row : findings.evidence.self_test) {
+    queries += row.queries;
+    contradictions += row.contradictions;
+    complete &= row.complete;
+    families.push_back(named("family", row.family, row));
   }
-  if (families.empty()) return nullptr;
   return {{"queries", queries},
           {"contradictions", contradictions},
           {"complete", complete},
           {"families", std::move(families)}};
 }
 
-Json corpus_json(const Findings& findings) {
+Json corpus_json(const RunFindings& findings) {
+  if (findings.evidence.corpus.empty()) return nullptr;
   Json rows = Json::array();
-  for (const auto& row : findings.of("corpus")) rows.push_back(Json::parse(row.facts));
-  return rows.empty() ? Json(nullptr) : rows;
+  for (const auto& row : findings.evidence.corpus) {
+    rows.push_back(facts_of(row));
+    for (auto& failed : rows.back()["failed"])
+      failed["waived"] = findings.is_waived(failed["signature"]);
+  }
+  return rows;
 }
 
-Json times_json(const Findings& findings) {
-  Json times = {{"issued", nullptr}, {"seconds", nullptr}, {"speed", Json::array()}};
-  for (const auto& row : findings.of("times")) {
-    const auto facts = Json::parse(row.facts);
-    if (row.name == "issued") {
-      times["issued"] = facts["at"];
-      times["seconds"] = facts["seconds"];
-    } else {
-      times["speed"].push_back(facts);
-    }
-  }
-  Json strata = Json::array();
-  for (const auto& [family, tally] : findings.tally.strata) {
-    strata.push_back(
-        {{"family", family}, {"oracle_us", tally.oracle_us}, {"detector_us", tally.detector_us}});
-  }
-  times["strata"] = std::move(strata);
-  Json worlds = Json::array();
-  for (const auto& row : findings.of("world")) {
-    const auto facts = Json::parse(row.facts);
-    worlds.push_back({{"world", row.name},
-                      {"classes", facts["classes"]},
-                      {"all", facts["all"]},
-                      {"motions", facts["motions"]}});
-  }
-  times["worlds"] = std::move(worlds);
+Json times_json(const RunFindings& findings) {
+  const auto& [issued, speed] = std::tie(findings.evidence.issued, findings.evidence.speed);
+  Json figures = Json::array(), strata = Json::array(), worlds = Json::array(),
+       files = Json::array();
+  for (const auto& figure : speed) figures.push_back(named("what", figure.what, figure));
+  for (const auto& [family, tally] : findings.tally.strata)
+    strata.push_back({{"family", family},
+                      {"oracle_us", tally.oracle_us},
+                      {"detector_us", tally.detector_us},
+                      {"disturbed", tally.disturbed}});
+  for (const auto& world : findings.evidence.worlds)
+    worlds.push_back({{"world", world.world},
+                      {"classes", world.classes},
+                      {"all", world.all},
+                      {"motions", world.motions}});
   // Stores hold times, so the bytes of their files differ from run to run.
-  Json files = Json::array();
   for (const auto& file : findings.files)
     files.push_back({{"name", file.name}, {"sha256", file.sha256}});
-  times["files"] = std::move(files);
-  return times;
+  return {{"issued", issued ? Json(issued->at) : Json(nullptr)},
+          {"seconds", issued ? Json(issued->seconds) : Json(nullptr)},
+          {"speed", std::move(figures)},
+          {"strata", std::move(strata)},
+          {"near_the_limit", findings.tally.near.size()},
+          {"worlds", std::move(worlds)},
+          {"files", std::move(files)}};
+}
+
+Json waivers_json(const RunFindings& findings) {
+  Json list = Json::array();
+  for (const auto& waiver : findings.evidence.waivers) {
+    const auto met = findings.met.find(waiver.signature);
+    std::uint64_t count = met == findings.met.end() ? 0 : met->second;
+    for (const auto& row : findings.evidence.corpus) {
+      for (const auto& failed : row.failed) count += failed.signature == waiver.signature ? 1 : 0;
+    }
+    list.push_back(named("signature", waiver.signature, waiver));
+    list.back()["met"] = count;
+  }
+  return list;
 }
 
 }  // namespace assay::reports

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "corpus/digest.h"
-#include "reports/certificate/gates.h"
+#include "properties/campaign/run_folder.h"
 #include "reports/certificate/sections.h"
 #include "reports/shell_word.h"
 
@@ -11,155 +11,144 @@ namespace assay::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using properties::RunFindings;
 
 // The plan as the stores are bound to it, beside the one in the file: nothing, or one line.
-std::optional<std::string> plan_differs(const Findings& findings,
+std::optional<std::string> plan_differs(const RunFindings& findings,
                                         const properties::CampaignPlan& plan) {
   auto bound = plan;
   bound.seconds = bound.shrink_share = bound.tetrahedron_seconds = 0;
-  if (Json::parse(plan_text(bound)) == findings.binding["campaign"]) return std::nullopt;
+  if (plan_text(bound) == plan_text(findings.run.plan)) return std::nullopt;
   return "campaign.json is not the campaign of the stores";
 }
 
-Json or_null(const Json& object, const char* key) {
-  return object.is_null() ? Json(nullptr) : object[key];
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
 }
 
-Json detector_json(const Findings& findings) {
-  const auto& detector = findings.binding["detector"];
-  return {{"name", detector["name"]},
-          {"built_in", detector["built_in"]},
-          {"contract", detector["contract"]},
-          {"configurations", detector["configurations"]}};
+// A program that was gone when the run began has no digest.
+Json or_null(const std::string& digest) { return digest.empty() ? Json(nullptr) : Json(digest); }
+
+Json detector_json(const properties::BoundRun& run) {
+  Json configurations = Json::array();
+  for (const auto& configuration : run.configurations)
+    configurations.push_back({{"name", configuration.name}, {"claims", configuration.claims}});
+  return {
+      {"name", run.detector},
+      {"built_in", run.built_in},
+      {"contract",
+       {{"adjacency", run.adjacency}, {"coordinates", run.coordinates}, {"margin", run.margin}}},
+      {"configurations", std::move(configurations)}};
 }
 
 // The library of a plug-in; of the built-in detector the program that holds it and runs it.
-Json subject_json(const Findings& findings) {
-  const auto& binding = findings.binding;
+Json subject_json(const RunFindings& findings) {
+  const auto& run = findings.run;
   Json digest;
-  const bool built_in = binding["detector"]["built_in"].get<bool>();
-  digest["sha256"] = binding["digests"][built_in ? "worker" : "plugin"];
-  const Json commit = or_null(findings.facts("subject", "versions"), "commit");
+  digest["sha256"] = run.built_in ? or_null(run.worker) : or_null(run.plugin);
   // Of a plug-in only its owner knows the commit; changed files have none.
   constexpr std::size_t digits = 40;
-  if (built_in && commit.is_string() && commit.get<std::string>().size() == digits)
-    digest["gitCommit"] = commit;
-  return Json::array({{{"name", binding["detector"]["name"]}, {"digest", std::move(digest)}}});
+  const auto& versions = findings.evidence.versions;
+  if (run.built_in && versions && versions->commit && versions->commit->size() == digits)
+    digest["gitCommit"] = *versions->commit;
+  return Json::array({{{"name", run.detector}, {"digest", std::move(digest)}}});
 }
 
-Json digests_json(const Findings& findings, const std::string& campaign) {
-  const auto& digests = findings.binding["digests"];
-  return {{"program", digests["program"]},
-          {"worker", digests["worker"]},
-          {"plugin", digests["plugin"]},
-          {"generator", or_null(findings.facts("digest", "generator"), "sha256")},
-          {"corpus", or_null(findings.facts("digest", "corpus"), "sha256")},
-          {"waivers", or_null(findings.facts("digest", "waivers"), "sha256")},
+Json versions_json(const RunFindings& findings) {
+  const auto& versions = findings.evidence.versions;
+  if (!versions) return nullptr;
+  return {{"assay", versions->assay},
+          {"commit", or_null(versions->commit)},
+          {"libraries", versions->libraries}};
+}
+
+Json digests_json(const RunFindings& findings, const std::string& campaign) {
+  const auto& run = findings.run;
+  const auto& inputs = findings.evidence.inputs;
+  return {{"program", or_null(run.program)},
+          {"worker", or_null(run.worker)},
+          {"plugin", or_null(run.plugin)},
+          {"generator", or_null(run.generator)},
+          {"corpus", inputs ? Json(inputs->corpus) : Json(nullptr)},
+          {"waivers", inputs ? or_null(inputs->waivers) : Json(nullptr)},
           {"campaign", campaign},
           {"rows", findings.rows}};
 }
 
-Json replay_json(const Findings& findings) {
-  const Json paths = findings.facts("subject", "paths");
-  if (paths.is_null()) return Json::array();
-  const auto out = paths["out"].get<std::string>();
-  const auto folder = std::filesystem::path(out);
-  return Json::array(
-      {fmt::format("assay certify --campaign {} --seed {}{} --out AGAIN",
-                   shell_word(campaign_file(folder).string()),
-                   findings.binding["seed"].get<std::uint64_t>(),
-                   detector_words(paths["detector"].get<std::string>())),
-       fmt::format("assay verify {}", shell_word(certificate_file(folder).string()))});
+Json campaign_json(const RunFindings& findings, const properties::CampaignPlan& plan) {
+  const auto words = [](const std::vector<properties::Shard>& shards) {
+    Json list = Json::array();
+    for (const auto& shard : shards) list.push_back(text_of(shard));
+    return list;
+  };
+  return {{"name", plan.name},
+          {"seed", findings.run.seed},
+          {"plan", Json::parse(plan_text(plan))},
+          {"shards", words(findings.shards)},
+          {"missing_shards", words(findings.missing)},
+          {"one_shard_alone", findings.alone.has_value()},
+          {"planted_faults", findings.run.planted_faults}};
 }
 
-// Which failures of the corpus are waived is known only here.
-void mark_waived(Json& corpus, const Json& waivers) {
-  for (auto& row : corpus) {
-    for (auto& failed : row["failed"]) {
-      failed["waived"] = false;
-      for (const auto& waiver : waivers) {
-        if (waiver["signature"] == failed["signature"] && !waiver["expired"].get<bool>())
-          failed["waived"] = true;
-      }
-    }
-  }
+Json replay_json(const RunFindings& findings) {
+  const auto& paths = findings.evidence.paths;
+  if (!paths) return Json::array();
+  return Json::array({fmt::format("assay certify --campaign {} --seed {}{} --out AGAIN",
+                                  shell_word(properties::campaign_file(paths->out).string()),
+                                  findings.run.seed, detector_words(paths->detector)),
+                      fmt::format("assay verify {}",
+                                  shell_word(properties::certificate_file(paths->out).string()))});
 }
 
 }  // namespace
 
-std::filesystem::path certificate_file(const std::filesystem::path& out) {
-  return out / "certificate.json";
-}
-
-std::filesystem::path campaign_file(const std::filesystem::path& out) {
-  return out / "campaign.json";
-}
-
-Json make_predicate(const Findings& findings, const properties::CampaignPlan& plan,
-                    const std::string& campaign_digest) {
+Json make_predicate(const RunFindings& findings, const properties::Judgement& judgement,
+                    const properties::CampaignPlan& plan, const std::string& campaign_digest) {
   Json problems = Json::array();
-  for (const auto& row : findings.of("problem")) problems.push_back(Json::parse(row.facts)["what"]);
-  const Json waivers = waivers_json(findings);
-  Json corpus = corpus_json(findings);
-  mark_waived(corpus, waivers);
-  const Json versions = findings.facts("subject", "versions");
-  Json predicate = {{"schema", certificate_schema},
-                    {"verdict", nullptr},
-                    {"exit_code", nullptr},
-                    {"failed_gate", nullptr},
-                    {"gates", nullptr},
-                    {"detector", detector_json(findings)},
-                    {"versions", versions},
-                    {"campaign",
-                     {{"name", plan.name},
-                      {"seed", findings.binding["seed"]},
-                      {"plan", Json::parse(plan_text(plan))},
-                      {"shards", findings.shards},
-                      {"missing_shards", findings.missing},
-                      {"planted_faults", or_null(findings.facts("subject", "planted"), "faults")}}},
-                    {"confidence", confidence_json(findings)},
-                    {"strata", strata_json(findings)},
-                    {"laws", laws_json(findings)},
-                    {"power", power_json(findings)},
-                    {"harness_problems", std::move(problems)},
-                    {"self_test", self_test_json(findings)},
-                    {"corpus", std::move(corpus)},
-                    {"failures", failures_json(findings)},
-                    {"waivers", waivers},
-                    {"replay", replay_json(findings)},
-                    {"digests", digests_json(findings, campaign_digest)},
-                    {"times", times_json(findings)}};
-  predicate["gates"] = gates_of(predicate);
-  predicate.update(verdict_of(predicate["gates"]));
-  return predicate;
+  for (const auto& problem : findings.evidence.problems) problems.push_back(problem.what);
+  return {{"schema", certificate_schema},
+          {"verdict", judgement.verdict},
+          {"exit_code", judgement.exit_code},
+          {"failed_gate",
+           judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
+          {"gates", gates_json(judgement)},
+          {"detector", detector_json(findings.run)},
+          {"versions", versions_json(findings)},
+          {"campaign", campaign_json(findings, plan)},
+          {"confidence", confidence_json(findings)},
+          {"strata", strata_json(findings)},
+          {"laws", laws_json(findings)},
+          {"power", power_json(findings)},
+          {"harness_problems", std::move(problems)},
+          {"self_test", self_test_json(findings)},
+          {"corpus", corpus_json(findings)},
+          {"failures", failures_json(findings)},
+          {"waivers", waivers_json(findings)},
+          {"replay", replay_json(findings)},
+          {"digests", digests_json(findings, campaign_digest)},
+          {"times", times_json(findings)}};
 }
 
 std::optional<Json> make_statement(const std::filesystem::path& folder, std::string& problem) {
-  const auto digest = corpus::sha256_of_file(campaign_file(folder));
-  if (!digest) {
-    problem = digest.error().message;
+  const auto file = properties::campaign_file(folder);
+  const auto digest = corpus::sha256_of_file(file);
+  const auto plan = properties::find_plan(file.string());
+  if (!digest || !plan) {
+    problem = digest ? plan.error().message : digest.error().message;
     return std::nullopt;
   }
-  const auto plan = properties::find_plan(campaign_file(folder).string());
-  if (!plan) {
-    problem = plan.error().message;
-    return std::nullopt;
-  }
-  const auto findings = read_findings(folder, problem);
+  const auto findings = properties::read_findings(folder, problem);
   if (!findings) return std::nullopt;
   if (const auto differs = plan_differs(*findings, plan.value())) {
     problem = *differs;
     return std::nullopt;
   }
-  try {
-    return Json{{"_type", statement_type},
-                {"subject", subject_json(*findings)},
-                {"predicateType", predicate_type},
-                {"predicate", make_predicate(*findings, plan.value(), digest.value())}};
-  } catch (const nlohmann::json::exception& wrong) {
-    problem = fmt::format("{}: not what a run stores: {}", folder.string(), wrong.what());
-    return std::nullopt;
-  }
+  return Json{
+      {"_type", statement_type},
+      {"subject", subject_json(*findings)},
+      {"predicateType", predicate_type},
+      {"predicate", make_predicate(*findings, judge(*findings), plan.value(), digest.value())}};
 }
 
 std::string statement_text(const Json& statement) { return statement.dump(1) + "\n"; }

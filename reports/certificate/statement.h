@@ -6,21 +6,18 @@
 #include <optional>
 #include <string>
 
-#include "properties/campaign/plan.h"
-#include "reports/certificate/findings.h"
+#include "properties/campaign/gates.h"
 
 namespace assay::reports {
 
 inline constexpr const char* statement_type = "https://in-toto.io/Statement/v1";
-inline constexpr const char* predicate_type = "urn:assay:certificate:1";
-inline constexpr const char* certificate_schema = "assay-certificate/1";
+inline constexpr const char* predicate_type = "urn:assay:certificate:2";
+inline constexpr const char* certificate_schema = "assay-certificate/2";
 
-// OUT/certificate.json, OUT/campaign.json
-std::filesystem::path certificate_file(const std::filesystem::path& out);
-std::filesystem::path campaign_file(const std::filesystem::path& out);
-
-// The predicate of these findings; campaign_digest: SHA-256 of the campaign's file.
-nlohmann::ordered_json make_predicate(const Findings& findings,
+// Findings and gates as JSON. plan: with its times, which the stores do not state; campaign_digest:
+// SHA-256 of the campaign's file.
+nlohmann::ordered_json make_predicate(const properties::RunFindings& findings,
+                                      const properties::Judgement& judgement,
                                       const properties::CampaignPlan& plan,
                                       const std::string& campaign_digest);
 

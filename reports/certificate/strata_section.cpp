@@ -1,35 +1,50 @@
-#include "properties/campaign/campaign_facts.h"
-#include "properties/laws/law.h"
+#include "properties/campaign/bounds.h"
+#include "properties/campaign/count_names.h"
+#include "properties/campaign/statistics.h"
 #include "reports/certificate/sections.h"
-#include "reports/statistics.h"
 
 namespace assay::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Outcomes = properties::StratumTally::Outcomes;
+using properties::RunFindings;
+using properties::StratumTally;
 
-std::uint64_t count_of(const properties::Counts& counts, const std::string& name) {
-  const auto found = counts.find(name);
-  return found == counts.end() ? 0 : found->second;
-}
-
-// A trial that breaks any claim of a configuration counts against its bound, so one bound holds for
-// all its claims; they are counted all the same, as DESIGN has it: that only widens the bounds.
-std::uint64_t bounds_of(const Json& binding) {
-  std::uint64_t claims = 0;
-  for (const auto& configuration : binding["detector"]["configurations"])
-    claims += configuration["claims"].size();
-  return claims * binding["campaign"]["strata"].size();
+Json bounds_json(const RunFindings& findings, const StratumTally& tally) {
+  Json list = Json::array();
+  for (std::size_t c = 0; c < findings.run.configurations.size(); ++c) {
+    const auto outcomes =
+        c < tally.by_configuration.size() ? tally.by_configuration[c] : StratumTally::Outcomes{};
+    list.push_back({{"configuration", findings.run.configurations[c].name},
+                    {"n", outcomes.trials()},
+                    {"holds", outcomes.holds},
+                    {"defects", outcomes.defects},
+                    {"undecided", outcomes.undecided},
+                    {"errors", outcomes.errors},
+                    {"bound", bound_of(outcomes, findings.run)}});
+  }
+  return list;
 }
 
 }  // namespace
 
-Json confidence_json(const Findings& findings) {
-  const auto bounds = bounds_of(findings.binding);
-  return {{"family", family_confidence},
-          {"bounds", bounds},
-          {"risk_of_each", risk_of_each(bounds)},
+Json gates_json(const properties::Judgement& judgement) {
+  Json list = Json::array();
+  for (const auto& result : judgement.gates) {
+    const auto& rule = properties::rule_of(result.gate);
+    list.push_back({{"gate", rule.name},
+                    {"state", name_of(result.state)},
+                    {"verdict", rule.verdict},
+                    {"exit_code", rule.exit_code},
+                    {"reasons", result.reasons}});
+  }
+  return list;
+}
+
+Json confidence_json(const RunFindings& findings) {
+  return {{"family", properties::family_confidence},
+          {"bounds", number_of_bounds(findings.run)},
+          {"risk_of_each", risk_of_each(findings.run)},
           {"method",
            "exact one-sided bound of Clopper and Pearson; Bonferroni over strata, claims and "
            "configurations"},
@@ -38,31 +53,13 @@ Json confidence_json(const Findings& findings) {
            "on which a claim does not hold"}};
 }
 
-Json strata_json(const Findings& findings) {
-  const double risk = risk_of_each(bounds_of(findings.binding));
-  const auto& configurations = findings.binding["detector"]["configurations"];
+Json strata_json(const RunFindings& findings) {
   Json list = Json::array();
-  for (const auto& stratum : findings.binding["campaign"]["strata"]) {
-    const auto family = stratum["family"].get<std::string>();
-    const auto found = findings.tally.strata.find(family);
-    const properties::StratumTally none;
-    const auto& tally = found == findings.tally.strata.end() ? none : found->second;
-    Json bounds = Json::array();
-    for (std::size_t c = 0; c < configurations.size(); ++c) {
-      const auto outcomes =
-          c < tally.by_configuration.size() ? tally.by_configuration[c] : Outcomes{};
-      const auto n = outcomes.holds + outcomes.defects + outcomes.undecided + outcomes.errors;
-      bounds.push_back({{"configuration", configurations[c]["name"]},
-                        {"n", n},
-                        {"holds", outcomes.holds},
-                        {"defects", outcomes.defects},
-                        {"undecided", outcomes.undecided},
-                        {"errors", outcomes.errors},
-                        {"bound", upper_bound(n - outcomes.holds, n, risk)}});
-    }
-    const double wanted = stratum["bound"].get<double>();
-    list.push_back({{"family", family},
-                    {"planned", stratum["cases"]},
+  for (const auto& stratum : findings.run.plan.strata) {
+    const auto& tally = findings.tally_of(stratum);
+    const double wanted = stratum.wanted_bound;
+    list.push_back({{"family", stratum.family},
+                    {"planned", findings.planned(stratum)},
                     {"trials", tally.trials},
                     {"discards", tally.discards},
                     {"distinct", tally.meshes.size()},
@@ -70,27 +67,23 @@ Json strata_json(const Findings& findings) {
                     {"collisions", tally.collisions},
                     {"pairs", tally.pairs},
                     {"wanted_bound", wanted > 0 ? Json(wanted) : Json(nullptr)},
-                    {"bounds", std::move(bounds)}});
+                    {"bounds", bounds_json(findings, tally)}});
   }
   return list;
 }
 
-Json laws_json(const Findings& findings) {
-  const auto& campaign = findings.binding["campaign"];
-  const bool ran = findings.binding["detector"]["built_in"].get<bool>() &&
-                   campaign["laws_every"].get<std::uint64_t>() > 0 && !campaign["strata"].empty();
-  if (!ran) return nullptr;
+Json laws_json(const RunFindings& findings) {
+  const auto& plan = findings.run.plan;
+  if (!findings.run.built_in || plan.laws_every == 0 || plan.strata.empty()) return nullptr;
   Json list = Json::array();
-  for (const auto& law : properties::laws()) {
-    const std::string key = "law:" + std::string(law.name);
-    const auto& counts = findings.tally.counts;
-    list.push_back({{"law", law.name},
-                    {"number", law.number},
-                    {"premises", count_of(counts, key + "/premise")},
-                    {"close", count_of(counts, key + "/close")},
-                    {"broken", count_of(counts, key + "/broken")}});
+  for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
+    list.push_back({{"law", law->name},
+                    {"number", law->number},
+                    {"premises", tally.premise},
+                    {"close", tally.close},
+                    {"broken", tally.broken}});
   }
-  return {{"wanted_premises", campaign["law_premises"]}, {"laws", std::move(list)}};
+  return {{"wanted_premises", plan.law_premises}, {"laws", std::move(list)}};
 }
 
 }  // namespace assay::reports

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reports/certificate/junit.h"
+#include "reports/json_output.h"
+
 namespace assay::reports {
 namespace {
 
@@ -29,7 +32,7 @@ std::string gates_text(const Json& p) {
     std::string why = reasons.empty() ? "" : cell(reasons[0]);
     if (reasons.size() > 1) why += fmt::format(" (and {} more)", reasons.size() - 1);
     out += fmt::format("| {} | {} | {} |\n", cell(gate["gate"]),
-                       gate["holds"].get<bool>() ? "holds" : "**fails**", why);
+                       gate["state"] == "fails" ? "**fails**" : cell(gate["state"]), why);
   }
   return out;
 }
@@ -87,6 +90,9 @@ std::string summary_text(const Json& p) {
   if (count(power["planted"]) > 0)
     out += fmt::format(" {} of {} planted faults found.", count(power["found"]),
                        count(power["planted"]));
+  if (!power["taken_from"].is_null())
+    out += fmt::format(" Their proof is taken from campaign {}, seed {}, of the same build.",
+                       cell(power["taken_from"]["campaign"]), count(power["taken_from"]["seed"]));
   out += "\n\n" + gates_text(p) + strata_text(p) + failures_text(p);
   if (!p["strata"].empty())
     out +=
@@ -94,6 +100,14 @@ std::string summary_text(const Json& p) {
                     count(p["confidence"]["bounds"]), 100 * p["confidence"]["family"].get<double>(),
                     cell(p["confidence"]["speaks_of"]));
   return out;
+}
+
+std::optional<std::string> write_for_ci(const Json& predicate, const std::filesystem::path& out,
+                                        const std::string& part) {
+  if (auto wrong =
+          write_text_file((out / ("junit" + part + ".xml")).string(), junit_text(predicate)))
+    return wrong;
+  return write_text_file((out / ("summary" + part + ".md")).string(), summary_text(predicate));
 }
 
 }  // namespace assay::reports

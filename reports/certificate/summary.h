@@ -1,7 +1,9 @@
 // What a run or a certificate came to as Markdown: for the summary of a CI job.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 namespace assay::reports {
@@ -12,5 +14,11 @@ std::string summary_text(const nlohmann::ordered_json& predicate);
 
 // Of one of `failures`: "met 3 times", or that no trial showed it.
 std::string met_text(const nlohmann::ordered_json& failure);
+
+// OUT/junit.xml and OUT/summary.md, for CI systems; `part` stands behind their names. A line for
+// the user where one cannot be written.
+std::optional<std::string> write_for_ci(const nlohmann::ordered_json& predicate,
+                                        const std::filesystem::path& out,
+                                        const std::string& part = "");
 
 }  // namespace assay::reports

@@ -41,6 +41,19 @@ void compare_file(const std::filesystem::path& file, const std::string& sha256, 
   }
 }
 
+// The schema that a certificate of another version names.
+std::optional<std::string> other_schema(const Json& statement) {
+  const auto predicate = statement.find("predicate");
+  if (predicate == statement.end() || !predicate->is_object()) return std::nullopt;
+  const auto schema = predicate->find("schema");
+  if (schema == predicate->end() || *schema == certificate_schema) return std::nullopt;
+  constexpr std::string_view name = "assay-certificate/";
+  const auto text = schema->is_string() ? schema->get<std::string>() : std::string();
+  const bool is_version = text.starts_with(name) &&
+                          text.find_first_not_of("0123456789", name.size()) == std::string::npos;
+  return is_version ? std::optional(text) : std::nullopt;
+}
+
 }  // namespace
 
 Verification verify_certificate(const std::filesystem::path& certificate) {
@@ -56,6 +69,13 @@ Verification verify_certificate(const std::filesystem::path& certificate) {
   if (!result.statement.is_object()) {
     lines.push_back(fmt::format("{}: is no JSON object", certificate.string()));
     result.statement = nullptr;
+    return result;
+  }
+  if (const auto older = other_schema(result.statement)) {
+    lines.push_back(
+        fmt::format("{}: of schema {}, this assay verifies {}: verify it with the assay "
+                    "that issued it",
+                    certificate.string(), *older, certificate_schema));
     return result;
   }
   std::string problem;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "properties/campaign/run_folder.h"
 #include "properties/reducer/mesh_size.h"
 #include "reports/failure_text.h"
 #include "reports/page_data/scene_json.h"
@@ -14,9 +15,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // As SceneMaker takes it.
-std::optional<std::string> library_of(const StoredDetector& detector) {
-  if (!detector.built_in && detector.library.empty()) return std::nullopt;
-  return detector.library;
+std::optional<std::string> library_of(const properties::RunFindings& findings) {
+  if (!findings.run.built_in && findings.library.empty()) return std::nullopt;
+  return findings.library;
 }
 
 Json size_json(const corpus::Expected<corpus::Case>& c) {
@@ -27,7 +28,7 @@ Json size_json(const corpus::Expected<corpus::Case>& c) {
 
 class FailureList {
  public:
-  explicit FailureList(const StoredRun& run) : run_(run), scenes_(library_of(run.detector)) {}
+  explicit FailureList(const properties::RunFindings& run) : run_(run), scenes_(library_of(run)) {}
 
   Json all() {
     Json list = Json::array();
@@ -44,8 +45,8 @@ class FailureList {
 
  private:
   std::string replay_of(const properties::StoredFailure& failure) const {
-    return replay_line(run_.folder, failure_file(failure, !failure.smallest.empty()),
-                       run_.detector.library);
+    return replay_line(run_.folder, properties::failure_file(failure, !failure.smallest.empty()),
+                       run_.library);
   }
 
   Json other(const properties::StoredFailure& failure) const {
@@ -56,7 +57,6 @@ class FailureList {
   }
 
   Json told(const properties::StoredFailure& failure) {
-    const auto met = run_.met.find(failure.signature);
     const bool is_shrunk = !failure.smallest.empty();
     const auto original = corpus::parse_case(failure.mesh, "stored failure");
     const auto smallest =
@@ -65,7 +65,7 @@ class FailureList {
                  {"configuration", failure.configuration},
                  {"id", failure.id},
                  {"what", failure.what},
-                 {"met", met == run_.met.end() ? 1 : met->second},
+                 {"met", run_.met_count(failure)},
                  {"flaky", failure.flaky},
                  {"original", size_json(original)},
                  {"smallest", is_shrunk ? size_json(smallest) : Json()},
@@ -100,12 +100,12 @@ class FailureList {
     json["svg"] = mesh_svg(*scene, failure.signature);
   }
 
-  const StoredRun& run_;
+  const properties::RunFindings& run_;
   SceneMaker scenes_;
 };
 
 }  // namespace
 
-Json failures_json(const StoredRun& run) { return FailureList(run).all(); }
+Json failure_scenes(const properties::RunFindings& findings) { return FailureList(findings).all(); }
 
 }  // namespace assay::reports

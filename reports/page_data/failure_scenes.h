@@ -1,11 +1,13 @@
-// The failures of a stored run, each signature with one mesh that is run again to be shown.
+// The failures of a run, each signature with one mesh that is run again to be shown.
 #pragma once
 
-#include "reports/page_data/run_folder.h"
+#include <nlohmann/json.hpp>
+
+#include "properties/campaign/findings.h"
 
 namespace assay::reports {
 
-// `failures` of assay-report/1: one entry a signature, its smallest mesh with scene and picture.
-nlohmann::ordered_json failures_json(const StoredRun& run);
+// `failures` of assay-report/2: one entry a signature, its smallest mesh with scene and picture.
+nlohmann::ordered_json failure_scenes(const properties::RunFindings& findings);
 
 }  // namespace assay::reports

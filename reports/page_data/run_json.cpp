@@ -4,44 +4,32 @@
 
 #include <algorithm>
 
-#include "properties/campaign/campaign_facts.h"
-#include "reports/page_data/run_verdict_text.h"
-#include "reports/statistics.h"
+#include "properties/campaign/bounds.h"
+#include "properties/campaign/count_names.h"
+#include "properties/campaign/statistics.h"
+#include "reports/page_data/evidence_json.h"
 
 namespace assay::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using properties::GateState;
+using properties::RunFindings;
 using Outcomes = properties::StratumTally::Outcomes;
 
-bool same(const Outcomes& a, const Outcomes& b) {
-  return a.holds == b.holds && a.defects == b.defects && a.undecided == b.undecided &&
-         a.errors == b.errors;
-}
-
-std::string configuration_name(const StoredRun& run, std::size_t c) {
-  const auto& names = run.detector.configurations;
-  return c < names.size() ? names[c] : fmt::format("configuration {}", c + 1);
-}
-
-// Every claim is counted, as in the certificate (certificate/strata_section.cpp).
-std::uint64_t bounds_together(const StoredRun& run) {
-  return run.strata.size() * run.detector.claims;
-}
-
-Json stratum_row(const StoredRun& run, const PlannedStratum& planned,
-                 const properties::StratumTally& tally, const Outcomes& outcomes,
-                 std::vector<std::string> names) {
-  const auto n = outcomes.holds + outcomes.defects + outcomes.undecided + outcomes.errors;
+Json stratum_row(const RunFindings& findings, const properties::StratumPlan& planned,
+                 const Outcomes& outcomes, std::vector<std::string> names) {
+  const auto& tally = findings.tally_of(planned);
   const double seconds = 1e-6 * static_cast<double>(tally.oracle_us + tally.detector_us);
   return {{"family", planned.family},
           {"configurations", std::move(names)},
-          {"planned", planned.cases},
-          {"n", n},
+          {"planned", findings.planned(planned)},
+          {"n", outcomes.trials()},
           {"holds", outcomes.holds},
           {"defects", outcomes.defects},
-          {"undecided", outcomes.undecided + outcomes.errors},
-          {"bound", upper_bound(n - outcomes.holds, n, risk_of_each(bounds_together(run)))},
+          {"undecided", outcomes.open()},
+          {"disturbed", tally.disturbed},
+          {"bound", bound_of(outcomes, findings.run)},
           {"wanted", planned.wanted_bound > 0 ? Json(planned.wanted_bound) : Json()},
           {"steps", tally.steps},
           {"collisions", tally.collisions},
@@ -50,27 +38,20 @@ Json stratum_row(const StoredRun& run, const PlannedStratum& planned,
 }
 
 // One row for configurations that agree in all of a family's counts, else a row for each.
-Json strata_json(const StoredRun& run) {
+Json strata_json(const RunFindings& findings) {
+  std::vector<std::string> names;
+  for (const auto& configuration : findings.run.configurations) names.push_back(configuration.name);
   Json rows = Json::array();
-  for (const auto& planned : run.strata) {
-    const auto found = run.tally.strata.find(planned.family);
-    if (found == run.tally.strata.end()) {
-      rows.push_back(stratum_row(run, planned, {}, {}, run.detector.configurations));
+  for (const auto& planned : findings.run.plan.strata) {
+    const auto& all = findings.tally_of(planned).by_configuration;
+    const bool all_same =
+        std::all_of(all.begin(), all.end(), [&](const Outcomes& one) { return one == all[0]; });
+    if (all_same) {
+      rows.push_back(stratum_row(findings, planned, all.empty() ? Outcomes{} : all[0], names));
       continue;
     }
-    const auto& tally = found->second;
-    std::vector<std::string> names;
-    for (std::size_t c = 0; c < tally.by_configuration.size(); ++c)
-      names.push_back(configuration_name(run, c));
-    const bool all_same = std::all_of(
-        tally.by_configuration.begin(), tally.by_configuration.end(),
-        [&](const Outcomes& outcomes) { return same(outcomes, tally.by_configuration[0]); });
-    if (all_same && !names.empty()) {
-      rows.push_back(stratum_row(run, planned, tally, tally.by_configuration[0], names));
-      continue;
-    }
-    for (std::size_t c = 0; c < names.size(); ++c)
-      rows.push_back(stratum_row(run, planned, tally, tally.by_configuration[c], {names[c]}));
+    for (std::size_t c = 0; c < std::min(all.size(), names.size()); ++c)
+      rows.push_back(stratum_row(findings, planned, all[c], {names[c]}));
   }
   return rows;
 }
@@ -95,58 +76,58 @@ Json distributions_json(const properties::Tally& tally) {
   return list;
 }
 
-std::uint64_t count_of(const properties::Counts& counts, const std::string& name) {
-  const auto found = counts.find(name);
-  return found == counts.end() ? 0 : found->second;
-}
-
-template <class Visit>
-void with_prefix(const properties::Counts& counts, std::string_view prefix, Visit visit) {
-  for (auto it = counts.lower_bound(prefix); it != counts.end() && it->first.starts_with(prefix);
-       ++it) {
-    visit(it->first.substr(prefix.size()), it->second);
-  }
-}
-
-Json laws_json(const StoredRun& run) {
+Json laws_json(const RunFindings& findings) {
   Json list = Json::array();
-  const std::string_view end = "/premise";
-  with_prefix(run.tally.counts, "law:", [&](const std::string& name, std::uint64_t premise) {
-    if (!name.ends_with(end)) return;
-    const std::string law = name.substr(0, name.size() - end.size());
-    list.push_back({{"name", law},
-                    {"premise", premise},
-                    {"close", count_of(run.tally.counts, "law:" + law + "/close")},
-                    {"broken", count_of(run.tally.counts, "law:" + law + "/broken")},
-                    {"wanted_premise", run.wanted_premises}});
-  });
+  for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
+    if (tally.premise == 0 && findings.run.plan.law_premises == 0) continue;
+    list.push_back({{"name", law->name},
+                    {"premise", tally.premise},
+                    {"close", tally.close},
+                    {"broken", tally.broken},
+                    {"wanted_premise", findings.run.plan.law_premises}});
+  }
   return list;
-}
-
-Json counts_json(const properties::Counts& counts, std::string_view prefix) {
-  Json json = Json::object();
-  with_prefix(counts, prefix,
-              [&](const std::string& name, std::uint64_t count) { json[name] = count; });
-  return json;
 }
 
 Json set_pairs_json(const properties::Counts& counts) {
   Json list = Json::array();
-  with_prefix(counts, "block:", [&](const std::string& sets, std::uint64_t contacts) {
-    list.push_back({{"sets", sets},
-                    {"contacts", contacts},
-                    {"first_contacts", count_of(counts, "first:" + sets)}});
-  });
+  for (const auto& [sets, contacts, first] : properties::set_pairs_in(counts))
+    list.push_back({{"sets", sets}, {"contacts", contacts}, {"first_contacts", first}});
   return list;
 }
 
-}  // namespace
+Json counts_json(const auto& counts) {
+  Json json = Json::object();
+  for (const auto& [name, count] : counts) json[name] = count;
+  return json;
+}
 
-Json run_strata(const StoredRun& run) { return strata_json(run); }
+Json gates_json(const properties::Judgement& judgement) {
+  Json list = Json::array();
+  for (const auto& [gate, state, reasons] : judgement.gates) {
+    const auto& rule = properties::rule_of(gate);
+    list.push_back({{"gate", rule.name},
+                    {"asks", rule.asks},
+                    {"state", name_of(state)},
+                    {"reasons", reasons}});
+  }
+  return list;
+}
 
-std::uint64_t defect_trials(const StoredRun& run) {
+std::string why_text(const properties::Judgement& judgement) {
+  if (!judgement.failed) {
+    return judgement.verdict == "not judged" ? "no gate was judged" : "no gate fails";
+  }
+  const auto& reasons = judgement.of(*judgement.failed).reasons;
+  return fmt::format("gate \"{}\" fails: {}{}", properties::rule_of(*judgement.failed).name,
+                     reasons[0],
+                     reasons.size() > 1 ? fmt::format("; and {} more", reasons.size() - 1) : "");
+}
+
+// Trials of which some configuration has a defect, at least.
+std::uint64_t defect_trials(const RunFindings& findings) {
   std::uint64_t sum = 0;
-  for (const auto& [family, tally] : run.tally.strata) {
+  for (const auto& [family, tally] : findings.tally.strata) {
     std::uint64_t most = 0;
     for (const auto& outcomes : tally.by_configuration) most = std::max(most, outcomes.defects);
     sum += most;
@@ -154,38 +135,64 @@ std::uint64_t defect_trials(const StoredRun& run) {
   return sum;
 }
 
-Json run_json(const StoredRun& run) {
-  const auto verdict = verdict_of(run);
-  Json gates = Json::array();
-  for (const auto& gate : verdict.gates)
-    gates.push_back({{"name", gate.name}, {"state", gate.state}, {"text", gate.text}});
-  const auto& detector = run.detector;
-  return {{"folder", run.folder.string()},
-          {"campaign", run.campaign},
-          {"seed", run.seed},
-          {"shards", {{"count", run.shard_count}, {"present", run.shards}}},
+// The worst of all shards: one that was not found is worse than any number of cases.
+Json canary_json(const RunFindings& findings) {
+  const auto& all = findings.evidence.canaries;
+  if (all.empty()) return nullptr;
+  const auto& worst = *std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.found_after && (!b.found_after || *a.found_after < *b.found_after);
+  });
+  return {{"fault", worst.fault},
+          {"found_after", worst.found_after ? Json(*worst.found_after) : Json()}};
+}
+
+Json shards_json(const RunFindings& findings) {
+  Json present = Json::array();
+  for (const auto& shard : findings.shards) present.push_back(shard.index);
+  return {{"count", findings.shard_count}, {"present", std::move(present)}};
+}
+
+}  // namespace
+
+Json run_json(const RunFindings& findings, const properties::Judgement& judgement,
+              const Json& statement, const std::string& unverified) {
+  Json configurations = Json::array();
+  for (const auto& configuration : findings.run.configurations)
+    configurations.push_back(configuration.name);
+  const auto& library = findings.library;
+  return {{"folder", findings.folder.string()},
+          {"campaign", findings.run.plan.name},
+          {"seed", findings.run.seed},
+          {"shards", shards_json(findings)},
           {"detector",
-           {{"name", detector.name},
-            {"built_in", detector.built_in},
-            {"library", detector.library.empty() ? Json() : Json(detector.library)},
-            {"configurations", detector.configurations}}},
-          {"verdict", verdict.word},
-          {"certified", verdict.certified},
-          {"why", verdict.why},
-          {"gates", std::move(gates)},
-          {"trials", {{"done", run.trials()}, {"planned", run.planned_trials()}}},
-          {"defect_trials", defect_trials(run)},
-          {"bounds", {{"confidence", 0.95}, {"together", bounds_together(run)}}},
-          {"strata", strata_json(run)},
-          {"distributions", distributions_json(run.tally)},
-          {"set_pairs", set_pairs_json(run.tally.counts)},
-          {"tags", counts_json(run.tally.counts, "tag:")},
-          {"laws", laws_json(run)},
-          {"canary", run.evidence.canary},
-          {"faults", run.evidence.faults},
-          {"worlds", run.evidence.worlds},
-          {"signatures", counts_json(run.met, "")},
-          {"certificate", nullptr}};
+           {{"name", findings.run.detector},
+            {"built_in", findings.run.built_in},
+            {"library", library.empty() ? Json() : Json(library)},
+            {"configurations", std::move(configurations)}}},
+          {"verdict", unverified.empty() ? judgement.verdict : "unverified"},
+          {"why", unverified.empty() ? why_text(judgement)
+                                     : "the certificate does not verify: " + unverified},
+          {"gates", gates_json(judgement)},
+          {"trials",
+           {{"done", findings.tally.trials()},
+            {"planned", findings.planned()},
+            {"disturbed", findings.tally.disturbed()},
+            {"near_the_limit", findings.tally.near.size()}}},
+          {"defect_trials", defect_trials(findings)},
+          {"bounds",
+           {{"confidence", properties::family_confidence},
+            {"together", number_of_bounds(findings.run)}}},
+          {"strata", strata_json(findings)},
+          {"distributions", distributions_json(findings.tally)},
+          {"set_pairs", set_pairs_json(findings.tally.counts)},
+          {"tags", counts_json(properties::tags_in(findings.tally.counts))},
+          {"laws", laws_json(findings)},
+          {"canary", canary_json(findings)},
+          {"faults", faults_json(findings)},
+          {"faults_taken_from", faults_taken_from(findings)},
+          {"worlds", worlds_json(findings)},
+          {"signatures", counts_json(findings.met)},
+          {"certificate", statement.is_null() ? Json() : certificate_json(statement)}};
 }
 
 }  // namespace assay::reports

@@ -1,17 +1,18 @@
-// A run in `assay-report/1`: verdict, gates, strata with bounds, laws, distributions.
+// A run as the page shows it: `runs[]` of assay-report/2, documented in reports/README.md.
 #pragma once
 
-#include "reports/page_data/run_folder.h"
+#include <nlohmann/json.hpp>
+
+#include "properties/campaign/gates.h"
 
 namespace assay::reports {
 
-// All of a run but its failures. Fields: reports/README.md.
-nlohmann::ordered_json run_json(const StoredRun& run);
-
-// Its strata alone.
-nlohmann::ordered_json run_strata(const StoredRun& run);
-
-// How many trials hold a defect, in whatever configuration counts the most of them.
-std::uint64_t defect_trials(const StoredRun& run);
+// Everything but `failures`. statement: of the certificate in the run's folder; null where there is
+// none. `unverified`: the first line of what keeps it from being verified; then the run's verdict
+// is "unverified", whatever its gates say.
+nlohmann::ordered_json run_json(const properties::RunFindings& findings,
+                                const properties::Judgement& judgement,
+                                const nlohmann::ordered_json& statement = nullptr,
+                                const std::string& unverified = "");
 
 }  // namespace assay::reports

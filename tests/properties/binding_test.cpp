@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "properties/campaign/campaign_facts.h"
-#include "properties/campaign/runner.h"
+#include "properties/campaign/canary.h"
+#include "properties/campaign/count_names.h"
+#include "properties/campaign/trials.h"
 #include "properties/laws/law.h"
 #include "tests/properties/campaign_request.h"
 #include "tests/properties/small_case.h"

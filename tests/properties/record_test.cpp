@@ -4,9 +4,10 @@
 #include <map>
 #include <vector>
 
-#include "properties/campaign/campaign_facts.h"
+#include "properties/campaign/canary.h"
 #include "properties/campaign/case_tally.h"
-#include "properties/campaign/runner.h"
+#include "properties/campaign/count_names.h"
+#include "properties/campaign/trials.h"
 
 namespace assay::properties {
 namespace {

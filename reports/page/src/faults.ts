@@ -32,7 +32,10 @@ export function faults(run: Run): HTMLElement {
       "p",
       {},
       `${canary} ${planted.filter((f) => f.found).length} of ${planted.length} planted faults were found: ` +
-        "detectors that are wrong on purpose, each in one stage. The cases that each takes say how sharp the harness is.",
+        "detectors that are wrong on purpose, each in one stage. The cases that each takes say how sharp the harness is." +
+        (run.faults_taken_from === null
+          ? ""
+          : ` They were planted by campaign ${run.faults_taken_from.campaign}, seed ${run.faults_taken_from.seed}, of the same build: they prove the harness, not this detector.`),
     ),
     lost.length === 0 ? null : html("p", {}, `Not found: ${lost.map((f) => f.name).join(", ")}.`),
     logPlot(

@@ -27,7 +27,7 @@ function runView(run: Run): { element: HTMLElement; failures: FailuresView } {
 function read(): Report | null {
   try {
     const report = JSON.parse(document.getElementById("assay-report")?.textContent ?? "") as Report;
-    return report.schema === "assay-report/1" ? report : null;
+    return report.schema === "assay-report/2" ? report : null;
   } catch {
     return null;
   }

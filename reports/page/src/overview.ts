@@ -10,13 +10,15 @@ const sentences: Record<string, string> = {
   "unsound-harness": "Unsound harness",
   incomplete: "Incomplete",
   holds: "Holds, not certified",
+  "not judged": "Not judged",
+  unverified: "The certificate does not verify",
 };
 
 // Good, bad, open: never by colour alone, the word stands beside.
 export const kindOf = (verdict: string): string =>
   verdict === "certified" || verdict === "holds"
     ? "good"
-    : verdict === "defect" || verdict === "unsound-harness"
+    : ["defect", "unsound-harness", "unverified"].includes(verdict)
       ? "bad"
       : "open";
 
@@ -35,18 +37,33 @@ export function overview(run: Run): HTMLElement {
       { class: "note" },
       `Detector ${run.detector.name} in ${counted(run.detector.configurations.length, "configuration")}; ` +
         `campaign ${run.campaign}, seed ${run.seed}${shards}; ` +
-        `${count(run.trials.done)} of ${count(run.trials.planned)} trials.`,
+        `${count(run.trials.done)} of ${count(run.trials.planned)} trials.` +
+        (run.trials.disturbed === 0
+          ? ""
+          : ` ${counted(run.trials.disturbed, "trial was", "trials were")} disturbed from outside, and ran again.`) +
+        (run.trials.near_the_limit === 0
+          ? ""
+          : ` ${counted(run.trials.near_the_limit, "trial", "trials")} took more than a third of the time that a case may take.`),
     ),
-    run.certificate === null
+    run.certificate === null && run.verdict !== "unverified"
       ? html("p", { class: "note" }, "No certificate stands beside this run: assay certify issues one.")
       : null,
   );
 }
 
-const signs: Record<Gate["state"], string> = { passed: "\u2713", failed: "\u2717", "not judged": "\u2013" };
+const signs: Record<Gate["state"], string> = { holds: "\u2713", fails: "\u2717", "not judged": "\u2013" };
+
+// Each in a line, those beyond the third behind a click.
+function reasons(lines: string[]): HTMLElement[] {
+  const few = 3;
+  const shown = lines.slice(0, few).map((line) => html("span", { class: "reason" }, line));
+  if (lines.length <= few) return shown;
+  const rest = lines.slice(few).map((line) => html("span", { class: "reason" }, line));
+  return [...shown, html("details", {}, html("summary", {}, `${rest.length} more`), ...rest)];
+}
 
 export function gates(run: Run): HTMLElement {
-  const first = run.gates.find((g) => g.state === "failed");
+  const first = run.gates.find((g) => g.state === "fails");
   return section(
     "gates",
     "Gates",
@@ -58,11 +75,17 @@ export function gates(run: Run): HTMLElement {
           "li",
           { class: gate.state.replace(" ", "-") },
           html("span", { class: "sign", "aria-hidden": "true" }, signs[gate.state]),
-          html("span", {}, html("strong", {}, `${gate.name}: ${gate.state}`), html("br"), gate.text),
+          html(
+            "span",
+            {},
+            html("strong", {}, `${gate.gate}: ${gate.state}`),
+            ` (asked: ${gate.asks})`,
+            ...reasons(gate.reasons),
+          ),
         ),
       ),
     ),
-    first ? html("p", {}, `The first that fails is \u201c${first.name}\u201d.`) : null,
+    first ? html("p", {}, `The first that fails is \u201c${first.gate}\u201d.`) : null,
   );
 }
 

@@ -1,4 +1,4 @@
-// The data of the page: schema assay-report/1, documented in reports/README.md.
+// The data of the page: schema assay-report/2, documented in reports/README.md.
 
 export type Point = [number, number, number];
 export type Interval = [number, number];
@@ -77,6 +77,7 @@ export interface Stratum {
   holds: number;
   defects: number;
   undecided: number;
+  disturbed: number;
   bound: number;
   wanted: number | null;
   steps: number;
@@ -106,9 +107,10 @@ export interface Fault {
 }
 
 export interface Gate {
-  name: string;
-  state: "passed" | "failed" | "not judged";
-  text: string;
+  gate: string;
+  asks: string;
+  state: "holds" | "fails" | "not judged";
+  reasons: string[];
 }
 
 export interface Law {
@@ -148,7 +150,7 @@ export interface Waiver {
   met: number;
 }
 
-// What a certificate (assay-certificate/1) says beyond the run.
+// What a certificate (assay-certificate/2) says beyond the run.
 export interface Certificate {
   subject: { name: string; digest: Record<string, string> }[];
   versions: { assay: string; commit: string | null; libraries: string } | null;
@@ -170,10 +172,9 @@ export interface Run {
   shards: { count: number; present: number[] };
   detector: { name: string; built_in: boolean; library: string | null; configurations: string[] };
   verdict: string;
-  certified: boolean;
   why: string;
   gates: Gate[];
-  trials: { done: number; planned: number };
+  trials: { done: number; planned: number; disturbed: number; near_the_limit: number };
   defect_trials: number;
   bounds: { confidence: number; together: number };
   strata: Stratum[];
@@ -183,6 +184,7 @@ export interface Run {
   laws: Law[];
   canary: { fault: string; found_after: number | null } | null;
   faults: Fault[] | null;
+  faults_taken_from: { campaign: string; seed: number } | null;
   worlds: World[];
   signatures: Record<string, number>;
   certificate: Certificate | null;

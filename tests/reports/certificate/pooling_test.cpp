@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reports/statistics.h"
+#include "properties/campaign/statistics.h"
 
 namespace assay::reports {
 namespace {
@@ -14,7 +14,7 @@ Json night(std::uint64_t seed, std::uint64_t n, std::uint64_t holds) {
   return {{"detector", {{"name", "d"}}},
           {"digests", {{"program", "p"}, {"worker", "w"}, {"plugin", nullptr}, {"generator", "g"}}},
           {"campaign", {{"name", "nightly"}, {"seed", seed}}},
-          {"confidence", {{"bounds", 8}, {"risk_of_each", risk_of_each(8)}}},
+          {"confidence", {{"bounds", 8}, {"risk_of_each", properties::risk_of_each(8)}}},
           {"strata",
            {{{"family", "broken"},
              {"bounds", {{{"configuration", "bvh"}, {"n", n}, {"holds", holds}}}}}}}};
@@ -30,7 +30,7 @@ TEST(Pooling, NightsOfOneDetectorAddUp) {
   EXPECT_EQ(row["configuration"], "bvh");
   EXPECT_EQ(row["n"], 400);
   EXPECT_EQ(row["holds"], 399);
-  EXPECT_EQ(row["bound"], upper_bound(1, 400, risk_of_each(8)));
+  EXPECT_EQ(row["bound"], properties::upper_bound(1, 400, properties::risk_of_each(8)));
 }
 
 TEST(Pooling, OfDifferentDigestsIsRefused) {

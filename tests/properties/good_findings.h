@@ -1,0 +1,65 @@
+// Findings of a run all of whose gates hold, for tests that break one of them.
+#pragma once
+
+#include <string>
+
+#include "properties/campaign/count_names.h"
+#include "properties/campaign/gates.h"
+
+namespace assay::properties::test {
+
+inline FaultProof fault_proof(const std::string& name, FaultStatus status, bool by_curated,
+                              std::vector<std::optional<std::uint64_t>> needed = {std::nullopt}) {
+  FaultProof proof;
+  proof.fault = name;
+  proof.shard = "1/1";
+  proof.law = "L3";
+  proof.status = status;
+  proof.by_curated = by_curated;
+  proof.needed = std::move(needed);
+  proof.cases = 100;
+  return proof;
+}
+
+inline StoredFailure failure(const std::string& signature,
+                             const std::string& id = "tiny:1:broken:3") {
+  return {id, "bvh", signature, "a & b < c", "{}", "", false};
+}
+
+// One stratum of 20 trials in one configuration, two planted faults, corpus, self-test and speed.
+inline RunFindings good_findings() {
+  RunFindings f;
+  f.run.plan.name = "tiny";
+  f.run.plan.strata = {{"broken", 20, 0.5}};
+  f.run.plan.fault_cases = 100;
+  f.run.plan.fault_seeds = 1;
+  f.run.plan.law_premises = 4;
+  f.run.plan.policy.self_test_queries = 10;
+  f.run.plan.policy.speed_limits = {{"exact-over-double", 1.3}};
+  f.run.seed = 1;
+  f.run.detector = "built-in";
+  f.run.planted_faults = 2;
+  f.run.configurations = {{"bvh", {"free-sound"}}};
+  f.shards = {{1, 1}};
+  auto& broken = f.tally.strata["broken"];
+  broken.trials = 20;
+  broken.by_configuration = {{20, 0, 0, 0}};
+  LawTally met;
+  met.premise = 8;
+  met.close = 2;
+  for (const auto& law : laws()) add_law(f.tally.counts, law.name, met);
+  f.evidence.canaries = {{"c", "1/1", 7}};
+  f.evidence.faults = {
+      fault_proof("a", FaultStatus::planted, true), fault_proof("b", FaultStatus::planted, true),
+      fault_proof("e", FaultStatus::equivalent, false), fault_proof("o", FaultStatus::open, false)};
+  f.evidence.worlds = {{"square-2", "1/1", 1, 1, 1, 0, true, std::nullopt}};
+  f.evidence.self_test = {{"line", 10, 1, 0, 0, true}};
+  CorpusRow corpus;
+  corpus.input = "curated cases";
+  corpus.configuration = "bvh";
+  f.evidence.corpus = {corpus};
+  f.evidence.speed = {{"exact-over-double", 1.2, 1.1, 1.3, {}}};
+  return f;
+}
+
+}  // namespace assay::properties::test

@@ -1,0 +1,92 @@
+// JUnit and Markdown say what the certificate says.
+#include <gtest/gtest.h>
+
+#include "reports/certificate/junit.h"
+#include "reports/certificate/statement.h"
+#include "reports/certificate/summary.h"
+#include "tests/properties/good_findings.h"
+
+namespace assay::reports {
+namespace {
+
+using properties::RunFindings;
+using properties::test::failure;
+using properties::test::good_findings;
+
+nlohmann::ordered_json judged(
+    const RunFindings& findings,
+    const properties::Asked& asked = properties::asked_of_a_certificate()) {
+  return make_predicate(findings, judge(findings, asked), findings.run.plan, "");
+}
+
+bool contains(const std::string& text, const std::string& word) {
+  return text.find(word) != std::string::npos;
+}
+
+RunFindings with_a_defect() {
+  auto findings = good_findings();
+  findings.tally.strata["broken"].by_configuration[0] = {19, 1, 0, 0};
+  findings.met["free-sound: missing"] = 1;
+  findings.failures = {failure("free-sound: missing")};
+  return findings;
+}
+
+TEST(Junit, FailsWhereTheCertificateDoes) {
+  const auto good = junit_text(judged(good_findings()));
+  EXPECT_FALSE(contains(good, "<failure"));
+  EXPECT_TRUE(
+      contains(good, "<testsuite name=\"gates\" tests=\"6\" failures=\"0\" skipped=\"0\">"));
+  const auto text = junit_text(judged(with_a_defect()));
+  for (const std::string word :
+       {"name=\"broken, bvh\">\n      <failure message=\"19 of 20 trials hold, 1 defects",
+        "name=\"free-sound: missing\">\n      <failure message=\"a &amp; b &lt; c (bvh), met 1",
+        "replay: assay replay ", "name=\"claims\">\n      <failure"}) {
+    EXPECT_TRUE(contains(text, word)) << word << "\n" << text;
+  }
+  EXPECT_EQ(xml_escaped("<a b=\"c\">&\x01"), "&lt;a b=&quot;c&quot;&gt;&amp;?");
+}
+
+TEST(Junit, WhatWasNotJudgedIsSkipped) {
+  const auto text = junit_text(judged(good_findings(), properties::asked_of_a_run()));
+  EXPECT_TRUE(
+      contains(text, "<testsuite name=\"gates\" tests=\"6\" failures=\"0\" skipped=\"2\">"));
+  EXPECT_TRUE(contains(text, "name=\"speed\">\n      <skipped message=\"not judged: "));
+}
+
+TEST(Junit, OfOneShardByItselfNoBoundIsWanted) {
+  auto findings = good_findings();
+  findings.run.plan.strata[0] = {"broken", 40, 0.001};
+  findings.alone = properties::Shard{1, 2};
+  EXPECT_FALSE(contains(junit_text(judged(findings, properties::asked_of_a_run())), "<failure"));
+  findings.alone.reset();
+  findings.run.plan.strata[0].cases = 20;
+  EXPECT_TRUE(contains(junit_text(judged(findings, properties::asked_of_a_run())),
+                       "name=\"broken, bvh\">\n      <failure"));
+}
+
+TEST(Summary, NamesVerdictGatesAndFailures) {
+  auto findings = with_a_defect();
+  findings.tally.strata["broken"].meshes = {1, 2, 3};
+  findings.failures = {failure("a|b"), failure("c", "corpus/A1")};
+  findings.met = {{"a|b", 1}};
+  findings.evidence.waivers = {{"c", "known", "link", "2026-01-31", false}};
+  const auto text = summary_text(judged(findings));
+  for (const std::string word :
+       {"## Assay: defect\n", "| claims | **fails** | a\\|b (bvh), met 1 times",
+        "| complete | holds |", "| broken | 20 of 20 | 3 | 0 | 1 | 0 | ", "\n    assay replay ",
+        "2 of 2 planted faults found", "**c** (bvh, waived), met in the corpus alone\n",
+        "All 1 bounds together hold with confidence 95 %"}) {
+    EXPECT_TRUE(contains(text, word)) << word << "\n" << text;
+  }
+}
+
+TEST(Summary, SaysWhoseProofOfPowerItIs) {
+  auto findings = good_findings();
+  EXPECT_FALSE(contains(summary_text(judged(findings)), "proof is taken"));
+  findings.evidence.power = {{"smoke", "built-in", 7, "", "", "", ""}};
+  const auto text = summary_text(judged(findings));
+  EXPECT_TRUE(contains(text, "Their proof is taken from campaign smoke, seed 7")) << text;
+}
+
+}  // namespace
+}  // namespace assay::reports
