@@ -82,6 +82,10 @@ std::vector<CaseStep> consecutive_steps(std::size_t frames);
 // The script, or what an empty one stands for.
 std::vector<CaseStep> steps_of(const Case& c);
 
+// Where the vertices are when the step starts and when it ends. REQUIRES a step of this case.
+const detector::Positions& start_of(const Case& c, const CaseStep& step);
+const detector::Positions& end_of(const Case& c, const CaseStep& step);
+
 // The primitive of step `step`; nothing when the case states none.
 std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t step);
 

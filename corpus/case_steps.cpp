@@ -16,6 +16,14 @@ std::vector<CaseStep> steps_of(const Case& c) {
   return c.script.empty() ? consecutive_steps(c.frames.size()) : c.script;
 }
 
+const detector::Positions& start_of(const Case& c, const CaseStep& step) {
+  return c.frames[static_cast<std::size_t>(step.from)];
+}
+
+const detector::Positions& end_of(const Case& c, const CaseStep& step) {
+  return c.frames[static_cast<std::size_t>(step.to)];
+}
+
 std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t step) {
   const auto steps = steps_of(c);
   if (!c.view || step >= steps.size()) return std::nullopt;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "detector/detector.h"
 #include "oracle/view_sign.h"
+#include "properties/worker/case_player.h"
 
 namespace assay::properties {
 
@@ -31,16 +31,16 @@ class CaseChecker {
   }
 
   CaseReport run() {
-    auto made = detector::Detector::create(case_.triangles, case_.frames.front(), options_);
+    auto made = CasePlayer::make(case_, options_);
     if (!made) {
       if (case_.expected.answer != Answer::error) fail("refused: " + made.error().message);
       return finish();
     }
     if (case_.expected.answer == Answer::error) fail("accepted, expected to be refused");
     bool collision = false;
-    const auto script = corpus::steps_of(case_);
-    for (std::size_t s = 0; s < script.size(); ++s) {
-      check_step(made.value(), s, script[s]);
+    player_ = &made.value();
+    for (std::size_t s = 0; s < player_->steps(); ++s) {
+      check_step(s);
       collision |= report_.steps.back().result.answer == Answer::collision;
     }
     const bool expected = case_.expected.answer == Answer::collision;
@@ -60,20 +60,10 @@ class CaseChecker {
     return std::move(report_);
   }
 
-  void check_step(detector::Detector& detector, std::size_t s, const corpus::CaseStep& script) {
-    const auto& x_t0 = case_.frames[static_cast<std::size_t>(script.from)];
-    const auto& x_t1 = case_.frames[static_cast<std::size_t>(script.to)];
-    const auto view = corpus::view_of_step(case_, s);
-    std::vector<detector::ViewPrimitive> given;
-    const bool uses_views = detector::uses_views(options_.culling);
-    if (view && uses_views) {
-      given.push_back(*view);
-      // A segment serves as a point by its first end.
-      if (options_.culling == Culling::view_point) given[0].q1 = given[0].q0;
-    }
+  void check_step(std::size_t s) {
     CaseStepReport step{
-        script.commit ? detector.step(x_t0, x_t1, given) : detector.evaluate(x_t0, x_t1, given),
-        oracle::judge_step(x_t0, x_t1, case_.triangles, {jobs_, {}}),
+        player_->play(s),
+        oracle::judge_step(player_->x_t0(s), player_->x_t1(s), case_.triangles, {jobs_, {}}),
         {}};
     step.diff = compare(step.result, step.judgement, options_);
     const std::string where = fmt::format("step {}: ", s + 1);
@@ -81,8 +71,8 @@ class CaseChecker {
     if (s < case_.expected.steps.size()) {
       check_facts(where, case_.expected.steps[s], step.judgement);
     }
-    if (uses_views && claims_.free_sound) check_signs(where, s, step.result);
-    if (view) check_expected_signs(where, s, *view);
+    if (uses_views(options_.culling) && claims_.free_sound) check_signs(where, s, step.result);
+    if (const auto view = corpus::view_of_step(case_, s)) check_expected_signs(where, s, *view);
     report_.steps.push_back(std::move(step));
   }
 
@@ -110,8 +100,7 @@ class CaseChecker {
     if (result.answer == Answer::error) return;
     // A step of view-auto that fell back has none.
     if (options_.culling == Culling::view_auto && result.signs.empty()) return;
-    auto made = detector::Detector::create(case_.triangles, case_.frames.front(), options_);
-    const auto& mesh = made.value().topology();
+    const auto& mesh = player_->detector().topology();
     for (std::size_t c = 0; c < mesh.components.size(); ++c) {
       for (const auto t : mesh.components[c].triangles) {
         const auto exact = sign_by_oracle(s, t, result.primitives[c]);
@@ -142,11 +131,8 @@ class CaseChecker {
 
   ViewSign sign_by_oracle(std::size_t s, std::int32_t t,
                           const detector::ViewPrimitive& view) const {
-    const corpus::CaseStep step = corpus::steps_of(case_)[s];
-    const auto& start = case_.frames[static_cast<std::size_t>(step.from)];
-    const auto& end = case_.frames[static_cast<std::size_t>(step.to)];
     const auto corner = [&](int i) {
-      return detector::moving_point(start, end, case_.triangles(t, i));
+      return detector::moving_point(player_->x_t0(s), player_->x_t1(s), case_.triangles(t, i));
     };
     return oracle::view_sign({corner(0), corner(1), corner(2)}, view);
   }
@@ -155,6 +141,7 @@ class CaseChecker {
   int jobs_;
   detector::Options options_;
   Claims claims_;
+  CasePlayer* player_ = nullptr;  // while the case runs
   CaseReport report_;
 };
 

@@ -53,9 +53,8 @@ std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
                                               const oracle::JudgeOptions& options) {
   std::vector<oracle::StepJudgement> judgements;
   for (const auto& step : corpus::steps_of(c)) {
-    judgements.push_back(oracle::judge_step(c.frames[static_cast<std::size_t>(step.from)],
-                                            c.frames[static_cast<std::size_t>(step.to)],
-                                            c.triangles, options));
+    judgements.push_back(
+        oracle::judge_step(start_of(c, step), end_of(c, step), c.triangles, options));
   }
   return judgements;
 }

@@ -3,7 +3,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "detector/detector.h"
+#include "properties/worker/case_player.h"
 #include "reports/subject.h"
 
 namespace assay::reports {
@@ -22,13 +22,9 @@ detector::Options options_of(const CheckRequest& request, const CheckInput& inpu
 
 class BuiltIn : public Subject {
  public:
-  BuiltIn(detector::Detector detector, const detector::Options& options, const corpus::Case& c,
+  BuiltIn(properties::CasePlayer player, const detector::Options& options, const corpus::Case& c,
           Limits& limits)
-      : detector_(std::move(detector)),
-        options_(options),
-        case_(c),
-        script_(corpus::steps_of(c)),
-        limits_(limits) {}
+      : player_(std::move(player)), options_(options), case_(c), limits_(limits) {}
 
   std::string title() const override {
     const std::string culling = fmt::format("culling {}", properties::name_of(options_.culling));
@@ -46,23 +42,13 @@ class BuiltIn : public Subject {
     return options_.arithmetic != detector::Arithmetic::exact;
   }
 
-  StepResult answer(std::size_t s, const detector::StopFunction& stop) override {
-    std::vector<detector::ViewPrimitive> given;
-    if (auto view = corpus::view_of_step(case_, s)) {
-      // A segment serves as a point by its first end.
-      if (options_.culling == detector::Culling::view_point) view->q1 = view->q0;
-      given.push_back(*view);
-    }
-    try {
-      return script_[s].commit
-                 ? detector_.step(frame(script_[s].from), frame(script_[s].to), given, stop)
-                 : detector_.evaluate(frame(script_[s].from), frame(script_[s].to), given, stop);
-    } catch (const std::bad_alloc&) {
-      limits_.memory_failed();
-      StepResult result;
-      result.answer = detector::Answer::undecided;
-      return result;
-    }
+  StepResult answer(std::size_t s, const detector::StopFunction& stop) override try {
+    return player_.play(s, stop);
+  } catch (const std::bad_alloc&) {
+    limits_.memory_failed();
+    StepResult result;
+    result.answer = detector::Answer::undecided;
+    return result;
   }
 
   StepError error_of(const StepResult& result) const override {
@@ -75,19 +61,13 @@ class BuiltIn : public Subject {
   }
 
   std::string stage_that_lost(std::size_t s, detector::TrianglePair pair) const override {
-    return properties::stage_that_lost(case_.triangles, frame(script_[s].from),
-                                       frame(script_[s].to), pair);
+    return properties::stage_that_lost(case_.triangles, player_.x_t0(s), player_.x_t1(s), pair);
   }
 
  private:
-  const detector::Positions& frame(std::int32_t f) const {
-    return case_.frames[static_cast<std::size_t>(f)];
-  }
-
-  detector::Detector detector_;
+  properties::CasePlayer player_;
   detector::Options options_;
   const corpus::Case& case_;
-  std::vector<corpus::CaseStep> script_;
   Limits& limits_;
 };
 
@@ -95,7 +75,7 @@ class BuiltIn : public Subject {
 
 MadeSubject make_built_in(const CheckRequest& request, const CheckInput& input, Limits& limits) {
   const detector::Options options = options_of(request, input);
-  auto made = detector::Detector::create(input.c.triangles, input.c.frames[0], options);
+  auto made = properties::CasePlayer::make(input.c, options);
   if (!made) return fmt::format("{}: {}", request.files[0], made.error().message);
   return std::make_unique<BuiltIn>(std::move(made.value()), options, input.c, limits);
 }

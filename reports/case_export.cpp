@@ -6,6 +6,7 @@
 
 #include "corpus/atomic_file.h"
 #include "properties/case_check.h"
+#include "properties/worker/given_view.h"
 
 namespace assay::reports {
 namespace {
@@ -36,11 +37,11 @@ std::string point_text(const detector::Point& p) {
 }
 
 std::string view_text(const corpus::Case& c, std::size_t step, const detector::Options& options) {
-  auto view = corpus::view_of_step(c, step);
-  if (!view || !uses_views(options.culling)) return "{}";
-  if (options.culling == detector::Culling::view_point) view->q1 = view->q0;
-  return fmt::format("{{{{{{{}, {}}}, {{{}, {}}}}}}}", point_text(view->q0.t0),
-                     point_text(view->q0.t1), point_text(view->q1.t0), point_text(view->q1.t1));
+  const auto given = properties::given_view(corpus::view_of_step(c, step), options.culling);
+  if (given.empty()) return "{}";
+  const auto& [q0, q1] = given.front();
+  return fmt::format("{{{{{{{}, {}}}, {{{}, {}}}}}}}", point_text(q0.t0), point_text(q0.t1),
+                     point_text(q1.t0), point_text(q1.t1));
 }
 
 std::string test_text(const corpus::Case& c, const detector::Options& options,

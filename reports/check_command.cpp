@@ -60,12 +60,6 @@ class Check {
 
  private:
   std::size_t step_count() const { return script_.size(); }
-  const detector::Positions& start_of(std::size_t s) const {
-    return case_.frames[static_cast<std::size_t>(script_[s].from)];
-  }
-  const detector::Positions& end_of(std::size_t s) const {
-    return case_.frames[static_cast<std::size_t>(script_[s].to)];
-  }
 
   void announce() const {
     std::size_t unclosed = 0;
@@ -106,7 +100,7 @@ class Check {
       progress.tick();
       return limits_.exceeded();
     };
-    const auto &x_t0 = start_of(s), &x_t1 = end_of(s);
+    const auto &x_t0 = start_of(case_, script_[s]), &x_t1 = end_of(case_, script_[s]);
 
     progress.phase("detector");
     const detector::StepResult result = subject_.answer(s, stop);
@@ -155,8 +149,9 @@ class Check {
     const auto begin = std::chrono::steady_clock::now();
     oracle::SecondOpinion opinion;
     try {
-      opinion = oracle::second_opinion(start_of(s), end_of(s), case_.triangles, judgement,
-                                       {share, request_.jobs, stop, {}});
+      opinion =
+          oracle::second_opinion(start_of(case_, script_[s]), end_of(case_, script_[s]),
+                                 case_.triangles, judgement, {share, request_.jobs, stop, {}});
     } catch (const std::bad_alloc&) {
       limits_.memory_failed();
     }

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "detector/detector.h"
 #include "oracle/candidates.h"
 #include "oracle/layers.h"
 #include "oracle/touched_by_ghosts.h"
 #include "properties/agreement.h"
+#include "properties/worker/case_player.h"
 #include "reports/step_text.h"
 
 namespace assay::reports {
@@ -33,7 +33,8 @@ const char* sign_text(detector::ViewSign sign) {
 
 class PairStory {
  public:
-  PairStory(const corpus::Case& c, detector::Detector& detector, const detector::TrianglePair& pair)
+  PairStory(const corpus::Case& c, const detector::Detector& detector,
+            const detector::TrianglePair& pair)
       : case_(c), detector_(detector), pair_(pair) {}
 
   std::string of_step(const detector::StepResult& result, const detector::Positions& x_t0,
@@ -104,7 +105,7 @@ class PairStory {
   }
 
   const corpus::Case& case_;
-  detector::Detector& detector_;
+  const detector::Detector& detector_;
   detector::TrianglePair pair_;
 };
 
@@ -113,22 +114,14 @@ class PairStory {
 std::string pair_story(const corpus::Case& c, const detector::Options& options,
                        const detector::TrianglePair& pair,
                        const std::vector<oracle::StepJudgement>& truth) {
-  auto made = detector::Detector::create(c.triangles, c.frames[0], options);
+  auto made = properties::CasePlayer::make(c, options);
   if (!made) return fmt::format("  refused: {}\n", made.error().message);
   std::string out = fmt::format("  why {}, {}:\n", pair.a, pair.b);
-  const PairStory story(c, made.value(), pair);
-  const auto script = corpus::steps_of(c);
-  for (std::size_t s = 0; s < script.size(); ++s) {
-    const auto& x_t0 = c.frames[at(script[s].from)];
-    const auto& x_t1 = c.frames[at(script[s].to)];
-    std::vector<detector::ViewPrimitive> given;
-    if (auto view = corpus::view_of_step(c, s)) {
-      if (options.culling == detector::Culling::view_point) view->q1 = view->q0;
-      given.push_back(*view);
-    }
-    const auto result = script[s].commit ? made.value().step(x_t0, x_t1, given)
-                                         : made.value().evaluate(x_t0, x_t1, given);
-    out += fmt::format("   step {}:\n", s + 1) + story.of_step(result, x_t0, x_t1, truth[s]);
+  auto& player = made.value();
+  const PairStory story(c, player.detector(), pair);
+  for (std::size_t s = 0; s < player.steps(); ++s) {
+    out += fmt::format("   step {}:\n", s + 1) +
+           story.of_step(player.play(s), player.x_t0(s), player.x_t1(s), truth[s]);
   }
   return out;
 }

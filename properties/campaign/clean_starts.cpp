@@ -13,9 +13,8 @@ bool starts_clean(const corpus::Case& c) {
   const corpus::CaseStep* committed = nullptr;
   const auto script = corpus::steps_of(c);
   for (const auto& step : script) {
-    const auto& start = c.frames[static_cast<std::size_t>(step.from)];
-    const bool is_new =
-        committed == nullptr || start != c.frames[static_cast<std::size_t>(committed->to)];
+    const auto& start = start_of(c, step);
+    const bool is_new = committed == nullptr || start != end_of(c, *committed);
     if (is_new) {
       const auto layers = oracle::layers_at(oracle::Instant(start), c.triangles, no_ghosts);
       if (!std::all_of(layers.clean.begin(), layers.clean.end(),

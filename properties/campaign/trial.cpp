@@ -64,8 +64,8 @@ Failure failure_of_step(const corpus::Case& c, const corpus::CaseStep& step, con
   if (!diff.missing.empty()) {
     about("missing", diff.missing.front());
     if (detector.built_in) {
-      failure.stage = stage_that_lost(c.triangles, c.frames[static_cast<std::size_t>(step.from)],
-                                      c.frames[static_cast<std::size_t>(step.to)], *failure.pair);
+      failure.stage =
+          stage_that_lost(c.triangles, start_of(c, step), end_of(c, step), *failure.pair);
     }
   } else if (!diff.spurious.empty()) {
     about("spurious", diff.spurious.front());

@@ -1,41 +1,27 @@
 #include "properties/faults/fault_run.h"
 
-#include "detector/detector.h"
+#include "properties/worker/case_player.h"
 
 namespace assay::properties {
 namespace {
 
-using detector::Culling;
-using detector::Detector;
 using detector::StepResult;
 
-std::vector<detector::ViewPrimitive> primitives_of(const corpus::Case& c, std::size_t step,
-                                                   Culling culling) {
-  const auto view = corpus::view_of_step(c, step);
-  if (!view) return {};
-  // A segment serves as a point by its first end.
-  if (culling == Culling::view_point) return {{view->q0, view->q0}};
-  if (culling == Culling::view_line) return {*view};
-  return {};
+std::vector<StepResult> refused(const corpus::Case& c, const detector::Problem& problem) {
+  StepResult result;
+  result.problem = problem;
+  return std::vector<StepResult>(corpus::steps_of(c).size(), result);
 }
 
 }  // namespace
 
 std::vector<StepResult> run_case(const corpus::Case& c, const detector::Options& options,
                                  const detector::Stages& stages) {
-  const auto script = corpus::steps_of(c);
-  auto made = Detector::assemble(c.triangles, c.frames.front(), options, stages);
-  std::vector<StepResult> results(script.size());
-  for (std::size_t s = 0; s < script.size(); ++s) {
-    if (!made) {
-      results[s].problem = made.error();
-      continue;
-    }
-    const auto& x_t0 = c.frames[static_cast<std::size_t>(script[s].from)];
-    const auto& x_t1 = c.frames[static_cast<std::size_t>(script[s].to)];
-    const auto primitives = primitives_of(c, s, options.culling);
-    results[s] = script[s].commit ? made.value().step(x_t0, x_t1, primitives)
-                                  : made.value().evaluate(x_t0, x_t1, primitives);
+  auto player = CasePlayer::make(c, options, stages);
+  if (!player) return refused(c, player.error());
+  std::vector<StepResult> results;
+  for (std::size_t s = 0; s < player.value().steps(); ++s) {
+    results.push_back(player.value().play(s));
   }
   return results;
 }
@@ -47,30 +33,22 @@ std::vector<StepResult> run_case(const corpus::Case& c, const Fault& fault) {
 std::vector<StepResult> run_disturbed(const corpus::Case& c, const detector::Options& options,
                                       MakeStages stages) {
   constexpr int most_stops = 8;
-  const auto script = corpus::steps_of(c);
-  auto made = Detector::assemble(c.triangles, c.frames.front(), options, stages(options));
-  auto beside = Detector::assemble(c.triangles, c.frames.front(), options, stages(options));
-  std::vector<StepResult> results(script.size());
-  for (std::size_t s = 0; s < script.size(); ++s) {
-    if (!made || !beside) {
-      results[s].problem = made.error();
-      continue;
-    }
-    const auto& x_t0 = c.frames[static_cast<std::size_t>(script[s].from)];
-    const auto& x_t1 = c.frames[static_cast<std::size_t>(script[s].to)];
-    const auto primitives = primitives_of(c, s, options.culling);
+  auto made = CasePlayer::make(c, options, stages(options));
+  auto beside = CasePlayer::make(c, options, stages(options));
+  if (!made || !beside) return refused(c, made.error());
+  std::vector<StepResult> results;
+  for (std::size_t s = 0; s < made.value().steps(); ++s) {
     for (int stop_at = 1; stop_at <= most_stops; ++stop_at) {
       int asked = 0;
       const auto stop = [&] { return ++asked == stop_at; };
-      const auto stopped = made.value().evaluate(x_t0, x_t1, primitives, stop);
+      const auto stopped = made.value().look(s, stop);
       if (stopped.answer != detector::Answer::undecided) break;
     }
     const auto meanwhile = [&] {
-      beside.value().evaluate(x_t0, x_t1, primitives);
+      beside.value().look(s);
       return false;
     };
-    results[s] = script[s].commit ? made.value().step(x_t0, x_t1, primitives, meanwhile)
-                                  : made.value().evaluate(x_t0, x_t1, primitives, meanwhile);
+    results.push_back(made.value().play(s, meanwhile));
   }
   return results;
 }

@@ -38,8 +38,8 @@ class CaseFacts {
   const StagesOf& stages_of() const { return stages_of_; }
   std::size_t steps() const { return script_.size(); }
   const corpus::CaseStep& script(std::size_t s) const { return script_[s]; }
-  const detector::Positions& x_t0(std::size_t s) const { return frame(script_[s].from); }
-  const detector::Positions& x_t1(std::size_t s) const { return frame(script_[s].to); }
+  const detector::Positions& x_t0(std::size_t s) const { return start_of(source_, script_[s]); }
+  const detector::Positions& x_t1(std::size_t s) const { return end_of(source_, script_[s]); }
   const detector::StepResult& result(std::size_t s) const { return results_[s]; }
   const oracle::StepJudgement& judgement(std::size_t s) const { return judgements_[s]; }
   std::int32_t component_of(std::int32_t triangle) const {
@@ -87,9 +87,6 @@ class CaseFacts {
 
  private:
   struct StepFacts;
-  const detector::Positions& frame(std::int32_t f) const {
-    return source_.frames[static_cast<std::size_t>(f)];
-  }
   const oracle::LayerState& layers_of(const detector::Positions& all);
 
   const corpus::Case& source_;

@@ -56,8 +56,7 @@ MeshSize size_of(const corpus::Case& c) {
   size.vertices = c.frames.empty() ? 0 : static_cast<std::size_t>(c.frames.front().rows());
   size.frames = c.frames.size();
   for (const auto& step : steps) {
-    const auto& x_t0 = c.frames[static_cast<std::size_t>(step.from)];
-    const auto& x_t1 = c.frames[static_cast<std::size_t>(step.to)];
+    const auto &x_t0 = start_of(c, step), &x_t1 = end_of(c, step);
     for (Eigen::Index v = 0; v < x_t0.rows(); ++v) {
       if (x_t0.row(v) != x_t1.row(v)) ++size.moving;
     }

@@ -4,12 +4,11 @@
 #include <cstring>
 #include <new>
 
-#include "detector/detector.h"
 #include "properties/faults/fault.h"
+#include "properties/worker/case_player.h"
 
 namespace assay::properties {
 
-using detector::Culling;
 using detector::StepResult;
 
 const char* name_of(RunEnd end) {
@@ -34,37 +33,18 @@ CaseRun out_of_memory() { return {RunEnd::out_of_memory, "out of memory", {}}; }
 
 namespace {
 
-std::vector<detector::ViewPrimitive> given_view(const corpus::Case& c, std::size_t step,
-                                                Culling culling) {
-  auto view = corpus::view_of_step(c, step);
-  if (!view || !uses_views(culling)) return {};
-  // A segment serves as a point by its first end.
-  if (culling == Culling::view_point) view->q1 = view->q0;
-  return {*view};
-}
-
 detector::Stages stages_of(const Configuration& configuration) {
   const Fault* fault = configuration.fault.empty() ? nullptr : find_fault(configuration.fault);
   return fault ? fault->stages(configuration.options)
                : detector::standard_stages(configuration.options);
 }
 
-StepResult undecided() {
-  StepResult result;
-  result.answer = detector::Answer::undecided;
-  return result;
-}
-
-StepResult run_step(detector::Detector& detector, const corpus::Case& c, std::size_t s,
-                    const corpus::CaseStep& step, Culling culling) {
-  const auto& x_t0 = c.frames[static_cast<std::size_t>(step.from)];
-  const auto& x_t1 = c.frames[static_cast<std::size_t>(step.to)];
-  const auto given = given_view(c, s, culling);
-  try {
-    return step.commit ? detector.step(x_t0, x_t1, given) : detector.evaluate(x_t0, x_t1, given);
-  } catch (const std::bad_alloc&) {
-    return undecided();
-  }
+StepResult run_step(CasePlayer& player, std::size_t s) try {
+  return player.play(s);
+} catch (const std::bad_alloc&) {
+  StepResult undecided;
+  undecided.answer = detector::Answer::undecided;
+  return undecided;
 }
 
 // Counters are plain numbers without gaps between them.
@@ -99,12 +79,10 @@ bool same_result(const StepResult& a, const StepResult& b) {
 
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try {
   CaseRun run;
-  auto made = detector::Detector::assemble(c.triangles, c.frames.front(), configuration.options,
-                                           stages_of(configuration));
+  auto made = CasePlayer::make(c, configuration.options, stages_of(configuration));
   if (!made) return {RunEnd::refused, made.error().message, {}};
-  const auto script = corpus::steps_of(c);
-  for (std::size_t s = 0; s < script.size(); ++s) {
-    run.steps.push_back(run_step(made.value(), c, s, script[s], configuration.options.culling));
+  for (std::size_t s = 0; s < made.value().steps(); ++s) {
+    run.steps.push_back(run_step(made.value(), s));
     const auto& problem = run.steps.back().problem;
     if (problem && run.what.empty()) {
       run.what = "step " + std::to_string(s + 1) + ": " + problem->message;

@@ -4,9 +4,9 @@
 
 #include <chrono>
 
-#include "detector/detector.h"
 #include "oracle/step.h"
 #include "properties/agreement.h"
+#include "properties/worker/case_player.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/timed_step.h"
 
@@ -18,19 +18,10 @@ using namespace detector;
 // A step that takes the oracle longer is timed and not judged.
 constexpr std::chrono::seconds oracle_limit{20};
 
-oracle::StepJudgement judge(const TimedCase& timed, const corpus::CaseStep& step) {
+oracle::StepJudgement judge(const corpus::Case& c, const corpus::CaseStep& step) {
   const auto end = std::chrono::steady_clock::now() + oracle_limit;
-  return oracle::judge_step(timed.c.frames[static_cast<std::size_t>(step.from)],
-                            timed.c.frames[static_cast<std::size_t>(step.to)], timed.c.triangles,
+  return oracle::judge_step(start_of(c, step), end_of(c, step), c.triangles,
                             {1, [end] { return std::chrono::steady_clock::now() > end; }});
-}
-
-// The case's own view primitive, where it states one: a segment serves as a point by its first end.
-std::vector<ViewPrimitive> given_view(const corpus::Case& c, std::size_t step, Culling culling) {
-  auto view = corpus::view_of_step(c, step);
-  if (!view || !uses_views(culling)) return {};
-  if (culling == Culling::view_point) view->q1 = view->q0;
-  return {*view};
 }
 
 class CaseRun {
@@ -41,15 +32,14 @@ class CaseRun {
     constexpr Eigen::Index most_triangles_for_none = 64;
     variants_ = all_variants(timed.c.triangles.rows() <= most_triangles_for_none);
     for (const auto& variant : variants_) {
-      auto made = Detector::create(timed.c.triangles, timed.c.frames[0], options_of(variant));
+      auto made = properties::CasePlayer::make(timed.c, options_of(variant));
       if (!made) throw UnusableData(timed.c.id + ": " + made.error().message);
-      detectors_.push_back(std::move(made.value()));
+      players_.push_back(std::move(made.value()));
     }
   }
 
   std::vector<JudgedStep> run() {
-    const auto steps = corpus::steps_of(timed_.c);
-    for (std::size_t s = 0; s < steps.size(); ++s) run_step(s, steps[s]);
+    for (std::size_t s = 0; s < players_.front().steps(); ++s) run_step(s);
     return std::move(done_);
   }
 
@@ -58,10 +48,10 @@ class CaseRun {
     return {variant.culling, timed_.start, variant.pairs, variant.arithmetic};
   }
 
-  void run_step(std::size_t index, const corpus::CaseStep& step) {
+  void run_step(std::size_t index) {
     std::vector<StepResult> results(variants_.size());
-    const auto samples = time_all(index, step, results);
-    const auto truth = judge(timed_, step);
+    const auto samples = time_all(index, results);
+    const auto truth = judge(timed_.c, players_.front().step(index));
     for (std::size_t v = 0; v < variants_.size(); ++v) {
       JudgedStep out;
       out.family = family_.name;
@@ -79,24 +69,17 @@ class CaseRun {
       compare_with(truth, results[v], out);
       done_.push_back(std::move(out));
     }
-    if (!step.commit) return;
-    for (auto& detector : detectors_) detector.commit();
+    if (!players_.front().step(index).commit) return;
+    for (auto& player : players_) player.detector().commit();
   }
 
-  std::vector<std::vector<double>> time_all(std::size_t index, const corpus::CaseStep& step,
-                                            std::vector<StepResult>& results) {
-    const auto &x_t0 = timed_.c.frames[static_cast<std::size_t>(step.from)],
-               &x_t1 = timed_.c.frames[static_cast<std::size_t>(step.to)];
+  std::vector<std::vector<double>> time_all(std::size_t index, std::vector<StepResult>& results) {
     std::vector<std::uint64_t> hashes(variants_.size());
-    std::vector<std::vector<ViewPrimitive>> views;
-    for (const auto& variant : variants_) {
-      views.push_back(given_view(timed_.c, index, variant.culling));
-    }
     std::vector<Measurement> measurements;
     for (std::size_t v = 0; v < variants_.size(); ++v) {
       measurements.push_back([&, v] {
         tick_();
-        const double ns = ns_of([&] { results[v] = detectors_[v].evaluate(x_t0, x_t1, views[v]); });
+        const double ns = ns_of([&] { results[v] = players_[v].look(index); });
         if (results[v].answer == Answer::error) {
           throw UnusableData(timed_.c.id + ": " + results[v].problem->message);
         }
@@ -142,7 +125,7 @@ class CaseRun {
   std::vector<std::string>& wrong_;
   const std::function<void()>& tick_;
   std::vector<Variant> variants_;
-  std::vector<Detector> detectors_;
+  std::vector<properties::CasePlayer> players_;
   std::vector<JudgedStep> done_;
 };
 

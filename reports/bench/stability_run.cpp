@@ -6,6 +6,7 @@
 
 #include "oracle/view_sign.h"
 #include "properties/case_check.h"
+#include "properties/worker/case_player.h"
 
 namespace assay::reports {
 
@@ -27,16 +28,13 @@ StepResult run_hard_case(const corpus::Case& c, const StabilitySubject& subject)
   detector::Options options = properties::options_of(c);
   if (!c.options.contains("culling")) options.culling = detector::Culling::view_point;
   options.arithmetic = subject.arithmetic;
-  auto made =
-      detector::Detector::assemble(c.triangles, c.frames.front(), options, subject.stages(options));
+  auto made = properties::CasePlayer::make(c, options, subject.stages(options));
   if (!made) {
     StepResult refused;
     refused.problem = made.error();
     return refused;
   }
-  std::vector<detector::ViewPrimitive> given;
-  if (const auto view = corpus::view_of_step(c, 0)) given.push_back(*view);
-  return made.value().evaluate(c.frames[0], c.frames[1], given);
+  return made.value().look(0);
 }
 
 HardTruth::HardTruth(const corpus::Case& c)

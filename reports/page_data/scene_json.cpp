@@ -23,8 +23,7 @@ Json frame_json(const detector::Positions& x) {
 
 Json pairs_json(const CaseScene& scene, const SceneStep& step,
                 const std::vector<detector::PairContact>& pairs) {
-  const auto& x_t0 = scene.c.frames[static_cast<std::size_t>(step.span.from)];
-  const auto& x_t1 = scene.c.frames[static_cast<std::size_t>(step.span.to)];
+  const auto &x_t0 = start_of(scene.c, step.span), &x_t1 = end_of(scene.c, step.span);
   Json list = Json::array();
   for (const auto& contact : pairs) {
     const double t = contact.time.lo + (contact.time.hi - contact.time.lo) / 2;

@@ -41,9 +41,8 @@ class Picture {
     if (step.answered) answered_ = contact_of(step.answered->pairs, pair);
     time_ = exact_ ? middle(exact_->time) : answered_ ? middle(answered_->time) : 0;
     pair_ = pair;
-    const auto& frames = scene.c.frames;
-    x_t0_ = frames[static_cast<std::size_t>(step.span.from)];
-    x_t1_ = frames[static_cast<std::size_t>(step.span.to)];
+    x_t0_ = start_of(scene.c, step.span);
+    x_t1_ = end_of(scene.c, step.span);
     Positions all_t0 = x_t0_, all_t1 = x_t1_;
     for (Eigen::Index t = 0; t < scene.c.triangles.rows(); ++t) {
       const auto corners = scene.c.triangles.row(t);

@@ -105,6 +105,8 @@ TEST_F(CaseFile, AScriptNamesItsSteps) {
   EXPECT_EQ(read.value().script, c.script);
   EXPECT_EQ(case_text(read.value()), case_text(c));
   EXPECT_EQ(view_of_step(c, 0)->q1.t1, (detector::Point{0, 0, 3}));
+  EXPECT_EQ(start_of(c, c.script[0]), c.frames[0]);
+  EXPECT_EQ(end_of(c, c.script[0]), c.frames[2]);
   c.script[1].to = 3;
   EXPECT_FALSE(parse_case(case_text(c), "x"));
 }

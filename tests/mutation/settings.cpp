@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "properties/worker/given_view.h"
+
 namespace assay::mutation {
 namespace {
 
@@ -50,10 +52,8 @@ bool applies(const Setting& setting, const CaseFact& c) {
 }
 
 std::vector<detector::ViewPrimitive> primitive_of(const Setting& setting, const StepFact& step) {
-  if (!step.view || setting.own_primitives || !uses_views(setting.options.culling)) return {};
-  auto view = *step.view;
-  if (setting.options.culling == Culling::view_point) view.q1 = view.q0;
-  return {view};
+  if (setting.own_primitives) return {};
+  return properties::given_view(step.view, setting.options.culling);
 }
 
 std::vector<detector::StepResult> run(const CaseFact& c, const Setting& setting,

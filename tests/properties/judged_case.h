@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "detector/detector.h"
 #include "oracle/step.h"
 #include "properties/generators/families.h"
 #include "properties/laws/case_facts.h"
+#include "properties/worker/case_player.h"
 
 namespace assay::properties::test {
 
@@ -41,36 +41,36 @@ inline GeneratedCase case_of(const std::string& id) {
   throw std::invalid_argument("no family in the id " + id);
 }
 
+// Played from the detector's own primitives.
+inline corpus::Case without_view(corpus::Case c) {
+  c.view.reset();
+  return c;
+}
+
 // All that CaseFacts refers to. Tests may change the results before they ask for facts().
 class JudgedCase {
  public:
   JudgedCase(corpus::Case c, Setting setting)
-      : source(std::move(c)),
+      : source(setting.own_primitives ? without_view(std::move(c)) : std::move(c)),
         setting_(std::move(setting)),
-        detector_(detector::Detector::assemble(source.triangles, source.frames.front(),
-                                               setting_.options,
-                                               setting_.stages_of(setting_.options))
-                      .value()) {
-    const auto script = corpus::steps_of(source);
-    for (std::size_t s = 0; s < script.size(); ++s) {
-      const auto& x_t0 = source.frames[static_cast<std::size_t>(script[s].from)];
-      const auto& x_t1 = source.frames[static_cast<std::size_t>(script[s].to)];
-      std::vector<detector::ViewPrimitive> given;
-      const auto view = corpus::view_of_step(source, s);
-      if (view && !setting_.own_primitives) {
-        given.push_back(*view);
-        if (setting_.options.culling == detector::Culling::view_point) given[0].q1 = given[0].q0;
-      }
-      results.push_back(script[s].commit ? detector_.step(x_t0, x_t1, given)
-                                         : detector_.evaluate(x_t0, x_t1, given));
-      judgements.push_back(oracle::judge_step(x_t0, x_t1, source.triangles, {1, {}}));
+        player_(CasePlayer::make(source, setting_.options, setting_.stages_of(setting_.options))
+                    .value()) {
+    for (std::size_t s = 0; s < player_.steps(); ++s) {
+      results.push_back(player_.play(s));
+      judgements.push_back(
+          oracle::judge_step(player_.x_t0(s), player_.x_t1(s), source.triangles, {1, {}}));
     }
   }
   JudgedCase(const JudgedCase&) = delete;
   JudgedCase& operator=(const JudgedCase&) = delete;
 
   CaseFacts facts() const {
-    return {source, setting_.options, results, judgements, detector_.surface(), setting_.stages_of};
+    return {source,
+            setting_.options,
+            results,
+            judgements,
+            player_.detector().surface(),
+            setting_.stages_of};
   }
 
   corpus::Case source;
@@ -79,7 +79,7 @@ class JudgedCase {
 
  private:
   Setting setting_;
-  detector::Detector detector_;
+  CasePlayer player_;
 };
 
 }  // namespace assay::properties::test

@@ -1,0 +1,45 @@
+// Plays a case through the built-in detector, which carries its state from step to step.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "corpus/case_file.h"
+#include "detector/detector.h"
+
+namespace assay::properties {
+
+class CasePlayer {
+ public:
+  // A new detector, made from the first frame: of these stages, or of the standard ones. The case
+  // must outlive the player. Errors and cost are those of Detector::create.
+  static detector::Expected<CasePlayer> make(const corpus::Case& c,
+                                             const detector::Options& options,
+                                             std::optional<detector::Stages> stages = {});
+
+  // The steps of the case. REQUIRES s < steps() in all that follows.
+  std::size_t steps() const { return script_.size(); }
+  const corpus::CaseStep& step(std::size_t s) const { return script_[s]; }
+  const detector::Positions& x_t0(std::size_t s) const { return start_of(*case_, script_[s]); }
+  const detector::Positions& x_t1(std::size_t s) const { return end_of(*case_, script_[s]); }
+
+  // Step s as the script says: the state advances where the step commits and has an answer. Steps
+  // may be played in any order; the detector takes what does not continue its state as a new start.
+  detector::StepResult play(std::size_t s, const detector::StopFunction& stop = {});
+  // The same result, while the state stays as it is; detector().commit() can still advance it.
+  detector::StepResult look(std::size_t s, const detector::StopFunction& stop = {});
+
+  detector::Detector& detector() { return detector_; }
+  const detector::Detector& detector() const { return detector_; }
+
+ private:
+  CasePlayer(const corpus::Case& c, const detector::Options& options, detector::Detector detector);
+
+  const corpus::Case* case_;
+  std::vector<corpus::CaseStep> script_;
+  // By step, and found beforehand: who times a step times the detector alone.
+  std::vector<std::vector<detector::ViewPrimitive>> given_;
+  detector::Detector detector_;
+};
+
+}  // namespace assay::properties

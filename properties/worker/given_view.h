@@ -1,0 +1,21 @@
+// Which view primitive a step of a case is given.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "detector/options.h"
+
+namespace assay::properties {
+
+// As the detector takes it: the primitive that the case states for the step (corpus::view_of_step),
+// or none where it states none or the culling looks from none.
+inline std::vector<detector::ViewPrimitive> given_view(
+    std::optional<detector::ViewPrimitive> stated, detector::Culling culling) {
+  if (!stated || !uses_views(culling)) return {};
+  // A segment serves as a point by its first end.
+  if (culling == detector::Culling::view_point) stated->q1 = stated->q0;
+  return {*stated};
+}
+
+}  // namespace assay::properties
