@@ -53,7 +53,8 @@ void fields(Wire& wire, detector::StepResult& result) {
 
 template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
-  auto& [end, what, steps] = run;
+  // The last two are the host's to say.
+  auto& [end, what, steps, disturbances, processor_seconds] = run;
   wire(end, what, steps);
 }
 
