@@ -4,18 +4,30 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <fstream>
 
 namespace assay::reports {
 
+namespace {
+
+// Of all threads of this process, ended ones included.
+double processor_seconds() {
+  timespec now = {};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  constexpr double nanosecond = 1e-9;
+  return static_cast<double>(now.tv_sec) + nanosecond * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
 Limits::Limits(std::optional<double> seconds, std::optional<std::uint64_t> bytes)
-    : seconds_(seconds), bytes_(bytes), begin_(std::chrono::steady_clock::now()) {}
+    : seconds_(seconds), bytes_(bytes), begin_(processor_seconds()) {}
 
 bool Limits::exceeded() {
   if (!reached_.empty()) return true;
-  if (seconds_) {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-    if (elapsed.count() >= *seconds_) reached_ = fmt::format("time limit of {} s", *seconds_);
+  if (seconds_ && processor_seconds() - begin_ >= *seconds_) {
+    reached_ = fmt::format("time limit of {} s", *seconds_);
   }
   if (reached_.empty() && bytes_ && resident_bytes() >= *bytes_) {
     constexpr std::uint64_t mebibyte = 1 << 20;

@@ -1,7 +1,7 @@
-// Limits of time and memory that a user sets; work that reaches one ends as `undecided`.
+// Limits of time and memory that a user sets; work that reaches one ends as `undecided`. Time is
+// processor time, so that what is decided does not depend on what else the machine does.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,10 +12,12 @@ namespace assay::reports {
 
 class Limits {
  public:
-  // seconds from now; bytes of resident memory of this process.
+  // Seconds of processor time from now, of all threads of this process together: with two that work
+  // they are over in half the time on the wall. Bytes of resident memory of this process.
   Limits(std::optional<double> seconds, std::optional<std::uint64_t> bytes);
 
-  // Asks the clock and the system; remembers the first limit reached.
+  // Asks the clock and the system, in less than 1 us where only time is limited; remembers the
+  // first limit reached.
   bool exceeded();
   // "time limit of 10 s" or "memory limit of 512 MiB"; empty before a limit was reached.
   const std::string& reached() const { return reached_; }
@@ -27,7 +29,7 @@ class Limits {
  private:
   std::optional<double> seconds_;
   std::optional<std::uint64_t> bytes_;
-  std::chrono::steady_clock::time_point begin_;
+  double begin_;  // processor seconds of this process
   std::string reached_;
 };
 

@@ -54,7 +54,9 @@ void add_check(CLI::App& app, CheckRequest& request) {
       ->check(share())
       ->excludes(no_oracle);
   add_jobs(verb, request.jobs);
-  verb->add_option("--time", request.time_limit, "Limit in seconds; what is left is undecided")
+  verb->add_option("--time", request.time_limit,
+                   "Limit in seconds of processor time, all threads together; what is left is "
+                   "undecided")
       ->check(positive());
   verb->add_option_function<std::string>(
           "--memory",

@@ -83,9 +83,13 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
   if (!made) return {RunEnd::refused, made.error().message, {}};
   for (std::size_t s = 0; s < made.value().steps(); ++s) {
     run.steps.push_back(run_step(made.value(), s));
-    const auto& problem = run.steps.back().problem;
-    if (problem && run.what.empty()) {
-      run.what = "step " + std::to_string(s + 1) + ": " + problem->message;
+    const auto& result = run.steps.back();
+    if (result.problem && run.what.empty()) {
+      run.what = "step " + std::to_string(s + 1) + ": " + result.problem->message;
+    }
+    // Nothing but the want of memory ends a step here without an answer.
+    if (result.answer == detector::Answer::undecided && run.what.empty()) {
+      run.what = "step " + std::to_string(s + 1) + ": out of memory";
     }
   }
   return run;

@@ -1,6 +1,7 @@
 // One case through one configuration of a detector: every step of its script, state carried.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct Configuration {
 enum class RunEnd : std::uint8_t {
   completed,      // every step has a result, which may be undecided or an error
   crashed,        // the process ended under the detector
-  hung,           // stopped at the time limit: undecided
+  hung,           // stopped at a time limit: undecided
   refused,        // the mesh was refused by name when the detector was made
   out_of_memory,  // before the first step: undecided
   not_run,        // there is no worker to run it: the harness failed, not the detector
@@ -34,7 +35,14 @@ struct CaseRun {
   // One for each step of the case when completed, else none. A pair or first time that a plug-in
   // does not state is [0, 1].
   std::vector<detector::StepResult> steps;
+
+  // Of the circumstances, filled in by the host; same_answers() does not look at them.
+
+  // How often the worker was killed from outside while this run was under way, which was then
+  // repeated, or before it began.
   std::uint64_t disturbances = 0;
+  // What it took: processor time of the worker with its threads, and with the processes that it
+  // started where the run was long enough to look at them (processor_time.h). Of the last attempt.
   double processor_seconds = 0;
 };
 
@@ -46,7 +54,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
 // The run of a case that did not fit into memory.
 CaseRun out_of_memory();
 
-// Whether two runs of one case gave the same: all but the times that a step took.
+// Whether two runs of one case gave the same: all but times and circumstances.
 bool same_answers(const CaseRun& a, const CaseRun& b);
 
 }  // namespace assay::properties

@@ -23,14 +23,13 @@ std::optional<std::pair<Channel, Channel>> Channel::connected() {
   return std::pair(Channel(ends[0]), Channel(ends[1]));
 }
 
-Transfer Channel::wait_for(short events, Deadline deadline) const {
+Transfer Channel::wait_for(short events, const Patience& patience) const {
   for (;;) {
     int milliseconds = -1;
-    if (deadline) {
-      const auto left = std::chrono::ceil<std::chrono::milliseconds>(
-          *deadline - std::chrono::steady_clock::now());
-      if (left.count() <= 0) return Transfer::timed_out;
-      milliseconds = static_cast<int>(std::min<std::int64_t>(left.count(), INT_MAX));
+    if (patience) {
+      const auto longest = patience();
+      if (!longest) return Transfer::timed_out;
+      milliseconds = static_cast<int>(std::clamp<std::int64_t>(longest->count(), 0, INT_MAX));
     }
     pollfd watched = {descriptor_, events, 0};
     const int ready = ::poll(&watched, 1, milliseconds);
@@ -39,7 +38,7 @@ Transfer Channel::wait_for(short events, Deadline deadline) const {
   }
 }
 
-Transfer Channel::send(const std::string& message, Deadline deadline) {
+Transfer Channel::send(const std::string& message, const Patience& patience) {
   std::uint64_t length = message.size();
   std::array<char, sizeof length> head;
   std::memcpy(head.data(), &length, sizeof length);
@@ -56,7 +55,7 @@ Transfer Channel::send(const std::string& message, Deadline deadline) {
     if (now >= 0) {
       sent += static_cast<std::size_t>(now);
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      const auto waited = wait_for(POLLOUT, deadline);
+      const auto waited = wait_for(POLLOUT, patience);
       if (waited != Transfer::done) return waited;
     } else if (errno != EINTR) {
       return Transfer::closed;
@@ -65,7 +64,7 @@ Transfer Channel::send(const std::string& message, Deadline deadline) {
   return Transfer::done;
 }
 
-Transfer Channel::receive(std::string& message, Deadline deadline) {
+Transfer Channel::receive(std::string& message, const Patience& patience) {
   std::uint64_t length = 0;
   constexpr std::size_t head = sizeof length;
   constexpr std::size_t block = 1 << 16;
@@ -78,7 +77,7 @@ Transfer Channel::receive(std::string& message, Deadline deadline) {
         return Transfer::done;
       }
     }
-    const auto waited = wait_for(POLLIN, deadline);
+    const auto waited = wait_for(POLLIN, patience);
     if (waited != Transfer::done) return waited;
     const std::size_t had = received_.size();
     received_.resize(had + block);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,7 +12,9 @@ namespace assay::properties {
 
 enum class Transfer { done, closed, timed_out };
 
-using Deadline = std::optional<std::chrono::steady_clock::time_point>;  // none: wait for ever
+// Asked before each wait: how long to wait at most before asking again; nothing: no longer. An
+// empty function waits for ever.
+using Patience = std::function<std::optional<std::chrono::milliseconds>()>;
 
 class Channel {
  public:
@@ -25,13 +28,13 @@ class Channel {
   static std::optional<std::pair<Channel, Channel>> connected();
 
   int descriptor() const { return descriptor_; }
-  Transfer send(const std::string& message, Deadline deadline = {});
-  Transfer receive(std::string& message, Deadline deadline = {});
+  Transfer send(const std::string& message, const Patience& patience = {});
+  Transfer receive(std::string& message, const Patience& patience = {});
   // Whether the other end has closed, without waiting.
   bool is_closed() const;
 
  private:
-  Transfer wait_for(short events, Deadline deadline) const;
+  Transfer wait_for(short events, const Patience& patience) const;
 
   int descriptor_;
   std::string received_;  // beyond the message returned last

@@ -16,24 +16,46 @@ namespace assay::properties {
 
 namespace {
 
-std::string end_text(int status) {
+ChildEnd end_of(int status) {
+  ChildEnd end;
   if (WIFSIGNALED(status)) {
-    const int signal = WTERMSIG(status);
-    return "killed by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
+    end.signal = WTERMSIG(status);
+    end.text =
+        "killed by signal " + std::to_string(end.signal) + " (" + ::strsignal(end.signal) + ")";
+  } else {
+    end.code = WEXITSTATUS(status);
+    end.text = "exited with code " + std::to_string(end.code);
   }
-  return "exited with code " + std::to_string(WEXITSTATUS(status));
+  return end;
 }
 
-// Whether the child has ended, or is none of ours any more; waits unless `options` say otherwise.
-bool reap(pid_t id, int options, int& status) {
-  pid_t got;
+enum class State { runs, ended, not_ours };
+
+State state_of(pid_t id) {
+  siginfo_t seen = {};
+  int got;
   do {
-    got = ::waitpid(id, &status, options);
+    got = ::waitid(P_PID, static_cast<id_t>(id), &seen, WEXITED | WNOHANG | WNOWAIT);
   } while (got < 0 && errno == EINTR);
-  return got != 0;
+  if (got < 0) return State::not_ours;
+  return seen.si_pid == 0 ? State::runs : State::ended;
 }
 
 }  // namespace
+
+bool was_killed_from_outside(const ChildEnd& end) {
+  if (end.by_host) return false;
+  switch (end.signal) {
+    case SIGKILL:
+    case SIGTERM:
+    case SIGINT:
+    case SIGHUP:
+    case SIGQUIT:
+      return true;
+    default:
+      return false;
+  }
+}
 
 std::optional<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
                                                 const std::vector<std::string>& arguments,
@@ -48,8 +70,13 @@ std::optional<ChildProcess> ChildProcess::start(const std::filesystem::path& pro
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_adddup2(&actions, descriptor, child_descriptor);
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  ::posix_spawnattr_setpgroup(&attributes, 0);
   pid_t id = -1;
-  const int error = ::posix_spawn(&id, name.c_str(), &actions, nullptr, argv.data(), environ);
+  const int error = ::posix_spawn(&id, name.c_str(), &actions, &attributes, argv.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   if (error != 0) {
     problem = "cannot start " + name + ": " + std::strerror(error);
@@ -58,21 +85,27 @@ std::optional<ChildProcess> ChildProcess::start(const std::filesystem::path& pro
   return ChildProcess(id);
 }
 
-std::string ChildProcess::finish(std::chrono::milliseconds patience) {
-  if (id_ < 0) return "";
-  int status = 0;
+bool ChildProcess::has_ended() const { return id_ < 0 || state_of(id_) != State::runs; }
+
+ChildEnd ChildProcess::finish(std::chrono::milliseconds patience) {
   const auto until = std::chrono::steady_clock::now() + patience;
-  while (!reap(id_, WNOHANG, status)) {
-    if (std::chrono::steady_clock::now() >= until) {
-      ::kill(id_, SIGKILL);
-      reap(id_, 0, status);
-      id_ = -1;
-      return "";
-    }
-    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  bool in_time = true;
+  while (!has_ended() && in_time) {
+    in_time = std::chrono::steady_clock::now() < until;
+    if (in_time) std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
-  id_ = -1;
-  return end_text(status);
+  int status = 0;
+  if (id_ >= 0) {
+    // As long as its leader was not waited for, the group's number is not used again.
+    if (state_of(id_) != State::not_ours) ::kill(-id_, SIGKILL);
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+    }
+    id_ = -1;
+  }
+  ChildEnd end = end_of(status);
+  end.by_host = !in_time && end.signal == SIGKILL;
+  if (end.by_host) end.text.clear();
+  return end;
 }
 
 ChildProcess::~ChildProcess() {

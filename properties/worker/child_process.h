@@ -15,6 +15,20 @@ namespace assay::properties {
 // The descriptor under which the child finds its end of the channel.
 inline constexpr int child_descriptor = 3;
 
+struct ChildEnd {
+  int signal = 0;        // that killed it; 0: it exited
+  int code = 0;          // that it exited with
+  bool by_host = false;  // the host killed it, for it did not end in time
+  // "killed by signal 11 (Segmentation fault)", "exited with code 0"; empty when by_host.
+  std::string text;
+};
+
+// Whether a signal killed it that nothing in a process brings about by going wrong, and that the
+// host did not send: the doing of an administrator, a job queue, a terminal or a machine short of
+// memory; or of the child itself, on purpose.
+bool was_killed_from_outside(const ChildEnd& end);
+
+// It leads a process group of its own: a terminal's ctrl-C is for the host alone.
 class ChildProcess {
  public:
   // `descriptor` becomes child_descriptor of the child; its stdin is empty. Nothing, with the
@@ -28,10 +42,13 @@ class ChildProcess {
 
   pid_t id() const { return id_; }
 
-  // Waits for its end, kills it when that takes longer than `patience`. How it ended by itself:
-  // "killed by signal 11 (Segmentation fault)", "exited with code 0"; empty when it had to be
-  // killed.
-  std::string finish(std::chrono::milliseconds patience);
+  // Without waiting, and without waiting for it in the system's sense.
+  bool has_ended() const;
+
+  // Waits for its end, kills it when that takes longer than `patience` of wall clock. Then kills
+  // what is left of its process group: what it started would go on for nobody. REQUIRES that it was
+  // not called before; else says that it exited with code 0.
+  ChildEnd finish(std::chrono::milliseconds patience);
 
  private:
   explicit ChildProcess(pid_t id) : id_(id) {}

@@ -30,11 +30,13 @@ std::optional<std::uint64_t> number(std::string_view word) {
   return value;
 }
 
-// Dies with its host, leaves no core file, keeps to its memory, prints nothing on stdout.
+// Dies with its host, leaves no core file, keeps to its memory, prints nothing on stdout; what it
+// prints on a terminal does not stop it, though its process group is in the background there.
 bool settle(std::uint64_t host, std::uint64_t bytes) {
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
   // The host may have died before that took hold.
   if (static_cast<std::uint64_t>(::getppid()) != host) return false;
+  ::signal(SIGTTOU, SIG_IGN);
   const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   if (bytes > 0) {

@@ -90,7 +90,9 @@ class PluginRun {
                      std::string& problem) {
     if (code == ASSAY_OK) return true;
     result.answer = code == ASSAY_OUT_OF_MEMORY ? Answer::undecided : Answer::error;
-    problem = std::string(function) + " returned " + std::to_string(code);
+    problem = code == ASSAY_OUT_OF_MEMORY
+                  ? "out of memory"
+                  : std::string(function) + " returned " + std::to_string(code);
     return false;
   }
 

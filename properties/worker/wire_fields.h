@@ -53,6 +53,7 @@ void fields(Wire& wire, detector::StepResult& result) {
 
 template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
+  // The last two are the host's to say.
   auto& [end, what, steps, disturbances, processor_seconds] = run;
   wire(end, what, steps);
 }

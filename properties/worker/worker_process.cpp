@@ -2,25 +2,25 @@
 
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
+#include <thread>
 
 #include "properties/worker/channel.h"
 #include "properties/worker/child_process.h"
 #include "properties/worker/wire_fields.h"
+#include "properties/worker/worker_watch.h"
 
 namespace assay::properties {
 
 namespace {
 
-// How long a process whose channel has closed may take to end by itself.
-constexpr std::chrono::milliseconds last_breath{1000};
+// Wall clock that a process whose channel has closed may take to end by itself. Generous, for a
+// process that is being killed on a loaded machine must not be taken for one that goes on.
+constexpr std::chrono::milliseconds last_breath{5000};
 
-Deadline in(double seconds) {
-  return std::chrono::steady_clock::now() +
-         std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-             std::chrono::duration<double>(seconds));
-}
+// So often in a row a worker may be killed from outside before that is the detector's own doing.
+constexpr int attempts = 3;
+
+std::string every_time(const ChildEnd& end) { return end.text + ", three times in a row"; }
 
 }  // namespace
 
@@ -28,6 +28,7 @@ struct WorkerProcess::Parts {
   struct Live {
     ChildProcess child;
     Channel channel;
+    std::thread::id starter;
   };
 
   std::filesystem::path program;
@@ -37,12 +38,41 @@ struct WorkerProcess::Parts {
   PluginDescription description;
   std::string problem;  // why there is no worker
   std::uint64_t starts = 0;
+  std::uint64_t told = 0;    // disturbances that runs speak of
+  std::uint64_t untold = 0;  // before the run that is next
+  int killed_under_way = 0;  // attempts at that run that were disturbed
 
   // A live worker, a new one if need be; else `problem` says why not.
   bool ensure() {
-    // One that ended between two cases, say with the thread that started it, owes no answer.
-    if (live && live->channel.is_closed()) live.reset();
-    if (live) return true;
+    if (live && live->channel.is_closed()) bury();
+    for (int killed = 0; !live; ++killed) {
+      if (!start()) return false;
+      const auto end = greet();
+      if (end && was_killed_from_outside(*end)) {
+        if (killed + 1 < attempts) continue;
+        problem = ended_while_loaded(every_time(*end));
+      } else if (end) {
+        problem = ended_while_loaded(end->text);
+      }
+      if (!problem.empty()) {
+        live.reset();
+        return false;
+      }
+      untold += static_cast<std::uint64_t>(killed);
+      return true;
+    }
+    return true;
+  }
+
+  // One that ended between two cases owes no answer. The system kills it when the thread that
+  // started it ends: that is no disturbance.
+  void bury() {
+    const ChildEnd end = live->child.finish(last_breath);
+    if (was_killed_from_outside(end) && live->starter == std::this_thread::get_id()) ++untold;
+    live.reset();
+  }
+
+  bool start() {
     problem.clear();
     auto ends = Channel::connected();
     if (!ends) {
@@ -55,67 +85,94 @@ struct WorkerProcess::Parts {
     auto child = ChildProcess::start(program, arguments, ends->second.descriptor(), problem);
     if (!child) return false;
     ++starts;
-    live.emplace(Live{std::move(*child), std::move(ends->first)});
+    live.emplace(Live{std::move(*child), std::move(ends->first), std::this_thread::get_id()});
     { const Channel closed_here = std::move(ends->second); }
-    if (!greet()) live.reset();
-    return live.has_value();
+    return true;
   }
 
-  bool greet() {
-    const std::string who = plugin_library ? plugin_library->string() : program.string();
+  std::string who() const { return plugin_library ? plugin_library->string() : program.string(); }
+  std::string ended_while_loaded(const std::string& how) const {
+    return who() + ": ended while it was loaded: " + how;
+  }
+
+  // How the worker ended, if it did, without a word; then there is none. Any other trouble is in
+  // `problem`.
+  std::optional<ChildEnd> greet() {
+    WorkerWatch watch(live->child, limits.seconds);
     std::string message;
-    const Transfer received = live->channel.receive(message, in(limits.seconds));
+    const Transfer received = live->channel.receive(message, [&] { return watch.patience(); });
     Hello hello;
-    if (received == Transfer::timed_out) {
-      problem = who + ": hung while it was loaded";
-    } else if (received == Transfer::closed) {
-      problem = who + ": ended while it was loaded: " + live->child.finish(last_breath);
+    if (received == Transfer::timed_out && !watch.has_ended()) {
+      problem = who() + ": hung while it was loaded: " + watch.why();
+    } else if (received != Transfer::done) {
+      const ChildEnd end = live->child.finish(last_breath);
+      live.reset();
+      return end;
     } else if (!decode(message, hello) || hello.wire_version != wire_version()) {
       problem = program.string() + ": of another build than this program";
     } else {
       problem = hello.problem;
       description = std::move(hello.description);
     }
-    return problem.empty();
-  }
-
-  // The run of the configuration that was under way when the worker fell silent; ends the worker.
-  CaseRun lost(Transfer transfer) {
-    CaseRun run;
-    run.end = transfer == Transfer::timed_out ? RunEnd::hung : RunEnd::crashed;
-    run.what = live->child.finish(transfer == Transfer::timed_out ? std::chrono::milliseconds(0)
-                                                                  : last_breath);
-    if (run.end == RunEnd::hung) {
-      std::array<char, 64> text;
-      std::snprintf(text.data(), text.size(), "no answer in %g s", limits.seconds);
-      run.what = text.data();
-    } else if (run.what.empty()) {
-      run.what = "closed its channel and went on";
-    }
-    live.reset();
-    return run;
+    return std::nullopt;
   }
 
   // Sends what is left to do and appends what comes back, until a run ends the worker.
   void run_rest(const corpus::Case& c, const std::vector<Configuration>& rest,
                 std::vector<CaseRun>& runs) {
     // The fields of a RunRequest, without a copy of the case.
-    Transfer transfer = live->channel.send(encode(c, rest), in(limits.seconds));
+    const std::string request = encode(c, rest);
+    WorkerWatch watch(live->child, limits.seconds);
+    const Patience patience = [&] { return watch.patience(); };
+    Transfer transfer = live->channel.send(request, patience);
     std::string message;
     for (std::size_t i = 0; i < rest.size(); ++i) {
-      if (transfer == Transfer::done) transfer = live->channel.receive(message, in(limits.seconds));
+      if (transfer == Transfer::done) transfer = live->channel.receive(message, patience);
       CaseRun run;
       if (transfer == Transfer::done && !decode(message, run)) transfer = Transfer::closed;
       if (transfer != Transfer::done) {
-        runs.push_back(lost(transfer));
+        lost(watch, transfer == Transfer::timed_out && !watch.has_ended(), runs);
         return;
       }
-      runs.push_back(std::move(run));
+      run.processor_seconds = watch.next_case();
+      keep(std::move(run), runs);
       if (runs.back().end == RunEnd::out_of_memory) {
         live.reset();  // it ends itself: what it has left of its memory is in pieces
         return;
       }
     }
+  }
+
+  // The worker fell silent: ends it. The run of the configuration that was under way, unless it is
+  // to be repeated.
+  void lost(WorkerWatch& watch, bool is_hung, std::vector<CaseRun>& runs) {
+    CaseRun run;
+    run.end = is_hung ? RunEnd::hung : RunEnd::crashed;
+    const std::string why_hung = watch.why();
+    run.processor_seconds = watch.next_case();
+    const ChildEnd end = live->child.finish(is_hung ? std::chrono::milliseconds(0) : last_breath);
+    live.reset();
+    if (is_hung) {
+      run.what = why_hung;
+    } else if (end.by_host) {
+      run.what = "closed its channel and went on";
+    } else if (!was_killed_from_outside(end)) {
+      run.what = end.text;
+    } else if (++killed_under_way < attempts) {
+      return;
+    } else {
+      run.what = every_time(end);
+      killed_under_way = 0;  // no disturbances after all
+    }
+    keep(std::move(run), runs);
+  }
+
+  void keep(CaseRun run, std::vector<CaseRun>& runs) {
+    run.disturbances = untold + static_cast<std::uint64_t>(killed_under_way);
+    told += run.disturbances;
+    untold = 0;
+    killed_under_way = 0;
+    runs.push_back(std::move(run));
   }
 };
 
@@ -142,7 +199,9 @@ std::vector<CaseRun> WorkerProcess::run(const corpus::Case& c,
   while (runs.size() < configurations.size()) {
     const auto rest = configurations.subspan(runs.size());
     if (!parts_->ensure()) {
-      runs.insert(runs.end(), rest.size(), {RunEnd::not_run, parts_->problem, {}});
+      for (std::size_t i = 0; i < rest.size(); ++i) {
+        parts_->keep({RunEnd::not_run, parts_->problem, {}}, runs);
+      }
       break;
     }
     parts_->run_rest(c, {rest.begin(), rest.end()}, runs);
@@ -151,6 +210,7 @@ std::vector<CaseRun> WorkerProcess::run(const corpus::Case& c,
 }
 
 std::uint64_t WorkerProcess::starts() const { return parts_->starts; }
+std::uint64_t WorkerProcess::disturbances() const { return parts_->told + parts_->untold; }
 
 std::filesystem::path worker_program() {
   std::error_code ignored;

@@ -1,5 +1,8 @@
 // The detector under test in a process of its own, which never holds the oracle or the expected
 // facts of a case: a crash, a hang or a changed floating-point mode stays there.
+//
+// What a neighbour does is not the detector's: a worker that is killed from outside is replaced and
+// the run repeated, and a loaded machine makes no run hang.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +18,10 @@
 namespace assay::properties {
 
 struct WorkerLimits {
-  double seconds = 10;      // wall clock, of one case in one configuration; then it is killed
+  // Processor time of one case in one configuration, and of loading the plug-in: of the worker with
+  // its threads and the processes that it starts. Then it is killed; so is what sleeps or does not
+  // end (worker_watch.h).
+  double seconds = 10;
   std::uint64_t bytes = 0;  // of address space; 0: no limit
 };
 
@@ -37,10 +43,17 @@ class WorkerProcess {
   // One run for each configuration, in order. A crash or a hang is reported for the configuration
   // that had it; the others still run, in a new worker. Where no worker can be started the
   // runs are not_run and say why.
+  // A run whose worker is killed from outside (child_process.h) is repeated in a new one. The third
+  // time in a row it has crashed: a plug-in that does this to itself is not told from bad luck by
+  // one death, but by three. So may the loading of a plug-in fail.
   std::vector<CaseRun> run(const corpus::Case& c, std::span<const Configuration> configurations);
 
   // How often a worker was started, for statistics and tests.
   std::uint64_t starts() const;
+  // How often a worker was killed from outside without that being judged: the sum over all runs,
+  // and what came after the last of them. A death between two cases counts, for a plug-in could
+  // otherwise kill itself unseen.
+  std::uint64_t disturbances() const;
 
  private:
   struct Parts;

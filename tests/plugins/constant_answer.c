@@ -41,6 +41,9 @@ static int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1)
 #ifdef EXIT
   exit(0);
 #endif
+#ifdef NO_MEMORY
+  return ASSAY_OUT_OF_MEMORY;
+#endif
 #ifdef FAIL
   return ASSAY_FAILED;
 #endif
@@ -68,6 +71,9 @@ static int32_t result(assay_handle* h, assay_result* r) {
 static void destroy(assay_handle* h) { free(h); }
 
 const assay_detector_api* assay_detector(void) {
+#ifdef HANG_WHILE_LOADED
+  for (;;) pause();
+#endif
   static const assay_detector_api api = {ABI, describe, create, evaluate, commit, result, destroy};
   return &api;
 }

@@ -15,14 +15,17 @@
 #include <thread>
 
 #include "detector/detector.h"
+#include "properties/run_verdict.h"
 #include "properties/worker/wire_fields.h"
 #include "properties/worker/worker_process.h"
+#include "tests/properties/children.h"
 #include "tests/properties/small_case.h"
 
 namespace assay::properties {
 namespace {
 
 using detector::Answer;
+using test::children;
 using test::plugin;
 using test::small_case;
 
@@ -32,20 +35,6 @@ const std::vector<Configuration> four = {
     {"bvh", {detector::Culling::bvh}},
     {"first", {detector::Culling::view_point, detector::Start::verified, detector::Pairs::first}}};
 const std::vector<Configuration> one = {{"plug-in", {}}};
-
-// Processes whose parent is this one, dead ones that nobody has waited for included.
-std::vector<int> children() {
-  std::vector<int> found;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::ifstream status(entry.path() / "status");
-    for (std::string line; std::getline(status, line);) {
-      if (line == "PPid:\t" + std::to_string(getpid())) found.push_back(std::stoi(name));
-    }
-  }
-  return found;
-}
 
 TEST(Worker, AnswersAsThisProcessDoes) {
   WorkerProcess worker(ASSAY_WORKER, std::nullopt);
@@ -158,8 +147,20 @@ TEST(Worker, MemoryEndsInUndecided) {
   constexpr std::uint64_t limit = std::uint64_t{400} << 20;
   WorkerProcess worker(ASSAY_WORKER, std::nullopt, {.seconds = 60, .bytes = limit});
   const auto runs = worker.run(c, std::vector<Configuration>(2, four[2]));
-  for (const auto& run : runs) EXPECT_EQ(run.end, RunEnd::out_of_memory) << run.what;
+  for (const auto& run : runs) {
+    EXPECT_EQ(run.end, RunEnd::out_of_memory) << run.what;
+    const auto verdict = judge_run(c, run, {}, {.total = true}, {});
+    EXPECT_EQ(verdict.outcome, Outcome::undecided);
+    EXPECT_EQ(verdict.what, "out of memory");
+  }
   EXPECT_EQ(worker.run(small_case(31, 0), one)[0].end, RunEnd::completed);
+
+  // Of a plug-in that says so, in a step.
+  const auto step = WorkerProcess(ASSAY_WORKER, plugin("no_memory")).run(small_case(31, 0), one)[0];
+  const auto truth = judge_case(small_case(31, 0));
+  const auto verdict = judge_run(small_case(31, 0), step, truth, {.total = true}, {});
+  EXPECT_EQ(verdict.outcome, Outcome::undecided);
+  EXPECT_EQ(verdict.what, "step 1: out of memory");
 }
 
 TEST(Worker, OneThatDiedBetweenCasesIsReplaced) {

@@ -1,0 +1,39 @@
+#include "properties/worker/processor_time.h"
+
+#include <algorithm>
+
+namespace assay::properties {
+
+ProcessorTime::ProcessorTime(pid_t process) : process_(process) {
+  clockid_t clock;
+  if (::clock_getcpuclockid(process, &clock) == 0) clock_ = clock;
+  begin_ = own_seconds();
+}
+
+double ProcessorTime::own_seconds() const {
+  timespec now = {};
+  if (!clock_ || ::clock_gettime(*clock_, &now) != 0) return begin_;
+  constexpr double nanosecond = 1e-9;
+  return static_cast<double>(now.tv_sec) + nanosecond * static_cast<double>(now.tv_nsec);
+}
+
+double ProcessorTime::seconds() const { return own_seconds() - begin_ + of_others_; }
+
+double ProcessorTime::lap() {
+  const double now = own_seconds();
+  const double used = now - begin_ + of_others_;
+  begin_ = now;
+  of_others_before_.reset();
+  of_others_ = 0;
+  return used;
+}
+
+ProcessTree ProcessorTime::look() {
+  const ProcessTree tree = look_at(process_);
+  if (!of_others_before_) of_others_before_ = tree.descendant_seconds;
+  // The sum falls when a process ends that nobody waits for.
+  of_others_ = std::max(of_others_, tree.descendant_seconds - *of_others_before_);
+  return tree;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,61 @@
+// Decides when a worker has had its time. The limit is one of processor time, so that the verdict
+// does not depend on what else the machine does; what uses none is caught by wider limits of wall
+// clock.
+//
+// A worker that answers soon is not looked at: before the wall clock has reached the limit divided
+// by the number of processors no process can have used it up. After that /proc is read about once a
+// second, and more often towards the end.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "properties/worker/child_process.h"
+#include "properties/worker/processor_time.h"
+
+namespace assay::properties {
+
+// The wider limits, as multiples of the limit of processor time.
+inline constexpr double asleep_limit = 10;  // of wall clock in which the worker only slept
+inline constexpr double wall_limit = 100;   // of wall clock in all
+
+class WorkerWatch {
+ public:
+  // `seconds` of processor time for each case, of the worker with its threads and all processes
+  // that it started. Begins the first case. `worker` outlives this.
+  WorkerWatch(const ChildProcess& worker, double seconds);
+
+  // To be asked before each wait for the worker: how long to wait before asking again. Nothing when
+  // waiting is over: why() says why, or the worker has_ended(). A worker is over its limit by at
+  // most a hundredth of it (at least 1 ms) a processor.
+  std::optional<std::chrono::milliseconds> patience();
+
+  // The processor seconds of the case until now; the next one begins.
+  double next_case();
+
+  // "no answer in 10 s of processor time", with ": asleep for 100 s" or the like behind it where
+  // another limit ended it. Only limits are named, so that two such ends read the same.
+  std::string why() const;
+  // It ended without closing its end of the channel: a process that it started holds that open.
+  bool has_ended() const { return end_ == End::ended; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  enum class End { none, used_up, asleep, endless, ended };
+
+  void begin();
+  void look(Clock::time_point now);
+  void plan_next_look(Clock::time_point now, double seconds);
+
+  const ChildProcess& worker_;
+  double limit_;
+  ProcessorTime time_;
+  Clock::time_point last_look_, next_look_;
+  double used_ = 0;     // processor seconds at the last look
+  double watched_ = 0;  // seconds of wall clock until the last look
+  double asleep_ = 0;   // of these, slept
+  End end_ = End::none;
+};
+
+}  // namespace assay::properties
