@@ -31,8 +31,7 @@ int conclude(const RunCommandRequest& command, const properties::CampaignRequest
   const auto judgement = judge(findings, properties::asked_of_a_run());
   fmt::print("{}\n{}\n{}, in {:.0f} s\n", findings_text(findings), gates_text(judgement),
              verdict_text(findings, judgement), seconds);
-  const auto is_complete =
-      judgement.of(properties::Gate::complete).state == properties::GateState::holds;
+  const bool is_complete = !has_more_to_do(findings);
   if (judgement.exit_code == exit_defect || judgement.exit_code == exit_unsound) {
     fmt::print("next: assay list failures {}\n", shell_word(command.out));
   } else if (!is_complete) {

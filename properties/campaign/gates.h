@@ -84,6 +84,9 @@ struct Judgement {
   const GateResult& of(Gate gate) const { return gates[static_cast<std::size_t>(gate)]; }
 };
 
+// Whether the same command would add to the findings: it ended by its time, or was killed.
+bool has_more_to_do(const RunFindings& findings);
+
 Judgement judge(const RunFindings& findings, const Asked& asked);
 // By what its stores say was asked, where they do; else as a run.
 Judgement judge(const RunFindings& findings);

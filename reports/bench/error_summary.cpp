@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "reports/bench/bootstrap.h"
 #include "properties/campaign/statistics.h"
+#include "reports/bench/bootstrap.h"
 
 namespace assay::reports {
 namespace {

@@ -216,8 +216,9 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
   write(certificate, old.dump(1) + "\n");
   const auto refused = run_assay("verify " + certificate);
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_TRUE(contains(refused.out, "of schema assay-certificate/1, this assay verifies "
-                                    "assay-certificate/2: verify it with the assay that issued it"))
+  EXPECT_TRUE(contains(refused.out,
+                       "of schema assay-certificate/1, this assay verifies "
+                       "assay-certificate/2: verify it with the assay that issued it"))
       << refused.out;
 }
 
