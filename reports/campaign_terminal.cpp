@@ -95,13 +95,9 @@ void CampaignTerminal::announce() const {
   std::fflush(stdout);
 }
 
-void CampaignTerminal::show(const char* phase, const std::string& text) {
-  if (phase_ != phase) {
-    phase_ = phase;
-    phase_began_ = Clock::now();
-    progress_.emplace(phase);
-  }
-  progress_->show(text);
+void CampaignTerminal::on_phase(const char* phase) {
+  phase_began_ = Clock::now();
+  progress_.emplace(phase);
 }
 
 void CampaignTerminal::on_canary(const properties::Canary& canary) {
@@ -109,17 +105,14 @@ void CampaignTerminal::on_canary(const properties::Canary& canary) {
              canary.found_after ? fmt::format("found after {} cases", *canary.found_after)
                                 : "NOT FOUND: the harness sees nothing");
   std::fflush(stdout);
-  phase_began_ = Clock::now();
-  phase_ = "trials";
-  progress_.emplace("trials");
 }
 
 void CampaignTerminal::on_trial(const properties::TrialProgress& state) {
-  show("trials", fmt::format("{}/{} trials, {} with a defect, {} undecided{}{}", state.done,
-                             state.planned, state.defects, state.undecided,
-                             state.disturbed ? fmt::format(", {} disturbed", state.disturbed) : "",
-                             rest_text(state.done - state.stored, state.planned - state.done,
-                                       seconds_since(phase_began_))));
+  progress_->show(fmt::format("{}/{} trials, {} with a defect, {} undecided{}{}", state.done,
+                              state.planned, state.defects, state.undecided,
+                              state.disturbed ? fmt::format(", {} disturbed", state.disturbed) : "",
+                              rest_text(state.done - state.stored, state.planned - state.done,
+                                        seconds_since(phase_began_))));
 }
 
 void CampaignTerminal::on_trials(const properties::TrialsEnd& end) {
@@ -129,7 +122,7 @@ void CampaignTerminal::on_trials(const properties::TrialsEnd& end) {
   std::fflush(stdout);
 }
 
-void CampaignTerminal::on_shrinking(const std::string& signature) { show("shrinking", signature); }
+void CampaignTerminal::on_shrinking(const std::string& signature) { progress_->show(signature); }
 
 void CampaignTerminal::on_failures_shrunk() {
   progress_.reset();
@@ -143,18 +136,18 @@ void CampaignTerminal::on_failures_shrunk() {
 void CampaignTerminal::on_hunt(const properties::HuntProgress& state) {
   const auto seeds = static_cast<std::uint64_t>(state.seeds);
   const auto done = static_cast<std::uint64_t>(state.seed - 1) * state.most_cases + state.cases;
-  show("faults",
-       fmt::format("seed {} of {}: {} cases, {} of {} planted faults still hidden{}", state.seed,
-                   state.seeds, state.cases, state.hidden, state.planted,
-                   rest_text(done, seeds * state.most_cases - done, seconds_since(phase_began_))));
+  progress_->show(
+      fmt::format("seed {} of {}: {} cases, {} of {} planted faults still hidden{}", state.seed,
+                  state.seeds, state.cases, state.hidden, state.planted,
+                  rest_text(done, seeds * state.most_cases - done, seconds_since(phase_began_))));
 }
 
 void CampaignTerminal::on_fault_shrunk(const std::string& fault) {
-  show("faults", fmt::format("{} shrunk", fault));
+  progress_->show(fmt::format("{} shrunk", fault));
 }
 
 void CampaignTerminal::on_world(const std::string& world) {
-  show("tetrahedron", fmt::format("{}: every motion of a tetrahedron on a small grid", world));
+  progress_->show(fmt::format("{}: every motion of a tetrahedron on a small grid", world));
 }
 
 std::optional<std::string> run_on_terminal(const properties::CampaignRequest& request,

@@ -32,6 +32,7 @@ class CampaignTerminal : public properties::CampaignObserver {
   CampaignTerminal(const properties::CampaignRequest& request, const properties::Store& store,
                    std::string out);
 
+  void on_phase(const char* phase) override;
   void on_canary(const properties::Canary& canary) override;
   void on_trial(const properties::TrialProgress& state) override;
   void on_trials(const properties::TrialsEnd& end) override;
@@ -46,13 +47,11 @@ class CampaignTerminal : public properties::CampaignObserver {
 
  private:
   void announce() const;
-  void show(const char* phase, const std::string& text);
 
   const properties::CampaignRequest& request_;
   const properties::Store& store_;
   const std::string out_;
   std::chrono::steady_clock::time_point phase_began_;
-  std::string phase_;
   std::optional<PlainProgress> progress_;
   std::optional<std::string> problem_;
 };

@@ -6,6 +6,7 @@
 
 #include "properties/campaign/bounds.h"
 #include "properties/campaign/count_names.h"
+#include "reports/exit_code.h"
 
 namespace assay::reports {
 namespace {
@@ -32,7 +33,7 @@ std::string stratum_row(const RunFindings& findings, const properties::StratumPl
 
 // A row for each family and configuration, one where all configurations agree.
 std::string strata_text(const RunFindings& findings) {
-  const auto& configurations = findings.run.configurations;
+  const auto& configurations = findings.run.detector.configurations;
   std::string out = fmt::format("{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n",
                                 "stratum", "configuration", "n", "holds", "defects", "undecided",
                                 "bound", "wanted", "steps/s/core");
@@ -119,14 +120,15 @@ std::string tags_text(const properties::Counts& counts) {
 }
 
 std::string laws_text(const RunFindings& findings) {
-  const auto wanted = findings.run.plan.law_premises;
+  const auto wanted = findings.laws_are_judged() ? findings.run.plan.law_premises : 0;
   std::string out = fmt::format("{:52} {:>9} {:>7} {:>7}\n", "law", "premise", "close", "broken");
   for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
     const double close = tally.premise ? 100.0 * static_cast<double>(tally.close) /
                                              static_cast<double>(tally.premise)
                                        : 0.0;
     out += fmt::format("{:52} {:>9} {:>6.0f}% {:>7}{}\n", law->name, tally.premise, close,
-                       tally.broken, tally.premise < wanted ? "  too few" : "");
+                       tally.broken,
+                       properties::starved(*law, tally, wanted).empty() ? "" : "  too few");
   }
   return out;
 }
@@ -157,7 +159,7 @@ std::string faults_text(const RunFindings& findings) {
     const auto median = proof.median();
     out += fmt::format("{:44} {:18} {:>10} {:>12} {:>9}  {}\n", proof.fault, proof.law,
                        median ? fmt::format("{}", *median) : "-",
-                       fault && fault->curated.empty() ? "-" : (proof.by_curated ? "yes" : "no"),
+                       fault && fault->curated.empty() ? "-" : (proof.curated ? "yes" : "no"),
                        proof.known_vertices ? fmt::format("{}", proof.known_vertices) : "-",
                        word_of(proof));
   }
@@ -209,11 +211,12 @@ std::string findings_text(const RunFindings& findings) {
   if (!run.plan.strata.empty()) {
     out += fmt::format("\n{}{}\n{}\n{}", strata_text(findings), disturbance_text(findings),
                        distribution_text(findings.tally), tags_text(findings.tally.counts));
-    if (!run.built_in)
+    if (!run.detector.built_in)
       out += fmt::format(
           "the contract leaves out what would have been a miss in {} steps\n",
           properties::count_of(findings.tally.counts, properties::left_out_misses_name));
-    if (run.built_in && run.plan.laws_every > 0) out += fmt::format("\n{}", laws_text(findings));
+    if (run.detector.built_in && run.plan.laws_every > 0)
+      out += fmt::format("\n{}", laws_text(findings));
   }
   if (!findings.evidence.faults.empty()) out += fmt::format("\n{}", faults_text(findings));
   const auto shrinking = shrinking_text(findings);
@@ -236,20 +239,14 @@ std::string gates_text(const properties::Judgement& judgement) {
 }
 
 std::string verdict_text(const RunFindings& findings, const properties::Judgement& judgement) {
-  std::uint64_t defects = 0, open = 0;
-  for (const auto& [family, stratum] : findings.tally.strata) {
-    for (const auto& outcomes : stratum.by_configuration) {
-      defects += outcomes.defects;
-      open += outcomes.open();
-    }
-  }
   std::string word = judgement.verdict;
   // What has to be looked at stands out.
-  if (judgement.exit_code == 1 || judgement.exit_code == 4)
+  if (judgement.exit_code == exit_defect || judgement.exit_code == exit_unsound)
     std::transform(word.begin(), word.end(), word.begin(),
                    [](char c) { return c == '-' ? ' ' : static_cast<char>(std::toupper(c)); });
-  return fmt::format("{}: {} trials with a defect, {} undecided, {} laws broken", word, defects,
-                     open, properties::broken_laws(findings.tally.counts));
+  return fmt::format("{}: {} trials with a defect, {} undecided, {} laws broken", word,
+                     findings.tally.with_defect(), findings.tally.open(),
+                     properties::broken_laws(findings.tally.counts));
 }
 
 }  // namespace assay::reports

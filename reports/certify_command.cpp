@@ -61,6 +61,7 @@ class Certification {
     store_subject();
     if (const auto wrong = store_waivers()) return refuse(*wrong);
     if (const auto wrong = run_corpus()) return refuse(*wrong);
+    forget_corpus_failures();
     if (const auto wrong = holds_shards(out_) ? take_shards() : run_trials()) return refuse(*wrong);
     if (const auto wrong = show_corpus_failures()) return refuse(*wrong);
     run_self_test();
@@ -77,7 +78,7 @@ class Certification {
     const auto waivers = corpus::sha256_of_file(known_failures);
     keep(properties::InputDigests{corpus_digest(ASSAY_CORPUS_DIR),
                                   waivers ? std::optional(waivers.value()) : std::nullopt});
-    keep(to_words(properties::asked_of_a_certificate()));
+    keep(properties::asked_of_a_certificate());
   }
 
   template <class T>
@@ -106,6 +107,13 @@ class Certification {
     };
     return check_corpus(request_, ASSAY_CORPUS_DIR, on_row,
                         [&](const auto& failure) { corpus_failures_.push_back(failure); });
+  }
+
+  // Those of an earlier call that the corpus does not show any more.
+  void forget_corpus_failures() {
+    std::set<std::string> signatures;
+    for (const auto& failure : corpus_failures_) signatures.insert(failure.signature);
+    checks_.keep_failures(signatures);
   }
 
   std::optional<std::string> show_corpus_failures() {
@@ -213,6 +221,11 @@ int run_certify(const CertifyRequest& command) {
                            request)) {
     return refuse(*wrong);
   }
+  if (request.power && holds_shards(command.out))
+    return refuse(
+        fmt::format("{}: its shards are judged by their own planted faults: give --power "
+                    "to the run of each",
+                    command.out));
   std::string problem;
   auto checks = Store::open(
       properties::checks_file(command.out),

@@ -43,14 +43,14 @@ int list_failures(const std::string& folder) {
   std::string problem;
   const auto findings = properties::read_findings(folder, problem);
   if (!findings) return refuse(problem);
-  for (const auto& [signature, count] : findings->met) {
-    fmt::print("{:>8} times  {}\n", count, signature);
-    for (const auto& failure : findings->failures) {
-      if (failure.signature == signature)
-        fmt::print("    {} ({}): {}\n", failure.id, failure.configuration, failure.what);
-    }
+  std::string told;
+  for (const auto& failure : findings->failures) {
+    if (failure.signature != told)
+      fmt::print("{:>8} times  {}\n", findings->met_count(failure), failure.signature);
+    told = failure.signature;
+    fmt::print("    {} ({}): {}\n", failure.id, failure.configuration, failure.what);
   }
-  if (findings->met.empty()) fmt::print("no failures\n");
+  if (told.empty()) fmt::print("no failures\n");
   return exit_holds;
 }
 

@@ -45,7 +45,7 @@ int run_merge(const MergeRequest& request) {
   const auto planned = findings->planned(), trials = findings->tally.trials();
   fmt::print("{} stores of campaign {}, seed {}: {} of {} trials; writes {}\n", stores.size(),
              run.plan.name, run.seed, trials, planned, out.string());
-  const auto failures = write_failures(*merged, request.out, "");
+  const auto failures = write_failures(*merged, request.out, findings->library);
   fmt::print("{}", failures.text);
   if (failures.problem) return refuse(*failures.problem);
   const auto judgement = judge(*findings, properties::asked_of_a_run());
@@ -53,8 +53,8 @@ int run_merge(const MergeRequest& request) {
   if (trials < planned) {
     fmt::print("{} trials are absent: merge the shards that hold them too\n", planned - trials);
   } else {
-    fmt::print("next: assay certify --campaign {} --seed {} --out {}\n", run.plan.name, run.seed,
-               shell_word(request.out));
+    fmt::print("next: assay certify --campaign {} --seed {}{} --out {}\n", run.plan.name, run.seed,
+               detector_words(findings->library), shell_word(request.out));
   }
   // That they are one now: whether it holds is for certify to say.
   return exit_holds;

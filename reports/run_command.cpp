@@ -31,8 +31,8 @@ int conclude(const RunCommandRequest& command, const properties::CampaignRequest
   const auto judgement = judge(findings, properties::asked_of_a_run());
   fmt::print("{}\n{}\n{}, in {:.0f} s\n", findings_text(findings), gates_text(judgement),
              verdict_text(findings, judgement), seconds);
-  const bool is_complete = !has_more_to_do(findings);
-  if (judgement.exit_code == exit_defect || judgement.exit_code == exit_unsound) {
+  const bool is_complete = !findings.has_more_to_do();
+  if (!findings.failures.empty()) {
     fmt::print("next: assay list failures {}\n", shell_word(command.out));
   } else if (!is_complete) {
     fmt::print("next: run the same again to go on, with --time for another limit\n");

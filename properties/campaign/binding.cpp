@@ -2,43 +2,42 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "corpus/digest.h"
+#include "properties/campaign/json_optional.h"
 #include "properties/campaign/store.h"
 #include "properties/faults/fault.h"
 #include "properties/generators/families.h"
 
 namespace assay::properties {
+
+using Json = nlohmann::json;
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector::Contract, adjacency, coordinates, margin)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector::Configuration, name, claims)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector, name, built_in, contract, configurations)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDigests, program, worker, plugin, generator)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, seed, planted_faults, shard, detector, digests)
+
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json words_of(const Claims& claims) {
-  Json list = Json::array();
-  for (const auto claim : list_of(claims)) list.push_back(name_of(claim));
-  return list;
-}
-
-Json json_of(const DetectorUnderTest& detector) {
-  Json configurations = Json::array();
+BoundDetector bound(const DetectorUnderTest& detector) {
+  const auto& contract = detector.contract;
+  BoundDetector out{detector.name,
+                    detector.built_in,
+                    {name_of(contract.adjacency), name_of(contract.coordinates), contract.margin},
+                    {}};
   for (const auto& configuration : detector.configurations) {
-    configurations.push_back(
-        {{"name", configuration.name}, {"claims", words_of(detector.claims_in(configuration))}});
+    out.configurations.push_back({configuration.name, {}});
+    for (const auto claim : list_of(detector.claims_in(configuration)))
+      out.configurations.back().claims.emplace_back(name_of(claim));
   }
-  return {{"name", detector.name},
-          {"built_in", detector.built_in},
-          {"contract",
-           {{"adjacency", name_of(detector.contract.adjacency)},
-            {"coordinates", name_of(detector.contract.coordinates)},
-            {"margin", detector.contract.margin}}},
-          {"configurations", std::move(configurations)}};
+  return out;
 }
 
 // A file that is not there is found out by whoever runs it.
-Json digest_of(const std::filesystem::path& file) {
+std::optional<std::string> digest_of(const std::filesystem::path& file) {
   const auto digest = corpus::sha256_of_file(file);
-  return digest ? Json(digest.value()) : Json(nullptr);
+  return digest ? std::optional(digest.value()) : std::nullopt;
 }
 
 }  // namespace
@@ -46,48 +45,30 @@ Json digest_of(const std::filesystem::path& file) {
 std::string binding_of(const CampaignRequest& request) {
   CampaignPlan plan = request.plan;
   plan.seconds = plan.shrink_share = plan.tetrahedron_seconds = 0;
-  const Json json = {{"schema", store_schema},
-                     {"campaign", Json::parse(plan_text(plan))},
-                     {"seed", request.seed},
-                     {"shard", text_of(request.shard)},
-                     {"detector", json_of(request.detector)},
-                     {"planted_faults", planted_count()},
-                     {"digests",
-                      {{"program", digest_of("/proc/self/exe")},
-                       {"worker", digest_of(request.worker)},
-                       {"plugin", request.plugin ? digest_of(*request.plugin) : Json(nullptr)},
-                       {"generator", generator_digest()}}}};
+  Json json =
+      BoundRun{{},
+               request.seed,
+               planted_count(),
+               text_of(request.shard),
+               bound(request.detector),
+               {digest_of("/proc/self/exe"), digest_of(request.worker),
+                request.plugin ? digest_of(*request.plugin) : std::nullopt, generator_digest()}};
+  json["schema"] = store_schema;
+  json["campaign"] = Json::parse(plan_text(plan));
   return json.dump();
 }
+
+Json json_of(const BoundDetector& detector) { return detector; }
+Json json_of(const BoundDigests& digests) { return digests; }
 
 BoundRun read_binding(const std::string& text, const std::filesystem::path& file) try {
   const Json json = Json::parse(text);
   auto plan = parse_plan(json.at("campaign").dump(), file);
   if (!plan) throw StoreProblem(plan.error().message);
-  const auto &detector = json.at("detector"), &digests = json.at("digests"),
-             &contract = detector.at("contract");
-  BoundRun run;
+  auto run = json.get<BoundRun>();
   run.plan = std::move(plan.value());
-  run.seed = json.at("seed");
-  run.planted_faults = json.at("planted_faults");
-  run.shard = json.at("shard");
-  run.detector = detector.at("name");
-  run.built_in = detector.at("built_in");
-  run.adjacency = contract.at("adjacency");
-  run.coordinates = contract.at("coordinates");
-  run.margin = contract.at("margin");
-  for (const auto& configuration : detector.at("configurations"))
-    run.configurations.push_back({configuration.at("name"), configuration.at("claims")});
-  // A program that was gone when it ran has no digest.
-  const auto digest = [&](const char* name) {
-    return digests.at(name).is_string() ? digests.at(name).get<std::string>() : std::string();
-  };
-  run.program = digest("program");
-  run.worker = digest("worker");
-  run.generator = digest("generator");
-  if (!digests.at("plugin").is_null()) run.plugin = digest("plugin");
   return run;
-} catch (const nlohmann::json::exception& wrong) {
+} catch (const Json::exception& wrong) {
   throw StoreProblem(fmt::format("{}: not the store of a run: {}", file.string(), wrong.what()));
 }
 

@@ -1,6 +1,7 @@
 // What a store's trials are of: the text, a JSON object, that binds a store to a run.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,23 +16,37 @@ namespace assay::properties {
 // plug-in, null for the built-in detector, and of the generator's first cases).
 std::string binding_of(const CampaignRequest& request);
 
-// The same, read back.
-struct BoundRun {
+// The same, as types.
+struct BoundDetector {
+  struct Contract {
+    std::string adjacency, coordinates;  // by the names of claims.h
+    double margin = 0;
+  };
   struct Configuration {
     std::string name;
     std::vector<std::string> claims;
   };
+  std::string name;
+  bool built_in = true;
+  Contract contract;
+  std::vector<Configuration> configurations;
+};
+struct BoundDigests {
+  // Nothing where a program was gone when the run began, and for the built-in detector's plug-in.
+  std::optional<std::string> program, worker, plugin;
+  std::string generator;
+};
+struct BoundRun {
   CampaignPlan plan;
   std::uint64_t seed = 0, planted_faults = 0;
   std::string shard;  // "1/4", merged_shard or checks_shard
-  std::string detector;
-  bool built_in = true;
-  std::string adjacency, coordinates;  // the contract, by the names of claims.h
-  double margin = 0;
-  std::vector<Configuration> configurations;
-  std::string program, worker, generator;
-  std::optional<std::string> plugin;
+  BoundDetector detector;
+  BoundDigests digests;
 };
+// As they stand in a binding, and in a certificate.
+nlohmann::json json_of(const BoundDetector& detector);
+nlohmann::json json_of(const BoundDigests& digests);
+
 // Throws StoreProblem where the text is no binding of this schema. file: named in the problem.
 BoundRun read_binding(const std::string& text, const std::filesystem::path& file);
 

@@ -6,7 +6,8 @@ namespace assay::properties {
 
 std::uint64_t number_of_bounds(const BoundRun& run) {
   std::uint64_t claims = 0;
-  for (const auto& configuration : run.configurations) claims += configuration.claims.size();
+  for (const auto& configuration : run.detector.configurations)
+    claims += configuration.claims.size();
   return run.plan.strata.size() * claims;
 }
 

@@ -67,18 +67,21 @@ std::vector<SetPairCount> set_pairs_in(const Counts& counts) {
   return list;
 }
 
+std::string starved(const Law& law, const LawTally& tally, std::uint64_t wanted_premises) {
+  if (wanted_premises == 0) return "";
+  if (tally.premise < wanted_premises)
+    return fmt::format("the premise of {} held {} times, {} are wanted", law.name, tally.premise,
+                       wanted_premises);
+  if (4 * tally.close >= tally.premise) return "";
+  return fmt::format("{} was close in {} of {} cases, a quarter is wanted", law.name, tally.close,
+                     tally.premise);
+}
+
 std::vector<std::string> starved_laws(const Counts& counts, std::uint64_t wanted_premises) {
   std::vector<std::string> lines;
-  if (wanted_premises == 0) return lines;
-  for (const auto& law : laws()) {
-    const auto [premise, close, broken, first_broken] = tally_of(counts, law.name);
-    if (premise < wanted_premises) {
-      lines.push_back(fmt::format("the premise of {} held {} times, {} are wanted", law.name,
-                                  premise, wanted_premises));
-    } else if (4 * close < premise) {
-      lines.push_back(fmt::format("{} was close in {} of {} cases, a quarter is wanted", law.name,
-                                  close, premise));
-    }
+  for (const auto& [law, tally] : laws_in(counts)) {
+    auto line = starved(*law, tally, wanted_premises);
+    if (!line.empty()) lines.push_back(std::move(line));
   }
   return lines;
 }

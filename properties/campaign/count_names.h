@@ -37,8 +37,10 @@ struct SetPairCount {
 };
 std::vector<SetPairCount> set_pairs_in(const Counts& counts);
 
-// A line for each law whose premise held less often than wanted, or was close in less than a
-// quarter of the steps. None when 0 are wanted.
+// Why a law was met too seldom: its premise held less often than wanted, or was close in less than
+// a quarter of the steps. Empty where it was not, and when 0 are wanted.
+std::string starved(const Law& law, const LawTally& tally, std::uint64_t wanted_premises);
+// A line for each law that is.
 std::vector<std::string> starved_laws(const Counts& counts, std::uint64_t wanted_premises);
 
 // How many laws were broken.

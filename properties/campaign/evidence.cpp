@@ -4,12 +4,46 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
+
+#include "properties/campaign/json_optional.h"
 
 namespace assay::properties {
+
+// The keys of the facts, once for both directions: the names of the members. What a row's name or
+// shard says is no fact.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Canary, found_after)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HarnessProblem, what)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshCounts, triangles, vertices, steps)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShrunkFault, before, after, calls)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaultProof, law, status, curated, needed, cases, time_over,
+                                   known_vertices, shrunk)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PowerSource, campaign, detector, seed, program, worker,
+                                   generator, rows)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(World, classes, motions, all, collisions, complete,
+                                   counterexample)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Paths, out, detector)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputDigests, corpus, waivers)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StoredWaiver, reason, link, expires, expired)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow::Failed, id, signature, what)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow, input, configuration, cases, left_out, steps,
+                                   collisions, pairs, defects, failed, open)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SelfTestRow, queries, contacts, contradictions, open, complete)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SpeedFigure, median, lo, hi, samples)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Issued, at, seconds)
+
+void to_json(nlohmann::json& j, FaultStatus status) { j = name_of(status); }
+void from_json(const nlohmann::json& j, FaultStatus& status) {
+  for (const auto one : {FaultStatus::planted, FaultStatus::open, FaultStatus::equivalent}) {
+    if (j == name_of(one)) return void(status = one);
+  }
+  throw StoreProblem("no status of a fault: " + j.dump());
+}
+
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 // The kinds of rows.
 constexpr const char* canary_kind = "canary";
@@ -32,171 +66,29 @@ constexpr const char* paths_name = "paths";
 constexpr const char* inputs_name = "inputs";
 constexpr const char* issued_name = "issued";
 
-// The keys of the facts, once for both directions. What a row's name or shard says is no fact.
-template <class Io>
-void fields(Io& io, Canary& x) {
-  io("found_after", x.found_after);
-}
-template <class Io>
-void fields(Io& io, HarnessProblem& x) {
-  io("what", x.what);
-}
-template <class Io>
-void fields(Io& io, MeshCounts& x) {
-  io("triangles", x.triangles), io("vertices", x.vertices), io("steps", x.steps);
-}
-template <class Io>
-void fields(Io& io, ShrunkFault& x) {
-  io("before", x.before), io("after", x.after), io("calls", x.calls);
-}
-template <class Io>
-void fields(Io& io, FaultProof& x) {
-  io("law", x.law), io("status", x.status), io("curated", x.by_curated), io("needed", x.needed);
-  io("cases", x.cases), io("time_over", x.time_over), io("known_vertices", x.known_vertices);
-  io("shrunk", x.shrunk);
-}
-template <class Io>
-void fields(Io& io, PowerSource& x) {
-  io("campaign", x.campaign), io("detector", x.detector), io("seed", x.seed);
-  io("program", x.program), io("worker", x.worker), io("generator", x.generator);
-  io("rows", x.rows);
-}
-template <class Io>
-void fields(Io& io, World& x) {
-  io("classes", x.classes), io("motions", x.motions), io("all", x.all);
-  io("collisions", x.collisions), io("complete", x.complete);
-  io("counterexample", x.counterexample);
-}
-template <class Io>
-void fields(Io& io, AskedGates& x) {
-  io("gates", x.gates), io("certificate", x.certificate);
-}
-template <class Io>
-void fields(Io& io, Versions& x) {
-  io("assay", x.assay), io("commit", x.commit), io("libraries", x.libraries);
-}
-template <class Io>
-void fields(Io& io, Paths& x) {
-  io("out", x.out), io("detector", x.detector);
-}
-template <class Io>
-void fields(Io& io, InputDigests& x) {
-  io("corpus", x.corpus), io("waivers", x.waivers);
-}
-template <class Io>
-void fields(Io& io, StoredWaiver& x) {
-  io("reason", x.reason), io("link", x.link), io("expires", x.expires), io("expired", x.expired);
-}
-template <class Io>
-void fields(Io& io, CorpusRow::Failed& x) {
-  io("case", x.id), io("signature", x.signature), io("what", x.what);
-}
-template <class Io>
-void fields(Io& io, CorpusRow& x) {
-  io("input", x.input), io("configuration", x.configuration), io("cases", x.cases);
-  io("left_out", x.left_out), io("steps", x.steps), io("collisions", x.collisions);
-  io("pairs", x.pairs), io("defects", x.defects), io("failed", x.failed);
-}
-template <class Io>
-void fields(Io& io, SelfTestRow& x) {
-  io("queries", x.queries), io("contacts", x.contacts), io("contradictions", x.contradictions);
-  io("open", x.open), io("complete", x.complete);
-}
-template <class Io>
-void fields(Io& io, SpeedFigure& x) {
-  io("median", x.median), io("lo", x.lo), io("hi", x.hi), io("samples", x.samples);
-}
-template <class Io>
-void fields(Io& io, Issued& x) {
-  io("at", x.at), io("seconds", x.seconds);
-}
-
-class Writer {
- public:
-  template <class T>
-  void operator()(const char* key, T& value) {
-    json_[key] = json_of(value);
-  }
-  template <class T>
-  static Json json_of(T& value) {
-    if constexpr (std::is_same_v<T, FaultStatus>) {
-      return name_of(value);
-    } else if constexpr (std::is_constructible_v<Json, T>) {
-      return value;
-    } else {
-      Writer writer;
-      fields(writer, value);
-      return std::move(writer.json_);
-    }
-  }
-  template <class T>
-  static Json json_of(std::optional<T>& value) {
-    return value ? json_of(*value) : Json(nullptr);
-  }
-  template <class T>
-  static Json json_of(std::vector<T>& values) {
-    Json list = Json::array();
-    for (auto& value : values) list.push_back(json_of(value));
-    return list;
-  }
-
- private:
-  Json json_ = Json::object();
-};
-
-class Reader {
- public:
-  explicit Reader(const Json& json) : json_(json) {}
-  template <class T>
-  void operator()(const char* key, T& value) {
-    read(json_.at(key), value);
-  }
-  template <class T>
-  static void read(const Json& json, T& value) {
-    if constexpr (std::is_constructible_v<Json, T>) {
-      json.get_to(value);
-    } else {
-      Reader reader(json);
-      fields(reader, value);
-    }
-  }
-  static void read(const Json& json, FaultStatus& status) {
-    for (const auto one : {FaultStatus::planted, FaultStatus::open, FaultStatus::equivalent}) {
-      if (json == name_of(one)) return void(status = one);
-    }
-    throw StoreProblem("no status of a fault: " + json.dump());
-  }
-  template <class T>
-  static void read(const Json& json, std::optional<T>& value) {
-    if (!json.is_null()) read(json, value.emplace());
-  }
-  template <class T>
-  static void read(const Json& json, std::vector<T>& values) {
-    for (const auto& item : json) read(item, values.emplace_back());
-  }
-
- private:
-  const Json& json_;
-};
-
 template <class T>
-Evidence row(const char* kind, const std::string& name, const std::string& shard, T facts,
+Evidence row(const char* kind, const std::string& name, const std::string& shard, const T& facts,
              std::uint64_t progress = 1) {
-  return {kind, name, shard, progress, Writer::json_of(facts).dump()};
+  return {kind, name, shard, progress, Json(facts).dump()};
 }
 
 // `facts` with what the row's facts say.
 template <class T>
 T told(const Evidence& row, T facts = {}) {
-  Reader::read(Json::parse(row.facts), facts);
+  Json::parse(row.facts).get_to(facts);
   return facts;
 }
 
 }  // namespace
 
 bool FaultProof::found() const {
-  return by_curated ||
+  return curated ||
          std::any_of(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
+}
+
+bool FaultProof::is_whole(const CampaignPlan& plan) const {
+  return !time_over && cases >= plan.fault_cases &&
+         needed.size() >= static_cast<std::size_t>(plan.fault_seeds);
 }
 
 std::optional<std::uint64_t> FaultProof::median() const {
@@ -208,7 +100,10 @@ std::optional<std::uint64_t> FaultProof::median() const {
 }
 
 Evidence to_row(const Canary& x) { return row(canary_kind, x.fault, x.shard, x); }
-Evidence to_row(const HarnessProblem& x) { return row(problem_kind, trials_name, x.shard, x); }
+Evidence to_row(const HarnessProblem& x) {
+  // A later word goes before an earlier one, and at the end the word that there is no problem.
+  return row(problem_kind, trials_name, x.shard, x, 2 * x.trials + (x.what.empty() ? 1 : 0));
+}
 Evidence to_row(const FaultProof& x) {
   // A hunt that had its time is farther than any that was ended by it.
   const auto all = static_cast<std::uint64_t>(x.needed.size()) + 1;
@@ -222,7 +117,7 @@ Evidence to_row(const World& x) {
   constexpr std::uint64_t farthest = std::numeric_limits<std::int64_t>::max();
   return row(world_kind, x.world, x.shard, x, x.counterexample ? farthest : x.classes);
 }
-Evidence to_row(const AskedGates& x) { return row(asked_kind, "gates", checks_shard, x); }
+Evidence to_row(const Asked& x) { return row(asked_kind, "gates", checks_shard, x); }
 Evidence to_row(const Versions& x) { return row(subject_kind, versions_name, checks_shard, x); }
 Evidence to_row(const Paths& x) { return row(subject_kind, paths_name, checks_shard, x); }
 Evidence to_row(const InputDigests& x) { return row(digest_kind, inputs_name, checks_shard, x); }
@@ -238,7 +133,7 @@ void EvidenceFacts::take(const Evidence& r) try {
   if (r.kind == canary_kind) {
     canaries.push_back(told<Canary>(r, {r.name, r.shard, {}}));
   } else if (r.kind == problem_kind) {
-    problems.push_back(told<HarnessProblem>(r, {r.shard, ""}));
+    problems.push_back(told<HarnessProblem>(r, {r.shard, "", r.progress / 2}));
   } else if (r.kind == fault_kind) {
     faults.push_back(told<FaultProof>(r));
     faults.back().fault = r.name;
@@ -250,7 +145,7 @@ void EvidenceFacts::take(const Evidence& r) try {
     worlds.back().world = r.name;
     worlds.back().shard = r.shard;
   } else if (r.kind == asked_kind) {
-    asked = told<AskedGates>(r);
+    asked = told<Asked>(r);
   } else if (r.kind == subject_kind && r.name == versions_name) {
     versions = told<Versions>(r);
   } else if (r.kind == subject_kind && r.name == paths_name) {
@@ -279,8 +174,6 @@ void EvidenceFacts::take(const Evidence& r) try {
 
 void drop(Store& store, DroppedKind kind) {
   switch (kind) {
-    case DroppedKind::problem:
-      return store.drop_evidence(problem_kind);
     case DroppedKind::fault:
       store.drop_evidence(power_kind);
       return store.drop_evidence(fault_kind);

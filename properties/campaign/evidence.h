@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "properties/campaign/plan.h"
 #include "properties/campaign/store.h"
 #include "properties/faults/fault.h"
 
@@ -25,9 +26,10 @@ inline constexpr const char* merged_shard = "merged";
 inline constexpr const char* checks_shard = "checks";
 inline constexpr const char* power_shard = "power";
 
-// What kept the harness itself from going on.
+// What kept the harness itself from going on when so many trials were stored; empty: nothing.
 struct HarnessProblem {
   std::string shard, what;
+  std::uint64_t trials = 0;
 };
 
 struct MeshCounts {
@@ -42,7 +44,7 @@ struct ShrunkFault {
 struct FaultProof {
   std::string fault, shard, law;
   FaultStatus status = FaultStatus::planted;
-  bool by_curated = false;  // its curated case shows it
+  bool curated = false;  // its curated case shows it
   // For each seed the random cases until it showed; nothing: not within `cases`.
   std::vector<std::optional<std::uint64_t>> needed;
   std::uint64_t cases = 0;
@@ -51,6 +53,8 @@ struct FaultProof {
   std::optional<ShrunkFault> shrunk;
 
   bool found() const;  // by its curated case, or by a random one under any seed
+  // Whether it had all the cases that the plan gives to a fault, under every seed.
+  bool is_whole(const CampaignPlan& plan) const;
   // Over the seeds, those without counted as above all; nothing when that is one of them.
   std::optional<std::uint64_t> median() const;
 };
@@ -75,10 +79,10 @@ struct World {
   std::optional<std::string> counterexample;  // what does not hold
 };
 
-// Which gates a verb asked for, by name; `certificate`: to issue one.
-struct AskedGates {
-  std::vector<std::string> gates;
-  bool certificate = false;
+// What a verb asked of a run.
+struct Asked {
+  std::vector<std::string> gates;  // by the names of gates.h; any other gate is not judged
+  bool certificate = false;        // to issue one: then every gate is asked for
 };
 
 // Who issued a certificate, and where from.
@@ -106,9 +110,10 @@ struct CorpusRow {
   struct Failed {
     std::string id, signature, what;
   };
+  // `failed`: what does not hold. `open`: what has no answer, so that nothing is known of it.
   std::string input, configuration;
   std::uint64_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0, defects = 0;
-  std::vector<Failed> failed;
+  std::vector<Failed> failed, open;
 };
 
 // A family of queries of the self-test.
@@ -138,7 +143,7 @@ struct EvidenceFacts {
   std::vector<FaultProof> faults;
   std::vector<PowerSource> power;
   std::vector<World> worlds;
-  std::optional<AskedGates> asked;
+  std::optional<Asked> asked;
   std::optional<Versions> versions;
   std::optional<Paths> paths;
   std::optional<InputDigests> inputs;
@@ -158,7 +163,7 @@ Evidence to_row(const HarnessProblem& problem);
 Evidence to_row(const FaultProof& proof);
 Evidence to_row(const PowerSource& source);
 Evidence to_row(const World& world);
-Evidence to_row(const AskedGates& asked);
+Evidence to_row(const Asked& asked);
 Evidence to_row(const Versions& versions);
 Evidence to_row(const Paths& paths);
 Evidence to_row(const InputDigests& digests);
@@ -169,7 +174,7 @@ Evidence to_row(const SpeedFigure& figure);
 Evidence to_row(const Issued& issued);
 
 // Takes away what an earlier run left of a kind, before the work is done again.
-enum class DroppedKind { problem, fault, waiver, corpus, self_test, times };
+enum class DroppedKind { fault, waiver, corpus, self_test, times };
 void drop(Store& store, DroppedKind kind);
 
 // Whether two runs of one campaign may differ in it: times, and where they were kept.

@@ -60,8 +60,8 @@ class Hunt {
 
   std::vector<FaultResult> run() {
     if (!hunt_.curated.empty()) try_curated();
-    for (int s = 1; s <= hunt_.seeds && !over(); ++s) run_seed(s);
-    for (auto& result : results_) result.proof.time_over = over();
+    for (int s = 1; s <= hunt_.seeds && !is_cut_; ++s) run_seed(s);
+    for (auto& result : results_) result.proof.time_over = is_cut_;
     return std::move(results_);
   }
 
@@ -76,7 +76,7 @@ class Hunt {
       const auto c =
           corpus::read_case(hunt_.curated / (std::string(result.fault->curated) + ".json"));
       if (!c) continue;
-      result.proof.by_curated =
+      result.proof.curated =
           failure_of_fault(*result.fault, c.value(), judge_case(c.value())).has_value();
     }
   }
@@ -91,7 +91,7 @@ class Hunt {
 
   void run_seed(int seed) {
     std::vector<std::optional<std::uint64_t>> found(results_.size());
-    for (std::uint64_t begin = 0; begin < hunt_.cases && !over(); begin += chunk) {
+    for (std::uint64_t begin = 0; begin < hunt_.cases && !is_cut_; begin += chunk) {
       const std::uint64_t end = std::min(hunt_.cases, begin + chunk);
       run_chunk(seed, begin, end, found);
       HuntProgress state{seed, hunt_.seeds, end, hunt_.cases, 0, 0};
@@ -120,7 +120,8 @@ class Hunt {
         std::uint64_t place = 0;
         {
           const std::lock_guard lock(mutex);
-          if (next >= end || over()) return;
+          is_cut_ = is_cut_ || (next < end && over());
+          if (next >= end || is_cut_) return;
           place = next++;
         }
         const auto made = case_of(seed, place);
@@ -143,6 +144,7 @@ class Hunt {
   const FaultHunt& hunt_;
   const RunDeadline deadline_;
   const OnHunt& progress_;
+  bool is_cut_ = false;  // by the deadline, before all cases were judged
   std::vector<FaultResult> results_;
 };
 

@@ -54,7 +54,10 @@ class Reader {
     auto files = stored_shards(found_.folder, problem);
     if (!problem.empty()) throw StoreProblem(problem);
     const auto merged = merged_file(found_.folder), checks = checks_file(found_.folder);
-    if (std::find(files.begin(), files.end(), merged) != files.end()) files = {merged};
+    if (std::find(files.begin(), files.end(), merged) != files.end()) {
+      refuse_newer_shards(files, merged);
+      files = {merged};
+    }
     std::error_code ignored;
     if (std::filesystem::exists(checks, ignored)) files.push_back(checks);
     std::sort(files.begin(), files.end());
@@ -81,6 +84,22 @@ class Reader {
   }
 
  private:
+  // A merged store goes before the shards that it was made of.
+  static void refuse_newer_shards(const std::vector<std::filesystem::path>& files,
+                                  const std::filesystem::path& merged) {
+    std::string problem;
+    const auto whole = Store::read(merged, problem);
+    for (const auto& file : files) {
+      const auto shard = file == merged ? std::nullopt : Store::read(file, problem);
+      if (!whole || !shard) continue;  // told where it is read
+      shard->for_each_trial([&](const TrialRecord& r) {
+        if (!whole->has_trial(r.id))
+          throw StoreProblem(fmt::format("{}: holds {}, which {} does not: merge again",
+                                         file.string(), r.id, merged.filename().string()));
+      });
+    }
+  }
+
   void add(const std::filesystem::path& file) {
     std::string problem;
     const auto store = Store::read(file, problem);
@@ -90,7 +109,7 @@ class Reader {
       binding_ = store->binding();
       found_.run = binding;
       found_.tally.near_from_us =
-          static_cast<std::uint64_t>(1e6 * near_share * binding.plan.case_seconds);
+          static_cast<std::uint64_t>(1e6 * near_share * std::min(binding.plan.case_seconds, 1e9));
     }
     const auto difference = difference_of(binding_, store->binding());
     if (!difference.empty())
@@ -106,6 +125,15 @@ class Reader {
   void take_rows(const Store& store, const std::filesystem::path& file, const std::string& name) {
     const auto shard = shard_of(name);
     if (shard) {
+      const bool is_first = found_.shards.empty();
+      const bool is_there =
+          std::any_of(found_.shards.begin(), found_.shards.end(),
+                      [&](const Shard& other) { return other.index == shard->index; });
+      if (is_there || (!is_first && shard->count != found_.shard_count))
+        throw StoreProblem(
+            fmt::format("{}: shard {} does not stand beside the others: it is there "
+                        "already, or of another number of shards",
+                        file.string(), name));
       found_.shards.push_back(*shard);
       found_.shard_count = shard->count;
     } else if (name == merged_shard) {
@@ -201,7 +229,8 @@ const StratumTally& RunFindings::tally_of(const StratumPlan& stratum) const {
 std::vector<const StoredFailure*> RunFindings::kinds() const {
   std::vector<const StoredFailure*> list;
   for (const auto& failure : failures) {
-    if (list.empty() || list.back()->signature != failure.signature) list.push_back(&failure);
+    if (list.empty() || list.back()->signature != failure.signature)
+      list.push_back(example_of(failure.signature));
   }
   return list;
 }
@@ -215,6 +244,34 @@ bool RunFindings::is_waived(const std::string& signature) const {
   return std::any_of(evidence.waivers.begin(), evidence.waivers.end(), [&](const auto& waiver) {
     return waiver.signature == signature && !waiver.expired;
   });
+}
+
+const StoredFailure* RunFindings::example_of(const std::string& signature) const {
+  const StoredFailure* shown = nullptr;
+  for (const auto& failure : failures) {
+    if (failure.signature != signature) continue;
+    if (!failure.id.starts_with(corpus_in_id)) return &failure;
+    if (!shown) shown = &failure;
+  }
+  return shown;
+}
+
+StratumTally::Outcomes RunFindings::outcomes_of(const StratumPlan& stratum,
+                                                std::size_t configuration) const {
+  const auto& all = tally_of(stratum).by_configuration;
+  return configuration < all.size() ? all[configuration] : StratumTally::Outcomes{};
+}
+
+bool RunFindings::laws_are_judged() const {
+  return run.detector.built_in && run.plan.laws_every > 0 && !alone && planned() > 0 &&
+         tally.trials() == planned();
+}
+
+bool RunFindings::has_more_to_do() const {
+  const auto& faults = evidence.faults;
+  return tally.trials() < planned() ||
+         std::any_of(faults.begin(), faults.end(),
+                     [&](const auto& proof) { return !proof.is_whole(run.plan); });
 }
 
 std::uint64_t RunFindings::planted() const { return count_planted(evidence.faults, false); }

@@ -45,6 +45,15 @@ struct RunFindings {
   std::vector<const StoredFailure*> kinds() const;
   std::uint64_t met_count(const StoredFailure& failure) const;
   bool is_waived(const std::string& signature) const;
+  // A stored failure of this signature, one of a trial rather than of the corpus; null: none.
+  const StoredFailure* example_of(const std::string& signature) const;
+  // Of a configuration in a stratum.
+  StratumTally::Outcomes outcomes_of(const StratumPlan& stratum, std::size_t configuration) const;
+  // Whether laws were met often enough is asked of the built-in detector, once all trials of all
+  // shards took place.
+  bool laws_are_judged() const;
+  // Whether the same command would add something: it was killed, or ended by its time.
+  bool has_more_to_do() const;
   // Planted faults that were tried, and that were found.
   std::uint64_t planted() const, found() const;
 };

@@ -24,20 +24,22 @@ struct GateRule {
   int exit_code;
 };
 
-// harness   every canary was found, of the planted faults the share that the plan's policy asks
-// for,
-//           and no equivalent one; the self-test met no contradiction; every law's premise held as
-//           often as asked, a quarter of it close (where all trials took place); outcomes and
-//           failures agree. Without a canary nothing is judged.
-// corpus    the shipped cases and scenes hold, and no waiver is expired.
-// claims    no claim and no law is broken in any trial, and no world has a counterexample; waived
-//           failures aside.
-// complete  all that was planned is there: trials, shards, faults; for a certificate also corpus
-// and
-//           self-test. At most 1 % of the trials were disturbed from outside.
-// bounds    every bound that is wanted is met; where none is, no trial is without a verdict.
-// speed     no figure is above its limit: a time proves nothing wrong. Not judged where no limit is
-//           set, nor for a plug-in.
+// When each gate holds:
+//
+// - harness: every canary was found, of the planted faults the share that the plan's policy asks
+//   for, and no equivalent one. The self-test met no contradiction. Every law's premise held as
+//   often as asked, and was close in a quarter of these steps, where all trials took place. Every
+//   defect of a trial was stored as a failure. Without a canary nothing is judged.
+// - corpus: the shipped cases and scenes hold, and no waiver is expired.
+// - claims: no claim and no law is broken in any trial, and no world has a counterexample. A
+//   certificate leaves waived failures aside.
+// - complete: all that was planned is there: shards, trials, planted faults with all of their
+// cases;
+//   for a certificate also the corpus, with an answer in every case, and the self-test. At most 1 %
+//   of the trials were disturbed from outside.
+// - bounds: every bound that is wanted is met. Where none is wanted, no trial is without a verdict.
+// - speed: no figure is above its limit, for a time proves nothing wrong. It is not judged where no
+//   limit is set, nor for a plug-in.
 inline constexpr std::array<GateRule, 6> gate_rules = {{
     {Gate::harness, "harness", "the harness is sound", "unsound-harness", 4},
     {Gate::corpus, "corpus", "the corpus passes", "defect", 1},
@@ -59,19 +61,9 @@ struct GateResult {
   std::vector<std::string> reasons;
 };
 
-// What was asked of a run. A gate that nobody asked for is not judged.
-struct Asked {
-  std::array<bool, gate_rules.size()> gates = {};
-  bool certificate = false;  // corpus, self-test and speed belong to the run
-  bool has(Gate gate) const { return gates[static_cast<std::size_t>(gate)]; }
-};
-
-// Of `assay run`: harness, claims, complete and bounds. Of `assay certify`: all.
+// Of `assay run`: harness, claims, complete and bounds. Of `assay certify`: all of them.
 Asked asked_of_a_run();
 Asked asked_of_a_certificate();
-// As they are stored, and back. Names of other gates are left out.
-AskedGates to_words(const Asked& asked);
-Asked asked_in(const AskedGates& words);
 
 struct Judgement {
   std::vector<GateResult> gates;  // in the order of gate_rules
@@ -83,9 +75,6 @@ struct Judgement {
 
   const GateResult& of(Gate gate) const { return gates[static_cast<std::size_t>(gate)]; }
 };
-
-// Whether the same command would add to the findings: it ended by its time, or was killed.
-bool has_more_to_do(const RunFindings& findings);
 
 Judgement judge(const RunFindings& findings, const Asked& asked);
 // By what its stores say was asked, where they do; else as a run.

@@ -28,15 +28,21 @@ class CampaignRun {
     const Canary canary = meet_canary(request_);
     store_.set(to_row(canary));
     observer_.on_canary(canary);
+    observer_.on_phase("trials");
     judge_trials();
+    observer_.on_phase("shrinking");
     shrink();
     observer_.on_failures_shrunk();
     if (request_.power) {
       take_power();
     } else if (request_.plan.fault_cases > 0) {
+      observer_.on_phase("faults");
       hunt();
     }
-    if (request_.plan.tetrahedron_seconds > 0) explore_worlds();
+    if (request_.plan.tetrahedron_seconds > 0) {
+      observer_.on_phase("tetrahedron");
+      explore_worlds();
+    }
   }
 
  private:
@@ -51,9 +57,8 @@ class CampaignRun {
     const auto end = run_trials(request_, store_, after(others ? trials_share : 1),
                                 [&](const TrialProgress& state) { observer_.on_trial(state); });
     if (!end.store_problem.empty()) throw StoreProblem(end.store_problem);
-    drop(store_, DroppedKind::problem);
-    if (!end.harness_problem.empty())
-      store_.set(to_row(HarnessProblem{text_of(request_.shard), end.harness_problem}));
+    store_.set(
+        to_row(HarnessProblem{text_of(request_.shard), end.harness_problem, store_.trial_count()}));
     observer_.on_trials(end);
   }
 
@@ -63,15 +68,30 @@ class CampaignRun {
                     [&](const std::string& signature) { observer_.on_shrinking(signature); });
   }
 
-  // Rows of an earlier call of this run, made in the other way, do not stand beside these.
+  // What an earlier call of this run found out.
+  EvidenceFacts stored() const {
+    EvidenceFacts facts;
+    for (const auto& row : store_.evidence()) facts.take(row);
+    return facts;
+  }
+
+  // Proofs made in the one way do not stand beside those of an earlier call, made in the other.
   void take_power() {
-    drop(store_, DroppedKind::fault);
+    if (stored().power.empty()) drop(store_, DroppedKind::fault);
     store_.set(to_row(request_.power->source));
     for (const auto& proof : request_.power->faults) store_.set(to_row(proof));
   }
 
   void hunt() {
     const auto& plan = request_.plan;
+    const auto before = stored();
+    if (!before.power.empty()) {
+      drop(store_, DroppedKind::fault);
+    } else if (!before.faults.empty() &&
+               std::all_of(before.faults.begin(), before.faults.end(),
+                           [&](const FaultProof& proof) { return proof.is_whole(plan); })) {
+      return;
+    }
     const FaultHunt hunt{plan.name,     request_.seed, plan.fault_seeds, plan.fault_cases,
                          request_.jobs, corpus_,       request_.shard};
     auto results =
@@ -79,7 +99,6 @@ class CampaignRun {
     if (plan.shrink_faults)
       shrink_faults(results, shrinking_of_one, request_.jobs, after(1),
                     [&](const std::string& fault) { observer_.on_fault_shrunk(fault); });
-    drop(store_, DroppedKind::fault);
     for (const auto& result : results) store_.set(to_row(result.proof));
   }
 

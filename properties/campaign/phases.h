@@ -17,6 +17,9 @@ namespace assay::properties {
 class CampaignObserver {
  public:
   virtual ~CampaignObserver() = default;
+  // Before the canary is met nothing is told. "trials", "shrinking", "faults", "tetrahedron": what
+  // begins now.
+  virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}
   virtual void on_trials(const TrialsEnd&) {}
@@ -28,8 +31,9 @@ class CampaignObserver {
   virtual void on_world(const std::string& /*world*/) {}
 };
 
-// Does what the store does not hold yet: the canary, the trials, the shrinking of what failed, the
-// planted faults (or the request's proof of them), the worlds of tetrahedra. Faults and worlds are
+// Does what the store does not hold yet: the trials, the shrinking of what failed, the planted
+// faults (or the request's proof of them). The canary and the worlds of tetrahedra are done again;
+// of a world what came farther stays. Faults and worlds are
 // shared out among shards by their place in the list. corpus: folder of the curated cases.
 //
 // What is stored stays, whatever happens. Throws StoreProblem where the store cannot be written.

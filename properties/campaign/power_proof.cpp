@@ -18,9 +18,9 @@ bool is_below(const std::filesystem::path& folder, const std::filesystem::path& 
 
 // What keeps the findings from being a proof for the plan.
 std::string lack_of(const RunFindings& proof, const BoundRun& build, const CampaignPlan& plan) {
-  const auto& run = proof.run;
-  if (run.program != build.program || run.worker != build.worker ||
-      run.generator != build.generator)
+  const auto &digests = proof.run.digests, &ours = build.digests;
+  if (digests.program != ours.program || digests.worker != ours.worker ||
+      digests.generator != ours.generator)
     return "is of another build of assay";
   if (!proof.evidence.power.empty()) return "took its own proof from another run";
   if (proof.planted() != build.planted_faults || proof.found() != build.planted_faults)
@@ -28,11 +28,12 @@ std::string lack_of(const RunFindings& proof, const BoundRun& build, const Campa
   for (const auto& fault : proof.evidence.faults) {
     if (fault.status == FaultStatus::equivalent && fault.found())
       return fmt::format("found {}, which is registered as equivalent", fault.fault);
+    if (!fault.is_whole(plan))
+      return fmt::format("gave {} {} cases of {} seeds{}, campaign {} asks for {} of {}",
+                         fault.fault, fault.cases, fault.needed.size(),
+                         fault.time_over ? " before its time was over" : "", plan.name,
+                         plan.fault_cases, plan.fault_seeds);
   }
-  if (run.plan.fault_cases < plan.fault_cases || run.plan.fault_seeds < plan.fault_seeds)
-    return fmt::format("gave each fault {} cases of {} seeds, campaign {} asks for {} of {}",
-                       run.plan.fault_cases, run.plan.fault_seeds, plan.name, plan.fault_cases,
-                       plan.fault_seeds);
   return "";
 }
 
@@ -53,9 +54,10 @@ std::optional<std::string> take_power(const std::filesystem::path& folder,
   const auto lack = lack_of(*proof, build, request.plan);
   if (!lack.empty()) return fmt::format("{}: the run {}", folder.string(), lack);
   const auto& run = proof->run;
-  request.power = {
-      {run.plan.name, run.detector, run.seed, run.program, run.worker, run.generator, proof->rows},
-      proof->evidence.faults};
+  request.power =
+      PowerProof{{run.plan.name, run.detector.name, run.seed, run.digests.program.value_or(""),
+                  run.digests.worker.value_or(""), run.digests.generator, proof->rows},
+                 proof->evidence.faults};
   for (auto& fault : request.power->faults) fault.shard = power_shard;
   return std::nullopt;
 }

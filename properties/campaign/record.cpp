@@ -47,6 +47,10 @@ char letter_of(Outcome outcome) {
   return 'E';
 }
 
+bool TrialRecord::has(Outcome outcome) const {
+  return outcomes.find(letter_of(outcome)) != std::string::npos;
+}
+
 namespace {
 
 int log2_of(std::uint64_t n) { return n == 0 ? -1 : std::bit_width(n) - 1; }
@@ -60,6 +64,8 @@ void StratumTally::add(const TrialRecord& record) {
   pairs += record.pairs;
   oracle_us += record.oracle_us;
   detector_us += record.detector_us;
+  with_defect += record.has(Outcome::defect) ? 1 : 0;
+  open += record.has(Outcome::undecided) || record.has(Outcome::error) ? 1 : 0;
   disturbed += record.disturbed > 0 ? 1 : 0;
   discards += record.outcomes.empty() ? 1 : 0;
   meshes.insert(record.mesh);
@@ -88,22 +94,25 @@ void Tally::add(const TrialRecord& record) {
   strata[record.family].add(record);
   properties::add(counts, record.counts);
   disturbances += record.disturbed;
-  const bool has_ended = record.outcomes.find(letter_of(Outcome::undecided)) == std::string::npos;
-  if (record.slowest_us < near_from_us || !has_ended) return;
+  if (record.slowest_us < near_from_us) return;
   near.push_back(record);
   near.back().counts.clear();
 }
 
-std::uint64_t Tally::trials() const {
+namespace {
+
+std::uint64_t sum_of(const Tally& tally, std::uint64_t StratumTally::*count) {
   std::uint64_t sum = 0;
-  for (const auto& [family, stratum] : strata) sum += stratum.trials;
+  for (const auto& [family, stratum] : tally.strata) sum += stratum.*count;
   return sum;
 }
 
-std::uint64_t Tally::disturbed() const {
-  std::uint64_t sum = 0;
-  for (const auto& [family, stratum] : strata) sum += stratum.disturbed;
-  return sum;
-}
+}  // namespace
+
+std::uint64_t Tally::trials() const { return sum_of(*this, &StratumTally::trials); }
+std::uint64_t Tally::judged() const { return trials() - sum_of(*this, &StratumTally::discards); }
+std::uint64_t Tally::with_defect() const { return sum_of(*this, &StratumTally::with_defect); }
+std::uint64_t Tally::open() const { return sum_of(*this, &StratumTally::open); }
+std::uint64_t Tally::disturbed() const { return sum_of(*this, &StratumTally::disturbed); }
 
 }  // namespace assay::properties

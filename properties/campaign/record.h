@@ -31,7 +31,9 @@ struct TrialRecord {
   std::uint64_t mesh = 0;  // hash of the case's triangles and frames: equal cases, equal hashes
   // How often a worker was killed from outside while it ran this trial, which was then run again.
   std::uint64_t disturbed = 0;
-  std::uint64_t slowest_us = 0;  // the most processor time that one configuration took
+  // The most processor time that a configuration took which ended before its limit.
+  std::uint64_t slowest_us = 0;
+  bool has(Outcome outcome) const;  // in some configuration
 };
 
 char letter_of(Outcome outcome);
@@ -40,6 +42,7 @@ char letter_of(Outcome outcome);
 struct StratumTally {
   std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
+  std::uint64_t with_defect = 0, open = 0;  // trials: in some configuration
   std::uint64_t disturbed = 0;     // trials that somebody killed from outside, and that ran again
   std::uint64_t discards = 0;      // cases beyond the numbers that the detector's contract takes
   std::set<std::uint64_t> meshes;  // hashes of the cases: their number is that of distinct cases
@@ -63,8 +66,10 @@ struct Tally {
   std::vector<TrialRecord> near;  // in the order in which they were added; without their counts
   std::uint64_t disturbances = 0;
   void add(const TrialRecord& record);
-  std::uint64_t trials() const;
-  std::uint64_t disturbed() const;  // trials
+  // Sums over the strata, in trials: all; those of a case that the contract takes; those with a
+  // defect, or without a verdict, in some configuration; those that were disturbed.
+  std::uint64_t trials() const, judged() const, with_defect() const, open() const,
+      disturbed() const;
 };
 
 }  // namespace assay::properties

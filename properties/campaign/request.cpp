@@ -7,7 +7,9 @@ namespace assay::properties {
 std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 
 RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double share) {
-  if (plan.seconds == 0) return RunDeadline::max();
+  // So that nobody's years overflow a clock of nanoseconds.
+  constexpr double longest = 1e8;
+  if (plan.seconds == 0 || plan.seconds > longest) return RunDeadline::max();
   return begin + std::chrono::duration_cast<RunDeadline::duration>(
                      std::chrono::duration<double>(share * plan.seconds));
 }

@@ -185,6 +185,16 @@ void Store::add(const StoredFailure& f) {
       .next();
 }
 
+void Store::keep_failures(const std::set<std::string>& signatures) {
+  for (const auto& failure : failures()) {
+    if (signatures.contains(failure.signature)) continue;
+    Statement(parts_->db, "DELETE FROM failure WHERE id=? AND configuration=?")
+        .bind(failure.id)
+        .bind(failure.configuration)
+        .next();
+  }
+}
+
 void Store::set_smallest(const StoredFailure& f) {
   Statement(parts_->db, "UPDATE failure SET smallest=? WHERE id=? AND configuration=?")
       .bind(f.smallest)
@@ -244,7 +254,9 @@ Counts Store::signatures() const {
 }
 
 void Store::set(const Evidence& e) {
-  Statement(parts_->db, "INSERT OR REPLACE INTO evidence VALUES(?,?,?,?,?)")
+  Statement(parts_->db,
+            "INSERT INTO evidence VALUES(?,?,?,?,?) ON CONFLICT(kind,name,shard) DO UPDATE SET "
+            "progress=excluded.progress, facts=excluded.facts WHERE excluded.progress>=progress")
       .bind(e.kind)
       .bind(e.name)
       .bind(e.shard)

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,9 +68,11 @@ class Store {
   void add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
            const std::vector<MetFailure>& met);
   void add(const StoredFailure& failure);
+  // Takes away the failures of other signatures.
+  void keep_failures(const std::set<std::string>& signatures);
   void set_smallest(const StoredFailure& failure);  // by id and configuration
   void set_note(const std::string& key, const std::string& value);
-  // In place of what the same shard found out before.
+  // In place of what the same shard found out before, unless that came farther.
   void set(const Evidence& evidence);
   void drop_evidence(const std::string& kind);
   // From now on the file stands alone: nothing beside it belongs to it, and reading it leaves its

@@ -181,6 +181,7 @@ class Trials {
     for (const auto& one : runs) {
       if (one.end == RunEnd::not_run) throw std::runtime_error(one.what);
       trial.record.disturbed += one.disturbances;
+      if (one.end == RunEnd::hung) continue;
       trial.record.slowest_us = std::max(trial.record.slowest_us,
                                          static_cast<std::uint64_t>(1e6 * one.processor_seconds));
     }
@@ -256,10 +257,11 @@ class Trials {
     ++end_.trials;
     ++state_.done;
     state_.planned = planned_.size();
-    state_.defects += trial.failures.empty() ? 0 : 1;
-    const char undecided = letter_of(Outcome::undecided);
-    state_.undecided += trial.record.outcomes.find(undecided) == std::string::npos ? 0 : 1;
-    state_.disturbed += trial.record.disturbed > 0 ? 1 : 0;
+    const auto& record = trial.record;
+    state_.defects += record.has(Outcome::defect) ? 1 : 0;
+    const bool is_open = record.has(Outcome::undecided) || record.has(Outcome::error);
+    state_.undecided += is_open ? 1 : 0;
+    state_.disturbed += record.disturbed > 0 ? 1 : 0;
     if (progress_) progress_(state_);
   }
 

@@ -66,11 +66,12 @@ class JudgedRows {
       const auto verdict =
           properties::judge_trial(*seen, truth, runs[i], configurations[i], request_.detector);
       if (verdict.outcome == Outcome::holds) continue;
-      ++rows_[i].defects;
       const auto& failure = verdict.failure;
-      rows_[i].failed.push_back({c.id, failure ? failure->signature() : "undecided",
-                                 failure ? failure->what : "no verdict: " + runs[i].what});
-      if (failure) {
+      rows_[i].defects += failure ? 1 : 0;
+      if (!failure) {
+        rows_[i].open.push_back({c.id, "", "no verdict: " + runs[i].what});
+      } else {
+        rows_[i].failed.push_back({c.id, failure->signature(), failure->what});
         on_failure_({std::string(properties::corpus_in_id) + c.id,
                      configurations[i].name,
                      failure->signature(),
@@ -157,6 +158,7 @@ std::string corpus_row_text(const CorpusRow& row) {
   std::string text =
       fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row.input, row.configuration,
                   row.cases, row.steps, row.collisions, row.pairs, row.defects);
+  for (const auto& open : row.open) text += fmt::format("  {}: {}\n", open.id, open.what);
   for (const auto& failed : row.failed) text += fmt::format("  {}: {}\n", failed.id, failed.what);
   return text;
 }

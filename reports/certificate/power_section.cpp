@@ -91,9 +91,9 @@ Json corpus_json(const RunFindings& findings) {
   if (findings.evidence.corpus.empty()) return nullptr;
   Json rows = Json::array();
   for (const auto& row : findings.evidence.corpus) {
-    rows.push_back(facts_of(row));
-    for (auto& failed : rows.back()["failed"])
-      failed["waived"] = findings.is_waived(failed["signature"]);
+    Json json = facts_of(row);
+    for (auto& failed : json["failed"]) failed["waived"] = findings.is_waived(failed["signature"]);
+    rows.push_back(std::move(json));
   }
   return rows;
 }

@@ -27,32 +27,17 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-// A program that was gone when the run began has no digest.
-Json or_null(const std::string& digest) { return digest.empty() ? Json(nullptr) : Json(digest); }
-
-Json detector_json(const properties::BoundRun& run) {
-  Json configurations = Json::array();
-  for (const auto& configuration : run.configurations)
-    configurations.push_back({{"name", configuration.name}, {"claims", configuration.claims}});
-  return {
-      {"name", run.detector},
-      {"built_in", run.built_in},
-      {"contract",
-       {{"adjacency", run.adjacency}, {"coordinates", run.coordinates}, {"margin", run.margin}}},
-      {"configurations", std::move(configurations)}};
-}
-
 // The library of a plug-in; of the built-in detector the program that holds it and runs it.
 Json subject_json(const RunFindings& findings) {
   const auto& run = findings.run;
   Json digest;
-  digest["sha256"] = run.built_in ? or_null(run.worker) : or_null(run.plugin);
+  digest["sha256"] = or_null(run.detector.built_in ? run.digests.worker : run.digests.plugin);
   // Of a plug-in only its owner knows the commit; changed files have none.
   constexpr std::size_t digits = 40;
   const auto& versions = findings.evidence.versions;
-  if (run.built_in && versions && versions->commit && versions->commit->size() == digits)
+  if (run.detector.built_in && versions && versions->commit && versions->commit->size() == digits)
     digest["gitCommit"] = *versions->commit;
-  return Json::array({{{"name", run.detector}, {"digest", std::move(digest)}}});
+  return Json::array({{{"name", run.detector.name}, {"digest", std::move(digest)}}});
 }
 
 Json versions_json(const RunFindings& findings) {
@@ -64,16 +49,13 @@ Json versions_json(const RunFindings& findings) {
 }
 
 Json digests_json(const RunFindings& findings, const std::string& campaign) {
-  const auto& run = findings.run;
   const auto& inputs = findings.evidence.inputs;
-  return {{"program", or_null(run.program)},
-          {"worker", or_null(run.worker)},
-          {"plugin", or_null(run.plugin)},
-          {"generator", or_null(run.generator)},
-          {"corpus", inputs ? Json(inputs->corpus) : Json(nullptr)},
-          {"waivers", inputs ? or_null(inputs->waivers) : Json(nullptr)},
-          {"campaign", campaign},
-          {"rows", findings.rows}};
+  Json json = json_of(findings.run.digests);
+  json["corpus"] = inputs ? Json(inputs->corpus) : Json(nullptr);
+  json["waivers"] = inputs ? or_null(inputs->waivers) : Json(nullptr);
+  json["campaign"] = campaign;
+  json["rows"] = findings.rows;
+  return json;
 }
 
 Json campaign_json(const RunFindings& findings, const properties::CampaignPlan& plan) {
@@ -113,7 +95,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
           {"failed_gate",
            judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
           {"gates", gates_json(judgement)},
-          {"detector", detector_json(findings.run)},
+          {"detector", json_of(findings.run.detector)},
           {"versions", versions_json(findings)},
           {"campaign", campaign_json(findings, plan)},
           {"confidence", confidence_json(findings)},

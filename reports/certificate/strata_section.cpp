@@ -8,14 +8,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using properties::RunFindings;
-using properties::StratumTally;
 
-Json bounds_json(const RunFindings& findings, const StratumTally& tally) {
+Json bounds_json(const RunFindings& findings, const properties::StratumPlan& stratum) {
   Json list = Json::array();
-  for (std::size_t c = 0; c < findings.run.configurations.size(); ++c) {
-    const auto outcomes =
-        c < tally.by_configuration.size() ? tally.by_configuration[c] : StratumTally::Outcomes{};
-    list.push_back({{"configuration", findings.run.configurations[c].name},
+  for (std::size_t c = 0; c < findings.run.detector.configurations.size(); ++c) {
+    const auto outcomes = findings.outcomes_of(stratum, c);
+    list.push_back({{"configuration", findings.run.detector.configurations[c].name},
                     {"n", outcomes.trials()},
                     {"holds", outcomes.holds},
                     {"defects", outcomes.defects},
@@ -67,14 +65,15 @@ Json strata_json(const RunFindings& findings) {
                     {"collisions", tally.collisions},
                     {"pairs", tally.pairs},
                     {"wanted_bound", wanted > 0 ? Json(wanted) : Json(nullptr)},
-                    {"bounds", bounds_json(findings, tally)}});
+                    {"bounds", bounds_json(findings, stratum)}});
   }
   return list;
 }
 
 Json laws_json(const RunFindings& findings) {
   const auto& plan = findings.run.plan;
-  if (!findings.run.built_in || plan.laws_every == 0 || plan.strata.empty()) return nullptr;
+  if (!findings.run.detector.built_in || plan.laws_every == 0 || plan.strata.empty())
+    return nullptr;
   Json list = Json::array();
   for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
     list.push_back({{"law", law->name},

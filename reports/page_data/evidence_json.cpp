@@ -34,7 +34,7 @@ Json fault_json(const properties::FaultProof& proof) {
           {"time_over", proof.time_over},
           {"median_cases", median ? Json(*median) : Json()},
           {"cases", std::move(cases)},
-          {"by_curated", has_case ? Json(proof.by_curated) : Json()},
+          {"by_curated", has_case ? Json(proof.curated) : Json()},
           {"known_vertices", number_or_null(proof.known_vertices)},
           {"shrunk", shrunk_json(proof.shrunk)}};
 }

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 // As SceneMaker takes it.
 std::optional<std::string> library_of(const properties::RunFindings& findings) {
-  if (!findings.run.built_in && findings.library.empty()) return std::nullopt;
+  if (!findings.run.detector.built_in && findings.library.empty()) return std::nullopt;
   return findings.library;
 }
 

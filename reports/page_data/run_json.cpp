@@ -40,7 +40,8 @@ Json stratum_row(const RunFindings& findings, const properties::StratumPlan& pla
 // One row for configurations that agree in all of a family's counts, else a row for each.
 Json strata_json(const RunFindings& findings) {
   std::vector<std::string> names;
-  for (const auto& configuration : findings.run.configurations) names.push_back(configuration.name);
+  for (const auto& configuration : findings.run.detector.configurations)
+    names.push_back(configuration.name);
   Json rows = Json::array();
   for (const auto& planned : findings.run.plan.strata) {
     const auto& all = findings.tally_of(planned).by_configuration;
@@ -77,14 +78,15 @@ Json distributions_json(const properties::Tally& tally) {
 }
 
 Json laws_json(const RunFindings& findings) {
+  const auto wanted = findings.laws_are_judged() ? findings.run.plan.law_premises : 0;
   Json list = Json::array();
   for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
-    if (tally.premise == 0 && findings.run.plan.law_premises == 0) continue;
+    if (tally.premise == 0 && wanted == 0) continue;
     list.push_back({{"name", law->name},
                     {"premise", tally.premise},
                     {"close", tally.close},
                     {"broken", tally.broken},
-                    {"wanted_premise", findings.run.plan.law_premises}});
+                    {"wanted_premise", wanted}});
   }
   return list;
 }
@@ -124,17 +126,6 @@ std::string why_text(const properties::Judgement& judgement) {
                      reasons.size() > 1 ? fmt::format("; and {} more", reasons.size() - 1) : "");
 }
 
-// Trials of which some configuration has a defect, at least.
-std::uint64_t defect_trials(const RunFindings& findings) {
-  std::uint64_t sum = 0;
-  for (const auto& [family, tally] : findings.tally.strata) {
-    std::uint64_t most = 0;
-    for (const auto& outcomes : tally.by_configuration) most = std::max(most, outcomes.defects);
-    sum += most;
-  }
-  return sum;
-}
-
 // The worst of all shards: one that was not found is worse than any number of cases.
 Json canary_json(const RunFindings& findings) {
   const auto& all = findings.evidence.canaries;
@@ -157,7 +148,7 @@ Json shards_json(const RunFindings& findings) {
 Json run_json(const RunFindings& findings, const properties::Judgement& judgement,
               const Json& statement, const std::string& unverified) {
   Json configurations = Json::array();
-  for (const auto& configuration : findings.run.configurations)
+  for (const auto& configuration : findings.run.detector.configurations)
     configurations.push_back(configuration.name);
   const auto& library = findings.library;
   return {{"folder", findings.folder.string()},
@@ -165,8 +156,8 @@ Json run_json(const RunFindings& findings, const properties::Judgement& judgemen
           {"seed", findings.run.seed},
           {"shards", shards_json(findings)},
           {"detector",
-           {{"name", findings.run.detector},
-            {"built_in", findings.run.built_in},
+           {{"name", findings.run.detector.name},
+            {"built_in", findings.run.detector.built_in},
             {"library", library.empty() ? Json() : Json(library)},
             {"configurations", std::move(configurations)}}},
           {"verdict", unverified.empty() ? judgement.verdict : "unverified"},
@@ -178,7 +169,7 @@ Json run_json(const RunFindings& findings, const properties::Judgement& judgemen
             {"planned", findings.planned()},
             {"disturbed", findings.tally.disturbed()},
             {"near_the_limit", findings.tally.near.size()}}},
-          {"defect_trials", defect_trials(findings)},
+          {"defect_trials", findings.tally.with_defect()},
           {"bounds",
            {{"confidence", properties::family_confidence},
             {"together", number_of_bounds(findings.run)}}},

@@ -43,7 +43,7 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   expect_same_row(source, read_back(source).power.at(0));
   const World world{"square-2", "1/1", 3, 4, 5, 1, false, "pairs differ"};
   expect_same_row(world, read_back(world).worlds.at(0));
-  const AskedGates asked{{"harness", "speed"}, true};
+  const Asked asked{{"harness", "speed"}, true};
   expect_same_row(asked, *read_back(asked).asked);
   const Versions versions{"0.1.0", std::nullopt, "CGAL 5.5.1"};
   expect_same_row(versions, *read_back(versions).versions);
@@ -53,7 +53,8 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   expect_same_row(inputs, *read_back(inputs).inputs);
   const StoredWaiver waiver{"s", "reason", "link", "2026-01-31", true};
   expect_same_row(waiver, read_back(waiver).waivers.at(0));
-  const CorpusRow corpus{"curated cases", "bvh", 1, 2, 3, 4, 5, 6, {{"A1", "s", "w"}}};
+  const CorpusRow corpus{"curated cases",           "bvh", 1, 2, 3, 4, 5, 6, {{"A1", "s", "w"}},
+                         {{"A2", "", "no verdict"}}};
   expect_same_row(corpus, read_back(corpus).corpus.at(0));
   const SelfTestRow row{"line-3", 10, 3, 0, 1, true};
   expect_same_row(row, read_back(row).self_test.at(0));

@@ -89,7 +89,7 @@ TEST(Gates, WhatWasNotAskedForIsNotJudged) {
 TEST(Gates, AnUnsoundHarnessCertifiesNothing) {
   const std::vector<Change> unsound = {
       [](auto& f) { f.evidence.canaries[0].found_after.reset(); },
-      [](auto& f) { f.evidence.faults[1].by_curated = false; },
+      [](auto& f) { f.evidence.faults[1].curated = false; },
       [](auto& f) { f.evidence.faults[2].needed = {3}; },
       [](auto& f) {
         f.evidence.problems = {{"1/1", "no worker"}};
@@ -106,7 +106,7 @@ TEST(Gates, AnUnsoundHarnessCertifiesNothing) {
   }
   // Half of the power is wanted, and there.
   expect_certified({[](auto& f) {
-    f.evidence.faults[1].by_curated = false;
+    f.evidence.faults[1].curated = false;
     f.run.plan.policy.power = 0.5;
   }});
 }
@@ -122,7 +122,7 @@ TEST(Gates, ACheckOfTheHarnessThatLacksTrialsIsNotJudged) {
   expect(without_canary, Gate::complete, "incomplete", 3);
   // The time was over: no proof against the harness.
   expect(judged_after({[](auto& f) {
-           f.evidence.faults[1].by_curated = false;
+           f.evidence.faults[1].curated = false;
            f.evidence.faults[1].time_over = true;
          }}),
          Gate::complete, "incomplete", 3);
@@ -135,12 +135,18 @@ TEST(Gates, WhatIsAbsentIsIncomplete) {
         f.missing = {{2, 2}};
       },
       [](auto& f) { f.evidence.faults.erase(f.evidence.faults.begin()); },
-      [](auto& f) { f.evidence.corpus.clear(); },
-      [](auto& f) { f.evidence.self_test.clear(); },
+      [](auto& f) { f.evidence.corpus.clear(); }, [](auto& f) { f.evidence.self_test.clear(); },
       [](auto& f) { f.evidence.self_test[0].complete = false; },
       [](auto& f) {
         f.evidence.power = {{"other", "built-in", 1, "another program", "", "", ""}};
       },
+      // Found early, and not given all of its cases or seeds.
+      [](auto& f) { f.evidence.faults[0].time_over = true; },
+      [](auto& f) { f.evidence.faults[2].needed.clear(); },
+      [](auto& f) {
+        f.evidence.corpus[0].open = {{"A1", "", "no verdict: no answer in 60 s"}};
+      },
+      [](auto& f) { f.tally.strata["broken"].discards = 20; },
       [](auto& f) { f.tally.strata["broken"].disturbed = 1; },  // one of twenty
       [](auto& f) {
         f.run.plan.strata.clear();
@@ -184,6 +190,13 @@ TEST(Gates, ABrokenClaimIsADefectUnlessWaived) {
   expect(judged_after({stored("tiny:1:broken:3")}), Gate::claims, "defect", 1);
   expect(judged_after({stored("corpus:1:broken:3")}), Gate::claims, "defect", 1);
   expect_certified({stored("corpus/M_Leither")});
+  // A mesh of the corpus does not stand for trials of the same signature.
+  expect(judged_after({defect,
+                       [](auto& f) {
+                         f.failures.insert(f.failures.begin(),
+                                           failure("free-sound: missing", "corpus/A1"));
+                       }}),
+         Gate::claims, "defect", 1);
   // A failure counts whether or not a mesh of it was kept.
   expect(judged_after({defect, [](auto& f) { f.failures.clear(); }}), Gate::claims, "defect", 1);
   // A law is no claim of a trial's outcome.
@@ -226,7 +239,7 @@ TEST(Gates, BoundsAndSpeed) {
   expect(judged_after({[](auto& f) { f.evidence.speed[0].median = 1.31; }}), Gate::speed,
          "undecided", 3);
   expect(judged_after({[](auto& f) { f.evidence.speed.clear(); }}), Gate::speed, "undecided", 3);
-  for (const Change& no_limit : {Change([](auto& f) { f.run.built_in = false; }),
+  for (const Change& no_limit : {Change([](auto& f) { f.run.detector.built_in = false; }),
                                  Change([](auto& f) { f.run.plan.policy.speed_limits.clear(); })}) {
     const auto judgement = judged_after({no_limit});
     EXPECT_EQ(judgement.of(Gate::speed).state, GateState::not_judged);
@@ -260,14 +273,15 @@ TEST(Gates, TheFirstThatFailsNamesTheVerdict) {
   }
 }
 
-TEST(Gates, WhatWasAskedForIsReadBack) {
-  auto asked = asked_of_a_run();
-  EXPECT_EQ(asked_in(to_words(asked)).gates, asked.gates);
-  EXPECT_FALSE(asked_in(to_words(asked)).certificate);
-  // No store can have a certificate issued with a gate left out.
-  AskedGates words = to_words(asked);
-  words.certificate = true;
-  EXPECT_EQ(asked_in(words).gates, asked_of_a_certificate().gates);
+// No store can have a certificate issued with a gate left out.
+TEST(Gates, ACertificateAsksForEveryGate) {
+  const auto judgement =
+      judged_after({[](auto& f) { f.evidence.corpus.clear(); }}, Asked{{"harness"}, true});
+  for (const auto& result : judgement.gates) {
+    if (result.gate == Gate::corpus) continue;
+    EXPECT_NE(result.state, GateState::not_judged) << rule_of(result.gate).name;
+  }
+  EXPECT_EQ(judgement.verdict, "incomplete");
 }
 
 }  // namespace

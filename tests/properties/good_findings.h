@@ -8,14 +8,14 @@
 
 namespace assay::properties::test {
 
-inline FaultProof fault_proof(const std::string& name, FaultStatus status, bool by_curated,
+inline FaultProof fault_proof(const std::string& name, FaultStatus status, bool curated,
                               std::vector<std::optional<std::uint64_t>> needed = {std::nullopt}) {
   FaultProof proof;
   proof.fault = name;
   proof.shard = "1/1";
   proof.law = "L3";
   proof.status = status;
-  proof.by_curated = by_curated;
+  proof.curated = curated;
   proof.needed = std::move(needed);
   proof.cases = 100;
   return proof;
@@ -37,9 +37,9 @@ inline RunFindings good_findings() {
   f.run.plan.policy.self_test_queries = 10;
   f.run.plan.policy.speed_limits = {{"exact-over-double", 1.3}};
   f.run.seed = 1;
-  f.run.detector = "built-in";
+  f.run.detector.name = "built-in";
   f.run.planted_faults = 2;
-  f.run.configurations = {{"bvh", {"free-sound"}}};
+  f.run.detector.configurations = {{"bvh", {"free-sound"}}};
   f.shards = {{1, 1}};
   auto& broken = f.tally.strata["broken"];
   broken.trials = 20;

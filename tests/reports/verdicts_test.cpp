@@ -96,18 +96,18 @@ class GeneratedFolder {
   void store_checks(const States& states) {
     auto checks = open(checks_file(folder_), *with_shard(binding(), checks_shard));
     checks.set(to_row(SelfTestRow{"line", 10, 1, 0, 0, true}));
-    CorpusRow row{"curated cases", "bvh", 1, 0, 1, 0, 0, 0, {}};
+    CorpusRow row{"curated cases", "bvh", 1, 0, 1, 0, 0, 0, {}, {}};
     if (fails(states, Gate::corpus)) row.failed = {{"A1", "s", "a & b"}};
     checks.set(to_row(row));
     const double median = fails(states, Gate::speed) ? 1.4 : 1.2;
     checks.set(to_row(SpeedFigure{"exact-over-double", median, 1, 2, {}}));
     Asked asked;
-    asked.certificate = true;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      asked.gates[i] = states[i] != GateState::not_judged;
-      asked.certificate &= asked.gates[i];
+    for (const auto& rule : gate_rules) {
+      if (states[static_cast<std::size_t>(rule.gate)] != GateState::not_judged)
+        asked.gates.emplace_back(rule.name);
     }
-    checks.set(to_row(to_words(asked)));
+    asked.certificate = asked.gates.size() == gate_rules.size();
+    checks.set(to_row(asked));
     checks.set(to_row(Paths{folder_, ""}));
     checks.seal();
   }

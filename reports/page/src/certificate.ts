@@ -19,7 +19,8 @@ function together(rows: CorpusRow[]): { row: CorpusRow; who: string }[] {
 
 function corpus(rows: CorpusRow[] | null): HTMLElement {
   if (rows === null) return section("corpus", "Corpus", html("p", {}, "It was not run."));
-  const failed = rows.flatMap((row) => row.failed.map((f) => ({ ...f, row })));
+  const open = rows.flatMap((row) => row.open.map((o) => ({ ...o, signature: "no answer", waived: false, row })));
+  const failed = [...rows.flatMap((row) => row.failed.map((f) => ({ ...f, row }))), ...open];
   type Failed = (typeof failed)[number];
   type Row = ReturnType<typeof together>[number];
   return section(
@@ -31,7 +32,7 @@ function corpus(rows: CorpusRow[] | null): HTMLElement {
       : table(
           "What does not hold",
           [
-            { head: "case", cell: (f: Failed) => f.case },
+            { head: "case", cell: (f: Failed) => f.id },
             { head: "configuration", cell: (f: Failed) => f.row.configuration },
             { head: "what", cell: (f: Failed) => f.what },
             { head: "waived", cell: (f: Failed) => (f.waived ? "yes" : "no") },

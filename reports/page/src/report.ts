@@ -138,7 +138,8 @@ export interface CorpusRow {
   collisions: number;
   pairs: number;
   defects: number;
-  failed: { case: string; signature: string; what: string; waived: boolean }[];
+  open: { id: string; what: string }[];
+  failed: { id: string; signature: string; what: string; waived: boolean }[];
 }
 
 export interface Waiver {

@@ -64,6 +64,17 @@ TEST(Junit, OfOneShardByItselfNoBoundIsWanted) {
                        "name=\"broken, bvh\">\n      <failure"));
 }
 
+// One defect of twenty is within the bound that is wanted, and waived; one fault need not be found.
+TEST(Junit, NothingFailsOfWhatIsCertified) {
+  auto findings = with_a_defect();
+  findings.evidence.waivers = {{"free-sound: missing", "known", "link", "2026-01-31", false}};
+  findings.run.plan.policy.power = 0.5;
+  findings.evidence.faults[1].curated = false;
+  const auto predicate = judged(findings);
+  ASSERT_EQ(predicate["verdict"], "certified") << predicate["gates"];
+  EXPECT_FALSE(contains(junit_text(predicate), "<failure")) << junit_text(predicate);
+}
+
 TEST(Summary, NamesVerdictGatesAndFailures) {
   auto findings = with_a_defect();
   findings.tally.strata["broken"].meshes = {1, 2, 3};
@@ -72,7 +83,7 @@ TEST(Summary, NamesVerdictGatesAndFailures) {
   findings.evidence.waivers = {{"c", "known", "link", "2026-01-31", false}};
   const auto text = summary_text(judged(findings));
   for (const std::string word :
-       {"## Assay: defect\n", "| claims | **fails** | a\\|b (bvh), met 1 times",
+       {"## Assay: defect\n", "| claims | **fails** | a\\|b, met 1 times; tiny:1:broken:3 (bvh)",
         "| complete | holds |", "| broken | 20 of 20 | 3 | 0 | 1 | 0 | ", "\n    assay replay ",
         "2 of 2 planted faults found", "**c** (bvh, waived), met in the corpus alone\n",
         "All 1 bounds together hold with confidence 95 %"}) {
