@@ -70,6 +70,11 @@ class Reader {
       return std::tie(a.kind, a.name, a.shard) < std::tie(b.kind, b.name, b.shard);
     });
     for (const auto& row : evidence_) found_.evidence.take(row);
+    if (found_.evidence.power.size() > 1)
+      throw StoreProblem(
+          fmt::format("{}: its shards took their proofs of planted faults from "
+                      "different runs",
+                      found_.folder.string()));
     if (found_.evidence.paths) found_.library = found_.evidence.paths->detector;
     std::sort(found_.failures.begin(), found_.failures.end(), is_before);
     found_.rows = rows_.value();
@@ -165,14 +170,22 @@ class Reader {
       if (!may_differ(row))
         rows_.add(
             fmt::format("{} {} {} {} {}", row.kind, row.name, row.shard, row.progress, row.facts));
-      // Proofs that were taken over stand in every shard's store.
-      const bool is_known =
-          row.shard == power_shard &&
-          std::any_of(evidence_.begin(), evidence_.end(), [&](const auto& other) {
-            return other.shard == power_shard && other.kind == row.kind && other.name == row.name;
-          });
-      if (!is_known) evidence_.push_back(std::move(row));
+      if (!is_taken_already(row, file)) evidence_.push_back(std::move(row));
     }
+  }
+
+  // Proofs that were taken over stand in every shard's store, the same in each. Throws where two
+  // differ: neither could be believed.
+  bool is_taken_already(const Evidence& row, const std::filesystem::path& file) const {
+    if (row.shard != power_shard) return false;
+    const auto known = std::find_if(evidence_.begin(), evidence_.end(), [&](const auto& other) {
+      return other.shard == power_shard && other.kind == row.kind && other.name == row.name;
+    });
+    if (known == evidence_.end()) return false;
+    if (known->facts != row.facts)
+      throw StoreProblem(fmt::format("{}: evidence {} {} differs from that of another store",
+                                     file.string(), row.kind, row.name));
+    return true;
   }
 
   void find_missing() {

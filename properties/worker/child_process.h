@@ -28,7 +28,9 @@ struct ChildEnd {
 // memory; or of the child itself, on purpose.
 bool was_killed_from_outside(const ChildEnd& end);
 
-// It leads a process group of its own: a terminal's ctrl-C is for the host alone.
+// It leads a process group of its own: a terminal's ctrl-C is for the host alone. It starts with no
+// signal blocked or ignored, whichever of them the host, or the shell that started that, leaves
+// aside: else a detector could outlive a signal that would end it anywhere else.
 class ChildProcess {
  public:
   // `descriptor` becomes child_descriptor of the child; its stdin is empty. Nothing, with the

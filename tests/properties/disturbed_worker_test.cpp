@@ -108,6 +108,28 @@ TEST(DisturbedWorker, ThreeTimesInARowIsTheDetectorsDoing) {
   }
 }
 
+// As `assay run` does, and a shell that starts it in the background.
+TEST(DisturbedWorker, WhatItsHostBlocksOrIgnoresEndsItAllTheSame) {
+  sigset_t blocked, before;
+  sigemptyset(&blocked);
+  sigaddset(&blocked, SIGTERM);
+  ASSERT_EQ(pthread_sigmask(SIG_BLOCK, &blocked, &before), 0);
+  const auto quit_before = signal(SIGQUIT, SIG_IGN);
+  {
+    WorkerProcess worker(ASSAY_WORKER, std::nullopt);
+    worker.run(small_case(31, 0), one);
+    for (const int one_signal : {SIGTERM, SIGQUIT}) {
+      kill(children().at(0), one_signal);
+      EXPECT_EQ(worker.run(small_case(31, 1), one)[0].disturbances, 1u) << one_signal;
+    }
+  }
+  WorkerProcess worker(ASSAY_WORKER, plugin("terminates_itself"));
+  EXPECT_EQ(worker.run(fatal_case(), one)[0].what,
+            "killed by signal 15 (Terminated), three times in a row");
+  signal(SIGQUIT, quit_before);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
 TEST(DisturbedWorker, OtherSignalsAndExitsAreCrashesAtOnce) {
   const std::map<std::string, std::string> ends = {
       {"segfaults", "killed by signal 11 (Segmentation fault)"},

@@ -1,59 +1,17 @@
 // `assay run` that is killed, interrupted, or started twice: what is stored stays, and the same
 // again goes on.
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <spawn.h>
 
 #include <chrono>
 #include <cstdlib>
 #include <thread>
 
 #include "properties/random.h"
+#include "tests/reports/started.h"
 #include "tests/reports/tiny_campaign.h"
-
-extern char** environ;
 
 namespace assay::tests {
 namespace {
-
-// The program in the background, in a process group of its own, as a shell starts it.
-class Started {
- public:
-  Started(std::vector<std::string> words, const std::string& output) {
-    words.insert(words.begin(), ASSAY_PROGRAM);
-    std::vector<char*> argv;
-    for (auto& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 1, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                     0600);
-    posix_spawn_file_actions_adddup2(&actions, 1, 2);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    EXPECT_EQ(posix_spawn(&id_, ASSAY_PROGRAM, &actions, &attributes, argv.data(), environ), 0);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-  }
-  Started(const Started&) = delete;
-  Started& operator=(const Started&) = delete;
-  ~Started() {
-    if (id_ > 0) send(SIGKILL), end();
-  }
-  // To all of its processes, as a terminal does.
-  void send(int signal) const { kill(-id_, signal); }
-  int end() {
-    int status = 0;
-    waitpid(id_, &status, 0);
-    id_ = -1;
-    return status;
-  }
-
- private:
-  pid_t id_ = -1;
-};
 
 class Interrupted : public testing::Test {
  protected:

@@ -1,0 +1,95 @@
+// Plug-ins that end their own process: on one kind of case always, or now and then. None of them is
+// ever certified.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/reports/run_fixture.h"
+
+namespace assay::tests {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class RunSelfKill : public RunFixture {
+ protected:
+  Outcome verdict(const std::string& name) {
+    plan = scratch.write("plan.json", plan_text(100, R"(, "shrink_share": 0.02)"));
+    out = scratch / name;
+    return run("--jobs 2 --detector " + plugin(name));
+  }
+};
+
+// On which self_kill.cpp kills itself.
+bool is_fatal(std::uint64_t triangles) { return triangles % 5 == 0; }
+
+TEST_F(RunSelfKill, AlwaysOnOneKindOfCaseIsADefectOfTotal) {
+  const std::vector<std::pair<std::string, std::string>> ends = {
+      {"kills_itself", "killed by signal 9 (Killed), three times in a row"},
+      {"terminates_itself", "killed by signal 15 (Terminated), three times in a row"},
+      {"segfaults", "killed by signal 11 (Segmentation fault)\n"},
+      {"aborts", "killed by signal 6 (Aborted)\n"}};
+  for (const auto& [name, how] : ends) {
+    SCOPED_TRACE(name);
+    const auto ended = verdict(name);
+    EXPECT_EQ(ended.exit_code, 1) << ended.out << ended.err;
+    EXPECT_TRUE(contains(ended.out, "\nDEFECT total: crashed ")) << ended.out;
+    EXPECT_TRUE(contains(ended.out, "  " + how)) << ended.out;
+    EXPECT_TRUE(contains(ended.out, "\nDEFECT: ")) << ended.out;
+    EXPECT_FALSE(contains(ended.out, " ran again")) << ended.out;
+    EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: defect\n"));
+
+    // On that kind of case, on each of them, and on no other.
+    std::string problem;
+    const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
+    ASSERT_TRUE(store) << problem;
+    std::uint64_t fatal = 0;
+    store->for_each_trial([&](const properties::TrialRecord& trial) {
+      EXPECT_EQ(trial.outcomes, is_fatal(trial.triangles) ? "D" : "H") << trial.id;
+      fatal += is_fatal(trial.triangles) ? 1 : 0;
+    });
+    EXPECT_GE(fatal, 10u);
+    EXPECT_EQ(signatures_of(out), (properties::Counts{{"total: crashed", fatal}}));
+  }
+}
+
+TEST_F(RunSelfKill, AtRandomDoesNotHold) {
+  const auto ended = verdict("killed_at_random");
+  EXPECT_TRUE(ended.exit_code == 1 || ended.exit_code == 3) << ended.exit_code << ended.err;
+  EXPECT_TRUE(contains(ended.out, " trials ran again: their worker was killed from outside ("))
+      << ended.out;
+  EXPECT_TRUE(contains(ended.out, "\ncomplete   FAILS\n")) << ended.out;
+  EXPECT_TRUE(contains(ended.out, " of 200 trials were disturbed from outside, 1 % may be\n"))
+      << ended.out;
+  // The third death in a row is the detector's own, and so is no other end.
+  const bool is_defect = contains(ended.out, "DEFECT total: crashed");
+  EXPECT_EQ(ended.exit_code, is_defect ? 1 : 3);
+  EXPECT_EQ(is_defect, contains(ended.out, "killed by signal 9 (Killed), three times in a row"));
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"),
+                       is_defect ? "## Assay: defect\n" : "## Assay: incomplete\n"));
+}
+
+TEST_F(RunSelfKill, AtRandomIsNeverCertified) {
+  plan = scratch.write("plan.json", plan_text(100, R"(, "shrink_share": 0.02)"));
+  const auto made = run_assay("certify --jobs 2 --campaign " + plan + " --out " + out +
+                              " --detector " + plugin("killed_at_random"));
+  EXPECT_TRUE(made.exit_code == 1 || made.exit_code == 3) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, " of 200 trials were disturbed from outside, 1 % may be\n"))
+      << made.out;
+  EXPECT_FALSE(contains(made.out, "certified")) << made.out;
+  const auto statement = Json::parse(read_text(out + "/certificate.json"));
+  const auto& p = statement["predicate"];
+  EXPECT_EQ(p["verdict"], made.exit_code == 1 ? "defect" : "incomplete");
+  EXPECT_EQ(p["gates"][3]["gate"], "complete");
+  EXPECT_EQ(p["gates"][3]["state"], "fails");
+  std::uint64_t disturbed = 0;
+  for (const auto& stratum : p["times"]["strata"])
+    disturbed += stratum["disturbed"].get<std::uint64_t>();
+  EXPECT_GT(disturbed, 2u);
+  const auto verified = run_assay("verify " + out + "/certificate.json");
+  EXPECT_EQ(verified.exit_code, made.exit_code) << verified.out;
+  EXPECT_TRUE(contains(verified.out, "verified: ")) << verified.out;
+}
+
+}  // namespace
+}  // namespace assay::tests
