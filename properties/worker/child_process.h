@@ -24,8 +24,9 @@ struct ChildEnd {
 };
 
 // Whether a signal killed it that nothing in a process brings about by going wrong, and that the
-// host did not send: the doing of an administrator, a job queue, a terminal or a machine short of
-// memory; or of the child itself, on purpose.
+// host did not send: SIGKILL and SIGTERM, as an administrator, a job queue or a machine short of
+// memory sends them; SIGINT, SIGHUP and SIGQUIT, as a terminal that is closed or interrupted does;
+// or the child itself, on purpose.
 bool was_killed_from_outside(const ChildEnd& end);
 
 // It leads a process group of its own: a terminal's ctrl-C is for the host alone. It starts with no

@@ -37,6 +37,9 @@ struct WorkerProcess::Parts {
   std::optional<Live> live;
   PluginDescription description;
   std::string problem;  // why there is no worker
+  // A plug-in that was loaded before, and dies or hangs when it is loaded again, does so by itself.
+  bool was_loaded = false;
+  RunEnd end_of_loading = RunEnd::not_run;
   std::uint64_t starts = 0;
   std::uint64_t told = 0;    // disturbances that runs speak of
   std::uint64_t untold = 0;  // before the run that is next
@@ -46,6 +49,7 @@ struct WorkerProcess::Parts {
   bool ensure() {
     if (live && live->channel.is_closed()) bury();
     for (int killed = 0; !live; ++killed) {
+      end_of_loading = RunEnd::not_run;
       if (!start()) return false;
       const auto end = greet();
       if (end && was_killed_from_outside(*end)) {
@@ -54,10 +58,12 @@ struct WorkerProcess::Parts {
       } else if (end) {
         problem = ended_while_loaded(end->text);
       }
+      if (end && was_loaded && plugin_library) end_of_loading = RunEnd::crashed;
       if (!problem.empty()) {
         live.reset();
         return false;
       }
+      was_loaded = true;
       untold += static_cast<std::uint64_t>(killed);
       return true;
     }
@@ -104,6 +110,7 @@ struct WorkerProcess::Parts {
     Hello hello;
     if (received == Transfer::timed_out && !watch.has_ended()) {
       problem = who() + ": hung while it was loaded: " + watch.why();
+      if (was_loaded && plugin_library) end_of_loading = RunEnd::hung;
     } else if (received != Transfer::done) {
       const ChildEnd end = live->child.finish(last_breath);
       live.reset();
@@ -198,13 +205,11 @@ std::vector<CaseRun> WorkerProcess::run(const corpus::Case& c,
   std::vector<CaseRun> runs;
   while (runs.size() < configurations.size()) {
     const auto rest = configurations.subspan(runs.size());
-    if (!parts_->ensure()) {
-      for (std::size_t i = 0; i < rest.size(); ++i) {
-        parts_->keep({RunEnd::not_run, parts_->problem, {}}, runs);
-      }
-      break;
+    if (parts_->ensure()) {
+      parts_->run_rest(c, {rest.begin(), rest.end()}, runs);
+    } else {
+      parts_->keep({parts_->end_of_loading, parts_->problem, {}}, runs);
     }
-    parts_->run_rest(c, {rest.begin(), rest.end()}, runs);
   }
   return runs;
 }

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <thread>
 
@@ -205,6 +208,23 @@ TEST(DisturbedWorker, LoadingIsTriedThreeTimes) {
   EXPECT_EQ(worker.starts(), 3u);
   EXPECT_EQ(worker.disturbances(), 0u);
   EXPECT_EQ(worker.run(small_case(31, 0), one)[0].end, RunEnd::not_run);
+}
+
+// It was loaded before, so that it dies now is its own doing and no fault of the harness.
+TEST(DisturbedWorker, APlugInThatDiesWhenItIsLoadedAgainHasCrashed) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("assay-loaded-" + std::to_string(::getpid()));
+  ::setenv("ASSAY_TEST_FILE", file.c_str(), 1);
+  WorkerProcess worker(ASSAY_WORKER, plugin("crashes_when_loaded_again"));
+  ASSERT_TRUE(worker.describe());
+  std::ofstream(file) << "loaded";
+  ::kill(children().at(0), SIGKILL);
+  const auto run = worker.run(small_case(31, 0), one)[0];
+  ::unsetenv("ASSAY_TEST_FILE");
+  std::filesystem::remove(file);
+  EXPECT_EQ(run.end, RunEnd::crashed);
+  EXPECT_NE(run.what.find("ended while it was loaded: killed by signal 11"), std::string::npos)
+      << run.what;
 }
 
 }  // namespace
