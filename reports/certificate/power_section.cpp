@@ -1,3 +1,4 @@
+#include "properties/faults/fault.h"
 #include "reports/certificate/sections.h"
 
 namespace assay::reports {
@@ -36,6 +37,8 @@ Json faults_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto& proof : findings.evidence.faults) {
     Json fault = named("fault", proof.fault, proof);
+    const auto* registered = properties::find_fault(proof.fault);
+    fault["about"] = registered ? Json(registered->about) : Json(nullptr);
     fault["found"] = proof.found();
     fault["median_cases"] = number_or_null(proof.median());
     list.push_back(std::move(fault));

@@ -8,7 +8,10 @@
 
 namespace assay::reports {
 
-// {gate, state, verdict, exit_code, reasons} each, in their order.
+// What the cases were: sizes, contacts by view sets, tags.
+nlohmann::ordered_json cases_json(const properties::RunFindings& findings);
+
+// {gate, asks, state, verdict, exit_code, reasons} each, in their order.
 nlohmann::ordered_json gates_json(const properties::Judgement& judgement);
 
 // How many bounds hold together, the risk of each, and of what they speak.

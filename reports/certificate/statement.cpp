@@ -100,6 +100,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
           {"campaign", campaign_json(findings, plan)},
           {"confidence", confidence_json(findings)},
           {"strata", strata_json(findings)},
+          {"cases", cases_json(findings)},
           {"laws", laws_json(findings)},
           {"power", power_json(findings)},
           {"harness_problems", std::move(problems)},

@@ -24,13 +24,49 @@ Json bounds_json(const RunFindings& findings, const properties::StratumPlan& str
   return list;
 }
 
+// [from, to, count] of numbers by their power of two; [0, 0, count] for none at all.
+Json histogram(const std::map<int, std::uint64_t>& counts) {
+  Json list = Json::array();
+  for (const auto& [log2, count] : counts) {
+    const std::uint64_t lo = log2 < 0 ? 0 : std::uint64_t{1} << log2;
+    list.push_back({lo, log2 < 0 ? 0 : 2 * lo - 1, count});
+  }
+  return list;
+}
+
+Json distributions_json(const properties::Tally& tally) {
+  Json list = Json::array();
+  for (const auto& [family, stratum] : tally.strata) {
+    list.push_back({{"family", family},
+                    {"triangles", histogram(stratum.sizes)},
+                    {"pairs", histogram(stratum.contacts)}});
+  }
+  return list;
+}
+
+Json set_pairs_json(const properties::Counts& counts) {
+  Json list = Json::array();
+  for (const auto& [sets, contacts, first] : properties::set_pairs_in(counts))
+    list.push_back({{"sets", sets}, {"contacts", contacts}, {"first_contacts", first}});
+  return list;
+}
+
 }  // namespace
+
+Json cases_json(const RunFindings& findings) {
+  Json tags = Json::object();
+  for (const auto& [tag, count] : properties::tags_in(findings.tally.counts)) tags[tag] = count;
+  return {{"distributions", distributions_json(findings.tally)},
+          {"set_pairs", set_pairs_json(findings.tally.counts)},
+          {"tags", std::move(tags)}};
+}
 
 Json gates_json(const properties::Judgement& judgement) {
   Json list = Json::array();
   for (const auto& result : judgement.gates) {
     const auto& rule = properties::rule_of(result.gate);
     list.push_back({{"gate", rule.name},
+                    {"asks", rule.asks},
                     {"state", name_of(result.state)},
                     {"verdict", rule.verdict},
                     {"exit_code", rule.exit_code},
@@ -60,6 +96,7 @@ Json strata_json(const RunFindings& findings) {
                     {"planned", findings.planned(stratum)},
                     {"trials", tally.trials},
                     {"discards", tally.discards},
+                    {"with_defect", tally.with_defect},
                     {"distinct", tally.meshes.size()},
                     {"steps", tally.steps},
                     {"collisions", tally.collisions},
@@ -82,7 +119,8 @@ Json laws_json(const RunFindings& findings) {
                     {"close", tally.close},
                     {"broken", tally.broken}});
   }
-  return {{"wanted_premises", plan.law_premises}, {"laws", std::move(list)}};
+  return {{"wanted_premises", findings.laws_are_judged() ? plan.law_premises : 0},
+          {"laws", std::move(list)}};
 }
 
 }  // namespace assay::reports

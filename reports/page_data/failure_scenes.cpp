@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "properties/campaign/run_folder.h"
-#include "properties/reducer/mesh_size.h"
 #include "reports/failure_text.h"
 #include "reports/page_data/scene_json.h"
 #include "reports/picture/mesh_svg.h"
@@ -20,24 +19,17 @@ std::optional<std::string> library_of(const properties::RunFindings& findings) {
   return findings.library;
 }
 
-Json size_json(const corpus::Expected<corpus::Case>& c) {
-  if (!c) return nullptr;
-  const auto size = properties::size_of(c.value());
-  return {{"triangles", size.triangles}, {"vertices", size.vertices}, {"steps", size.steps}};
-}
-
 class FailureList {
  public:
   explicit FailureList(const properties::RunFindings& run) : run_(run), scenes_(library_of(run)) {}
 
   Json all() {
     Json list = Json::array();
-    for (const auto& failure : run_.failures) {
-      const bool is_told = !list.empty() && list.back()["signature"] == failure.signature;
-      if (is_told) {
-        list.back()["others"].push_back(other(failure));
-      } else {
-        list.push_back(told(failure));
+    for (const auto* kind : run_.kinds()) {
+      list.push_back(shown(*kind));
+      for (const auto& failure : run_.failures) {
+        if (failure.signature == kind->signature && &failure != kind)
+          list.back()["others"].push_back(other(failure));
       }
     }
     return list;
@@ -56,32 +48,17 @@ class FailureList {
             {"replay", replay_of(failure)}};
   }
 
-  Json told(const properties::StoredFailure& failure) {
-    const bool is_shrunk = !failure.smallest.empty();
-    const auto original = corpus::parse_case(failure.mesh, "stored failure");
-    const auto smallest =
-        is_shrunk ? corpus::parse_case(failure.smallest, "stored failure") : original;
-    Json json = {{"signature", failure.signature},
-                 {"configuration", failure.configuration},
-                 {"id", failure.id},
-                 {"what", failure.what},
-                 {"met", run_.met_count(failure)},
-                 {"flaky", failure.flaky},
-                 {"original", size_json(original)},
-                 {"smallest", is_shrunk ? size_json(smallest) : Json()},
-                 {"replay", replay_of(failure)},
-                 {"stage", nullptr},
-                 {"now", nullptr},
-                 {"scene", nullptr},
-                 {"svg", nullptr},
-                 {"not_shown", nullptr},
-                 {"others", Json::array()}};
-    if (!smallest) {
-      json["not_shown"] = smallest.error().message;
-    } else if (smallest.value().triangles.rows() > most_shown_triangles) {
+  Json shown(const properties::StoredFailure& failure) {
+    Json json = {{"stage", nullptr}, {"now", nullptr},       {"scene", nullptr},
+                 {"svg", nullptr},   {"not_shown", nullptr}, {"others", Json::array()}};
+    const auto mesh = corpus::parse_case(failure.smallest.empty() ? failure.mesh : failure.smallest,
+                                         "stored failure");
+    if (!mesh) {
+      json["not_shown"] = mesh.error().message;
+    } else if (mesh.value().triangles.rows() > most_shown_triangles) {
       json["not_shown"] = "the mesh is too large to be shown: shrink it first";
     } else {
-      show(json, smallest.value(), failure);
+      show(json, mesh.value(), failure);
     }
     return json;
   }

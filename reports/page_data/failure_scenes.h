@@ -7,7 +7,8 @@
 
 namespace assay::reports {
 
-// `failures` of assay-report/2: one entry a signature, its smallest mesh with scene and picture.
+// `failures` of assay-report/2: for each of the predicate's failures, in their order, the scene and
+// the picture of its smallest mesh, and the others of its kind.
 nlohmann::ordered_json failure_scenes(const properties::RunFindings& findings);
 
 }  // namespace assay::reports

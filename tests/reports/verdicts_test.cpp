@@ -173,7 +173,7 @@ void expect_agreement(const std::string& folder, const States& states) {
   EXPECT_EQ(predicate["verdict"], verdict);
   EXPECT_EQ(predicate["exit_code"], code);
   // The page.
-  const auto page = reports::run_json(*findings, judgement, verified.statement);
+  const auto page = reports::run_json(*findings, judgement);
   EXPECT_EQ(page["verdict"], verdict);
   const auto junit = read_text(folder + "/junit.xml"), summary = read_text(folder + "/summary.md"),
              terminal = reports::gates_text(judgement);
@@ -181,7 +181,7 @@ void expect_agreement(const std::string& folder, const States& states) {
     const auto& result = judgement.gates[i];
     const std::string name(rule_of(result.gate).name);
     expect_gate(predicate["gates"][i], result, "certificate");
-    expect_gate(page["gates"][i], result, "page");
+    expect_gate(page["findings"]["gates"][i], result, "page");
     const auto test = junit_of(junit, name);
     EXPECT_EQ(contains(test, "<failure"), result.state == GateState::fails) << test;
     EXPECT_EQ(contains(test, "<skipped"), result.state == GateState::not_judged) << test;

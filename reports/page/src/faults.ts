@@ -56,7 +56,7 @@ export function faults(run: Run): HTMLElement {
         { head: "fault", cell: (f: Fault) => (f.about ? html("span", { title: f.about }, f.name) : f.name) },
         { head: "law", cell: (f: Fault) => f.law },
         { head: "cases (median)", cell: (f: Fault) => (f.median_cases === null ? "\u2013" : count(f.median_cases)), number: true },
-        { head: "curated case", cell: (f: Fault) => (f.by_curated === null ? "\u2013" : f.by_curated ? "shows it" : "does not show it") },
+        { head: "curated case", cell: (f: Fault) => (f.by_curated ? "shows it" : "\u2013") },
         { head: "verdict", cell: verdict },
       ],
       list,

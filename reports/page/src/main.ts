@@ -6,7 +6,8 @@ import { failures, type FailuresView } from "./failures";
 import { faults } from "./faults";
 import { history } from "./history";
 import { gates, overview } from "./overview";
-import type { Report, Run } from "./report";
+import type { Report, Run, StoredReport } from "./report";
+import { runOf } from "./run";
 import { strata } from "./strata";
 
 declare global {
@@ -26,8 +27,8 @@ function runView(run: Run): { element: HTMLElement; failures: FailuresView } {
 
 function read(): Report | null {
   try {
-    const report = JSON.parse(document.getElementById("assay-report")?.textContent ?? "") as Report;
-    return report.schema === "assay-report/2" ? report : null;
+    const stored = JSON.parse(document.getElementById("assay-report")?.textContent ?? "") as StoredReport;
+    return stored.schema === "assay-report/2" ? { ...stored, runs: stored.runs.map(runOf) } : null;
   } catch {
     return null;
   }

@@ -94,7 +94,7 @@ export interface Fault {
   time_over: boolean;
   median_cases: number | null;
   cases: (number | null)[];
-  by_curated: boolean | null;
+  by_curated: boolean;
   known_vertices: number | null;
   shrunk: {
     from_triangles: number;
@@ -196,4 +196,81 @@ export interface Report {
   schema: string;
   version: string;
   runs: Run[];
+}
+
+export interface StoredReport {
+  schema: string;
+  version: string;
+  runs: StoredRun[];
+}
+
+// What stands in the page of a run: findings are the predicate of assay-certificate/2.
+export interface StoredRun {
+  folder: string;
+  library: string | null;
+  verdict: string;
+  why: string;
+  subject: Certificate["subject"] | null;
+  findings: Findings;
+  failures: Omit<Failure, keyof StoredFailure | "id" | "original" | "smallest">[];
+}
+
+export interface StoredFailure {
+  signature: string;
+  configuration: string;
+  what: string;
+  met: number;
+  flaky: boolean;
+  replay: string;
+}
+
+export interface Findings {
+  gates: Gate[];
+  detector: { name: string; built_in: boolean; configurations: { name: string }[] };
+  versions: Certificate["versions"];
+  campaign: { name: string; seed: number; shards: string[]; plan: { policy: { speed_limits: Record<string, number> } } };
+  confidence: { family: number; bounds: number; speaks_of: string };
+  strata: {
+    family: string;
+    planned: number;
+    trials: number;
+    with_defect: number;
+    steps: number;
+    collisions: number;
+    wanted_bound: number | null;
+    bounds: { configuration: string; n: number; holds: number; defects: number; undecided: number; errors: number; bound: number }[];
+  }[];
+  cases: Pick<Run, "distributions" | "set_pairs" | "tags">;
+  laws: { wanted_premises: number; laws: { law: string; premises: number; close: number; broken: number }[] } | null;
+  power: {
+    canaries: { fault: string; found_after: number | null }[];
+    taken_from: Run["faults_taken_from"];
+    faults: {
+      fault: string;
+      about: string | null;
+      law: string;
+      status: Fault["status"];
+      found: boolean;
+      time_over: boolean;
+      median_cases: number | null;
+      needed: (number | null)[];
+      curated: boolean;
+      known_vertices: number;
+      shrunk: { before: Size; after: Size; calls: number } | null;
+    }[];
+    worlds: World[];
+  };
+  self_test: Certificate["self_test"];
+  corpus: CorpusRow[] | null;
+  failures: (StoredFailure & { case: string; before: Size | null; after: Size | null })[];
+  waivers: Waiver[];
+  replay: string[];
+  digests: Certificate["digests"];
+  times: {
+    issued: string | null;
+    seconds: number | null;
+    near_the_limit: number;
+    speed: { what: string; median: number; lo: number; hi: number }[];
+    strata: { family: string; oracle_us: number; detector_us: number; disturbed: number }[];
+  };
 }
