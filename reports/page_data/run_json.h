@@ -8,8 +8,8 @@
 namespace assay::reports {
 
 // Everything but `failures`. statement: of the certificate in the run's folder; null where there is
-// none. `unverified`: the first line of what keeps it from being verified; then the run's verdict is
-// "unverified", whatever its gates say.
+// none. `unverified`: the first line of what keeps it from being verified; then the run's verdict
+// is "unverified", whatever its gates say.
 nlohmann::ordered_json run_json(const properties::RunFindings& findings,
                                 const properties::Judgement& judgement,
                                 const nlohmann::ordered_json& statement = nullptr,
