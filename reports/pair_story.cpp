@@ -20,15 +20,8 @@ using detector::doubt::violated;
 std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 const char* sign_text(detector::ViewSign sign) {
-  switch (sign) {
-    case detector::ViewSign::positive:
-      return "V+";
-    case detector::ViewSign::negative:
-      return "V-";
-    case detector::ViewSign::zero:
-      return "V0";
-  }
-  return "?";
+  constexpr const char* from_negative[] = {"V-", "V0", "V+"};
+  return from_negative[static_cast<int>(sign) + 1];
 }
 
 class PairStory {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "properties/claims.h"
+
 namespace assay::properties {
 
 using detector::ViewSign;
@@ -25,19 +27,6 @@ PairBlock block_of(ViewSign a, ViewSign b, bool either_violated) {
   if (a != b) return PairBlock::positive_negative;
   return a == ViewSign::positive ? PairBlock::positive_positive : PairBlock::negative_negative;
 }
-
-namespace {
-
-std::size_t shared_vertices(const detector::TrianglesView& triangles,
-                            const detector::TrianglePair& pair) {
-  std::size_t shared = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) shared += triangles(pair.a, i) == triangles(pair.b, j) ? 1 : 0;
-  }
-  return std::min<std::size_t>(shared, 2);
-}
-
-}  // namespace
 
 void TagTable::add(const std::vector<std::string>& tags, std::uint64_t steps,
                    std::uint64_t collisions) {
@@ -60,7 +49,8 @@ void TagTable::add_contacts(const detector::TrianglesView& triangles,
     const PairBlock block = block_of(signs[static_cast<std::size_t>(a)],
                                      signs[static_cast<std::size_t>(b)], in_vv(a) || in_vv(b));
     BlockCount& count = blocks_[static_cast<std::size_t>(block)];
-    const std::size_t shared = shared_vertices(triangles, contact.pair);
+    const auto shared =
+        static_cast<std::size_t>(std::min(shared_vertices(triangles, contact.pair), 2));
     ++count.contacts[shared];
     if (contact.time == judgement.first) ++count.first_contacts[shared];
   }

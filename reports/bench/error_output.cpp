@@ -42,7 +42,7 @@ Json to_json(const ErrorCounts& counts) {
 Json head_of(const Variant& variant) {
   return {{"arithmetic", properties::name_of(variant.arithmetic)},
           {"culling", properties::name_of(variant.culling)},
-          {"pairs", name_of(variant.pairs)}};
+          {"pairs", properties::name_of(variant.pairs)}};
 }
 
 std::string samples_text(const std::vector<double>& samples) {
@@ -94,7 +94,7 @@ std::string text_of(std::span<const VariantSummary> variants) {
     const auto& e = v.errors;
     text +=
         fmt::format(fmt::runtime(line), properties::name_of(v.variant.arithmetic),
-                    properties::name_of(v.variant.culling), name_of(v.variant.pairs),
+                    properties::name_of(v.variant.culling), properties::name_of(v.variant.pairs),
                     fmt::format("{:.2f} [{:.2f}, {:.2f}]", v.over_reference.value,
                                 v.over_reference.lo, v.over_reference.hi),
                     steps(e.unsafe, v.unsafe), steps(e.alarming, v.alarming), e.missed,
@@ -140,9 +140,10 @@ std::string csv_of(std::span<const JudgedStep> steps) {
       "elementary_tests,judged,contact,missed,false_alarm,missing,spurious,late_ulps,early_ulps,"
       "late_share,early_share,ns\n";
   for (const auto& s : steps) {
-    text += fmt::format("{},{},{},{},{},{},{},{},", s.family, s.kind, s.case_id, s.step + 1,
-                        s.triangles, properties::name_of(s.variant.arithmetic),
-                        properties::name_of(s.variant.culling), name_of(s.variant.pairs));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},", s.family, s.kind, s.case_id, s.step + 1,
+                    s.triangles, properties::name_of(s.variant.arithmetic),
+                    properties::name_of(s.variant.culling), properties::name_of(s.variant.pairs));
     text += fmt::format("{:016x},{},{},{},", s.hash, s.box_tests, s.candidates, s.elementary_tests);
     text += fmt::format("{:d},{:d},{:d},{:d},{},{},", s.judged, s.contact, s.missed, s.false_alarm,
                         s.missing, s.spurious);

@@ -27,11 +27,9 @@ std::vector<Variant> all_variants(bool with_none) {
   return variants;
 }
 
-const char* name_of(Pairs pairs) { return pairs == Pairs::all ? "all" : "first"; }
-
 std::string name_of(const Variant& variant) {
   return std::string(properties::name_of(variant.arithmetic)) + " " +
-         properties::name_of(variant.culling) + " " + name_of(variant.pairs);
+         properties::name_of(variant.culling) + " " + properties::name_of(variant.pairs);
 }
 
 namespace {

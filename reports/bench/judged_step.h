@@ -24,7 +24,6 @@ inline constexpr Variant reference_variant{};
 // reference is the first.
 std::vector<Variant> all_variants(bool with_none);
 
-const char* name_of(detector::Pairs pairs);
 // "exact view-auto all"
 std::string name_of(const Variant& variant);
 

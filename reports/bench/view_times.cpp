@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "properties/random.h"
+#include "properties/words.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/swept_boxes.h"
 #include "reports/bench/timed_step.h"
@@ -46,9 +47,7 @@ corpus::Sequence shuffled(const corpus::Sequence& in) {
 }
 
 const char* name_of(InstructionSet set) {
-  return set == InstructionSet::baseline ? "baseline"
-         : set == InstructionSet::avx2   ? "avx2"
-                                         : "avx512";
+  return properties::word_of({"baseline", "avx2", "avx512"}, set);
 }
 
 // bound: asked of the instruction set that this machine chooses.
