@@ -19,8 +19,6 @@ using Flags = std::vector<std::uint8_t>;
 using Ghosts = std::span<const std::int32_t>;
 using Corners = std::array<std::int32_t, 3>;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 std::ptrdiff_t common_vertices(const Corners& a, const Corners& b) {
   return std::count_if(a.begin(), a.end(),
                        [&](auto v) { return std::find(b.begin(), b.end(), v) != b.end(); });

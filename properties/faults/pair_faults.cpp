@@ -17,8 +17,6 @@ using detector::SearchInput;
 using detector::Topology;
 using detector::TrianglePair;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 template <std::uint8_t a, std::uint8_t b>
 struct BlockDropped : detector::PairRule {
   PairTables candidates() const override {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "properties/faults/fault.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 

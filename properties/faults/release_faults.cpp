@@ -16,8 +16,6 @@ using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
 using Triangles = std::vector<std::int32_t>;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 enum class Contacts { tested, ignored };
 enum class Ghosts { tested, ignored };
 enum class Layers { of_pieces, by_connection, across_touched, not_looked_at };

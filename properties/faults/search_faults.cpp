@@ -19,8 +19,6 @@ using detector::SearchCounts;
 using detector::SearchInput;
 using detector::Topology;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // A flag gone from a leaf goes from all above, though another leaf there may have it.
 struct ClearedForOthersToo : detector::Marking {
   void clear(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,

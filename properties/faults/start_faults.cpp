@@ -16,8 +16,6 @@ using detector::ViewSign;
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // Triangles that meet another one of their component at t=0.
 void add_own_contacts(const StepWork& work, std::size_t c, Flags& touched) {
   detector::FeatureContacts contacts(work.surface.mesh, work.x_t0, work.x_t0, work.elementary,

@@ -11,8 +11,6 @@ using detector::ReleaseRule;
 using detector::StepState;
 using detector::StepWork;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // What the step leaves behind, from a start at which more is believed clean, or from a step that
 // has seen less.
 struct DirtyNotCarried : ReleaseRule {

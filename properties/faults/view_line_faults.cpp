@@ -69,7 +69,7 @@ struct FreeFromMidpoint : detector::ReleaseRule {
   bool is_free(detector::StepWork& work, std::size_t c) const override {
     const auto& triangles = work.component(c).triangles;
     for (const auto t : triangles) {
-      if (work.signs[static_cast<std::size_t>(t)] != ViewSign::positive) return false;
+      if (work.signs[at(t)] != ViewSign::positive) return false;
     }
     return detector::winding_number(work.surface.all(), triangles, work.x_t0,
                                     midpoint(work.primitives[c]).q0.t0) == 1;

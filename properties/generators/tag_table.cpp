@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "properties/claims.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 
@@ -41,13 +42,10 @@ void TagTable::add(const std::vector<std::string>& tags, std::uint64_t steps,
 void TagTable::add_contacts(const detector::TrianglesView& triangles,
                             const oracle::StepJudgement& judgement, std::span<const ViewSign> signs,
                             std::span<const std::uint8_t> violated) {
-  const auto in_vv = [&](std::int32_t t) {
-    return !violated.empty() && violated[static_cast<std::size_t>(t)] != 0;
-  };
+  const auto in_vv = [&](std::int32_t t) { return !violated.empty() && violated[at(t)] != 0; };
   for (const auto& contact : judgement.pairs) {
     const auto [a, b] = contact.pair;
-    const PairBlock block = block_of(signs[static_cast<std::size_t>(a)],
-                                     signs[static_cast<std::size_t>(b)], in_vv(a) || in_vv(b));
+    const PairBlock block = block_of(signs[at(a)], signs[at(b)], in_vv(a) || in_vv(b));
     BlockCount& count = blocks_[static_cast<std::size_t>(block)];
     const auto shared =
         static_cast<std::size_t>(std::min(shared_vertices(triangles, contact.pair), 2));

@@ -82,11 +82,7 @@ Json to_json(const BenchReport& report) {
   Json rows = Json::array(), scatter = Json::array();
   for (const auto& row : report.rows) {
     Json measured, wanted;
-    if (row.measured) {
-      measured = {{"median", row.measured->value},
-                  {"interval", {row.measured->lo, row.measured->hi}},
-                  {"samples", row.measured->samples}};
-    }
+    if (row.measured) measured = to_json(*row.measured);
     if (row.wanted) wanted = text_of(*row.wanted);
     rows.push_back({{"what", row.what},
                     {"unit", row.unit},

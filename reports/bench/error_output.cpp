@@ -5,17 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/case_check.h"
+#include "reports/joined.h"
 
 namespace assay::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(const Estimate& estimate) {
-  return {{"median", estimate.value},
-          {"interval", {estimate.lo, estimate.hi}},
-          {"samples", estimate.samples}};
-}
 
 Json to_json(const TimeErrors& errors) {
   return {{"steps", errors.steps},
@@ -45,12 +40,6 @@ Json head_of(const Variant& variant) {
           {"pairs", properties::name_of(variant.pairs)}};
 }
 
-std::string samples_text(const std::vector<double>& samples) {
-  std::string text;
-  for (const double sample : samples) text += fmt::format("{}{}", text.empty() ? "" : " ", sample);
-  return text;
-}
-
 std::string time_text(const TimeErrors& errors) {
   if (errors.steps == 0) return "0";
   return fmt::format("{}: {:.2g}, {:.2g} ({:.1g})", errors.steps, errors.median_ulps,
@@ -64,6 +53,12 @@ Json to_json(const ShareOfSteps& share) {
 }
 
 }  // namespace
+
+Json to_json(const Estimate& estimate) {
+  return {{"median", estimate.value},
+          {"interval", {estimate.lo, estimate.hi}},
+          {"samples", estimate.samples}};
+}
 
 std::string families_text(std::span<const FamilySummary> families) {
   std::vector<std::pair<std::string, int>> kinds;
@@ -148,7 +143,7 @@ std::string csv_of(std::span<const JudgedStep> steps) {
     text += fmt::format("{:d},{:d},{:d},{:d},{},{},", s.judged, s.contact, s.missed, s.false_alarm,
                         s.missing, s.spurious);
     text += fmt::format("{},{},{},{},{}\n", s.first.late_ulps, s.first.early_ulps,
-                        s.first.late_share, s.first.early_share, samples_text(s.ns));
+                        s.first.late_share, s.first.early_share, joined(s.ns, " "));
   }
   return text;
 }

@@ -7,14 +7,12 @@
 
 namespace assay::reports {
 
-using detector::Arithmetic;
 using detector::Culling;
 using detector::Pairs;
 
 std::vector<Variant> all_variants(bool with_none) {
   std::vector<Variant> variants = {reference_variant};
-  for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded,
-                                Arithmetic::double_precision, Arithmetic::single_precision}) {
+  for (const auto arithmetic : every_arithmetic) {
     for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
                                Culling::normal_cone, Culling::bvh, Culling::none}) {
       if (culling == Culling::none && !with_none) continue;

@@ -9,6 +9,10 @@
 
 namespace assay::reports {
 
+inline constexpr detector::Arithmetic every_arithmetic[] = {
+    detector::Arithmetic::exact, detector::Arithmetic::bounded,
+    detector::Arithmetic::double_precision, detector::Arithmetic::single_precision};
+
 // An assembly that a user may choose by options.
 struct Variant {
   detector::Arithmetic arithmetic = detector::Arithmetic::exact;
