@@ -9,8 +9,8 @@
 #include "corpus/query_csv.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary_test.h"
-#include "oracle/contact.h"
 #include "oracle/referee.h"
+#include "properties/query_methods.h"
 #include "properties/words.h"
 #include "reports/bench/estimate.h"
 #include "reports/commands.h"
@@ -34,11 +34,7 @@ detector::FourPoints four_points_of(const LabelledQuery& q) {
 }
 
 Answered answer_by_oracle(const LabelledQuery& q) {
-  const auto answer = std::holds_alternative<detector::VertexFace>(q.query)
-                          ? oracle::vertex_face_contact(std::get<detector::VertexFace>(q.query),
-                                                        detector::Want::yes_no)
-                          : oracle::edge_edge_contact(std::get<detector::EdgeEdge>(q.query),
-                                                      detector::Want::yes_no);
+  const auto answer = properties::ask_oracle(four_points_of(q), detector::Want::yes_no);
   return {answer.contact, static_cast<int>(answer.rung)};
 }
 

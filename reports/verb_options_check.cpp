@@ -1,5 +1,4 @@
 // Options of `check`, `check-queries`, `self-test` and `certify`.
-
 #include <array>
 
 #include "properties/case_check.h"

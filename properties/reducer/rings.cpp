@@ -1,7 +1,6 @@
 #include "properties/reducer/rings.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "properties/reducer/case_edits.h"
 
@@ -9,11 +8,10 @@ namespace assay::properties {
 
 Rings rings_of(const ReductionSearch& search) {
   const auto& triangles = search.best().triangles;
-  const auto vertices = static_cast<std::size_t>(search.best().frames.front().rows());
+  const auto vertices = vertex_count(search.best());
   Rings rings;
   rings.distance.assign(vertices, Rings::unreached);
-  rings.parent.resize(vertices);
-  std::iota(rings.parent.begin(), rings.parent.end(), 0);
+  rings.parent = in_order(vertices);
   rings.neighbours.resize(vertices);
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
@@ -49,8 +47,7 @@ Rings rings_of(const ReductionSearch& search) {
       queue.push_back(w);
     }
   }
-  rings.far_first.resize(vertices);
-  std::iota(rings.far_first.begin(), rings.far_first.end(), 0);
+  rings.far_first = in_order(vertices);
   std::stable_sort(rings.far_first.begin(), rings.far_first.end(),
                    [&](auto a, auto b) { return rings.distance[at(a)] > rings.distance[at(b)]; });
   return rings;

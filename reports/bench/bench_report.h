@@ -56,6 +56,9 @@ struct GrowthPoint {
 };
 
 struct BenchReport {
+  BenchReport() = default;
+  explicit BenchReport(std::string name) : suite(std::move(name)) {}
+
   std::string suite;
   std::vector<BenchRow> rows;
   // One line each. Times are noisy, answers are not: any of these fails the run.

@@ -5,8 +5,7 @@
 
 namespace assay::reports {
 BenchReport claims_suite(const BenchSettings& settings, Progress& progress) {
-  BenchReport report;
-  report.suite = "claims";
+  BenchReport report("claims");
   progress.phase("steps");
   std::vector<NamedStep> steps;
   for (const std::string scene : {"dented-sphere", "crumpling-sphere", "bend"}) {

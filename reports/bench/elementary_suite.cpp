@@ -162,8 +162,7 @@ void rod_twist_candidates(const BenchSettings& settings, int rounds, BenchReport
 }  // namespace
 
 BenchReport elementary_suite(const BenchSettings& settings, Progress& progress) {
-  BenchReport report;
-  report.suite = "elementary";
+  BenchReport report("elementary");
   const int rounds = settings.rounds(15);
   progress.phase("candidates of a mesh");
   rod_twist_candidates(settings, rounds, report);

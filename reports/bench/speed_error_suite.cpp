@@ -92,8 +92,7 @@ void add_ratios(std::span<const FamilySummary> families, BenchReport& report) {
 }  // namespace
 
 BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress) {
-  BenchReport report;
-  report.suite = "speed-error";
+  BenchReport report("speed-error");
   std::vector<std::string> missing;
   std::vector<JudgedStep> steps;
   for (const auto& family : error_families(settings, missing)) {

@@ -196,8 +196,7 @@ StabilityPlan plan_for(const corpus::HardFamily& family, const BenchSettings& se
 BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          std::span<const StabilitySubject> subjects, const BenchSettings& settings,
                          Progress& progress) {
-  BenchReport report;
-  report.suite = "stability";
+  BenchReport report("stability");
   AllFamilies all(subjects);
   for (const auto& family : families) {
     progress.phase(std::string(family.name));
