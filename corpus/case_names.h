@@ -12,16 +12,16 @@ namespace assay::corpus {
 inline constexpr std::string_view case_schema = "assay-case/1";
 
 // In the order of detector::Answer.
-inline constexpr std::array<std::string_view, 4> answer_names = {"free", "collision", "undecided",
-                                                                 "error"};
+inline constexpr std::array<const char*, 4> answer_names = {"free", "collision", "undecided",
+                                                            "error"};
 
-constexpr std::string_view name_of(detector::Answer answer) {
+constexpr const char* name_of(detector::Answer answer) {
   return answer_names[static_cast<std::size_t>(answer)];
 }
 
 constexpr std::optional<detector::Answer> answer_named(std::string_view name) {
   for (std::size_t i = 0; i < answer_names.size(); ++i) {
-    if (answer_names[i] == name) return static_cast<detector::Answer>(i);
+    if (name == answer_names[i]) return static_cast<detector::Answer>(i);
   }
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 
 #include "detector/detector.h"
 #include "properties/first_contact_graph.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -14,45 +15,11 @@ using detector::TimeEnclosure;
 using detector::TrianglePair;
 
 const char* name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::holds:
-      return "holds";
-    case Outcome::defect:
-      return "defect";
-    case Outcome::undecided:
-      return "undecided";
-    case Outcome::error:
-      return "error";
-  }
-  return "error";
-}
-
-const char* name_of(Answer answer) {
-  switch (answer) {
-    case Answer::free:
-      return "free";
-    case Answer::collision:
-      return "collision";
-    case Answer::undecided:
-      return "undecided";
-    case Answer::error:
-      return "error";
-  }
-  return "error";
+  return word_of({"holds", "defect", "undecided", "error"}, outcome);
 }
 
 const char* name_of(detector::FeatureKind kind) {
-  switch (kind) {
-    case detector::FeatureKind::vertex_face:
-      return "vertex-face";
-    case detector::FeatureKind::edge_edge:
-      return "edge-edge";
-    case detector::FeatureKind::piercing:
-      return "piercing";
-    case detector::FeatureKind::same_vertices:
-      return "same-vertices";
-  }
-  return "unknown";
+  return word_of({"vertex-face", "edge-edge", "piercing", "same-vertices"}, kind);
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/case_names.h"
 #include "detector/options.h"
 #include "oracle/step.h"
 #include "properties/claims.h"
@@ -14,7 +15,7 @@ namespace assay::properties {
 enum class Outcome : std::uint8_t { holds, defect, undecided, error };
 
 const char* name_of(Outcome outcome);
-const char* name_of(detector::Answer answer);
+using corpus::name_of;  // of detector::Answer
 const char* name_of(detector::FeatureKind kind);
 
 // A pair whose first time the detector has wrong.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <utility>
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -15,42 +15,13 @@ using detector::Start;
 
 namespace {
 
-template <class Enum>
-using Word = std::pair<const char*, Enum>;
-
-constexpr Word<Culling> cullings[] = {{"view-auto", Culling::view_auto},
-                                      {"view-point", Culling::view_point},
-                                      {"view-line", Culling::view_line},
-                                      {"normal-cone", Culling::normal_cone},
-                                      {"bvh", Culling::bvh},
-                                      {"none", Culling::none}};
-constexpr Word<Start> starts[] = {
-    {"verified", Start::verified}, {"clean", Start::clean}, {"unknown", Start::unknown}};
-constexpr Word<Pairs> choices_of_pairs[] = {{"all", Pairs::all}, {"first", Pairs::first}};
-constexpr Word<Arithmetic> arithmetics[] = {{"exact", Arithmetic::exact},
-                                            {"bounded", Arithmetic::bounded},
-                                            {"double", Arithmetic::double_precision},
-                                            {"float", Arithmetic::single_precision}};
-constexpr Word<Release> releases[] = {
-    {"pieces", Release::pieces}, {"model", Release::model}, {"view", Release::view}};
-constexpr Word<GhostTest> ghost_tests[] = {{"exact", GhostTest::exact},
-                                           {"boxes", GhostTest::boxes}};
-
-template <class Enum, std::size_t n>
-std::optional<Enum> named(const Word<Enum> (&words)[n], std::string_view word) {
-  for (const auto& [name, value] : words) {
-    if (word == name) return value;
-  }
-  return std::nullopt;
-}
-
-template <class Enum, std::size_t n>
-const char* word_of(const Word<Enum> (&words)[n], Enum value) {
-  for (const auto& [name, known] : words) {
-    if (value == known) return name;
-  }
-  return "unknown";
-}
+constexpr const char* cullings[] = {"view-auto",   "view-point", "view-line",
+                                    "normal-cone", "bvh",        "none"};
+constexpr const char* starts[] = {"verified", "clean", "unknown"};
+constexpr const char* choices_of_pairs[] = {"all", "first"};
+constexpr const char* arithmetics[] = {"exact", "bounded", "double", "float"};
+constexpr const char* releases[] = {"pieces", "model", "view"};
+constexpr const char* ghost_tests[] = {"exact", "boxes"};
 
 // False for a word that is none, and the option stays.
 template <class Enum>
@@ -71,15 +42,21 @@ bool set_option(detector::Options& options, std::string_view name, std::string_v
 
 }  // namespace
 
-std::optional<Culling> culling_named(std::string_view word) { return named(cullings, word); }
-std::optional<Start> start_named(std::string_view word) { return named(starts, word); }
-std::optional<Pairs> pairs_named(std::string_view word) { return named(choices_of_pairs, word); }
-std::optional<Arithmetic> arithmetic_named(std::string_view word) {
-  return named(arithmetics, word);
+std::optional<Culling> culling_named(std::string_view word) {
+  return value_of<Culling>(cullings, word);
 }
-std::optional<Release> release_named(std::string_view word) { return named(releases, word); }
+std::optional<Start> start_named(std::string_view word) { return value_of<Start>(starts, word); }
+std::optional<Pairs> pairs_named(std::string_view word) {
+  return value_of<Pairs>(choices_of_pairs, word);
+}
+std::optional<Arithmetic> arithmetic_named(std::string_view word) {
+  return value_of<Arithmetic>(arithmetics, word);
+}
+std::optional<Release> release_named(std::string_view word) {
+  return value_of<Release>(releases, word);
+}
 std::optional<GhostTest> ghost_test_named(std::string_view word) {
-  return named(ghost_tests, word);
+  return value_of<GhostTest>(ghost_tests, word);
 }
 
 const char* name_of(Culling culling) { return word_of(cullings, culling); }

@@ -2,66 +2,29 @@
 
 #include <algorithm>
 
+#include "properties/words.h"
+
 namespace assay::properties {
 
 bool Claims::has(Claim claim) const {
-  switch (claim) {
-    case Claim::free_sound:
-      return free_sound;
-    case Claim::not_late:
-      return not_late;
-    case Claim::first_time:
-      return first_time;
-    case Claim::first_pairs:
-      return first_pairs;
-    case Claim::all_pairs:
-      return all_pairs;
-    case Claim::no_spurious:
-      return no_spurious;
-    case Claim::deterministic:
-      return deterministic;
-    case Claim::total:
-      return total;
-  }
-  return false;
+  constexpr bool Claims::*in_order[] = {
+      &Claims::free_sound, &Claims::not_late,    &Claims::first_time,    &Claims::first_pairs,
+      &Claims::all_pairs,  &Claims::no_spurious, &Claims::deterministic, &Claims::total};
+  return this->*in_order[static_cast<std::size_t>(claim)];
 }
 
 const char* name_of(Claim claim) {
-  switch (claim) {
-    case Claim::free_sound:
-      return "free-sound";
-    case Claim::not_late:
-      return "not-late";
-    case Claim::first_time:
-      return "first-time";
-    case Claim::first_pairs:
-      return "first-pairs";
-    case Claim::all_pairs:
-      return "all-pairs";
-    case Claim::no_spurious:
-      return "no-spurious";
-    case Claim::deterministic:
-      return "deterministic";
-    case Claim::total:
-      return "total";
-  }
-  return "unknown";
+  return word_of({"free-sound", "not-late", "first-time", "first-pairs", "all-pairs", "no-spurious",
+                  "deterministic", "total"},
+                 claim);
 }
 
 const char* name_of(Adjacency adjacency) {
-  switch (adjacency) {
-    case Adjacency::all:
-      return "all";
-    case Adjacency::not_edge_sharing:
-      return "not-edge-sharing";
-    case Adjacency::no_shared_vertex:
-      return "no-shared-vertex";
-  }
-  return "unknown";
+  return word_of({"all", "not-edge-sharing", "no-shared-vertex"}, adjacency);
 }
 
 const char* name_of(Coordinates coordinates) {
-  return coordinates == Coordinates::float64 ? "float64" : "float32";
+  return word_of({"float64", "float32"}, coordinates);
 }
 
 const std::vector<Claim>& all_claims() {
@@ -92,21 +55,19 @@ Claims claims_of(const detector::Options& options) {
           .total = true};
 }
 
-bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
-                detector::TrianglePair pair) {
+int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair) {
   int shared = 0;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) shared += triangles(pair.a, i) == triangles(pair.b, j) ? 1 : 0;
   }
-  switch (contract.adjacency) {
-    case Adjacency::all:
-      return false;
-    case Adjacency::not_edge_sharing:
-      return shared >= 2;
-    case Adjacency::no_shared_vertex:
-      return shared >= 1;
-  }
-  return false;
+  return shared;
+}
+
+bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
+                detector::TrianglePair pair) {
+  if (contract.adjacency == Adjacency::all) return false;
+  const int most_shared = contract.adjacency == Adjacency::not_edge_sharing ? 1 : 0;
+  return shared_vertices(triangles, pair) > most_shared;
 }
 
 detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates) {

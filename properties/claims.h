@@ -60,6 +60,8 @@ std::vector<Claim> list_of(const Claims& claims);
 // pairs first nobody claims all-pairs.
 Claims claims_of(const detector::Options& options);
 
+int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);
+
 // Whether the contract lets the detector leave this pair out.
 bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
                 detector::TrianglePair pair);

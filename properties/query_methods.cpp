@@ -48,15 +48,8 @@ constexpr oracle::RefereeOptions referee_options = {60, 100};
 MethodAnswer second_referee(const Query& query) {
   const auto told = query.first_group == 1 ? oracle::referee(vertex_face(query), referee_options)
                                            : oracle::referee(edge_edge(query), referee_options);
-  switch (told) {
-    case oracle::RefereeVerdict::contact:
-      return {QueryVerdict::contact, {}};
-    case oracle::RefereeVerdict::no_contact:
-      return {QueryVerdict::no_contact, {}};
-    case oracle::RefereeVerdict::open:
-      break;
-  }
-  return {QueryVerdict::open, {}};
+  if (told == oracle::RefereeVerdict::open) return {QueryVerdict::open, {}};
+  return {verdict(told == oracle::RefereeVerdict::contact), {}};
 }
 
 constexpr std::array methods = {

@@ -8,18 +8,10 @@ namespace {
 
 // The worse of two.
 Outcome worse(Outcome a, Outcome b) {
-  const auto rank = [](Outcome outcome) {
-    switch (outcome) {
-      case Outcome::holds:
-        return 0;
-      case Outcome::undecided:
-        return 1;
-      case Outcome::error:
-        return 2;
-      case Outcome::defect:
-        return 3;
-    }
-    return 3;
+  constexpr Outcome ascending[] = {Outcome::holds, Outcome::undecided, Outcome::error,
+                                   Outcome::defect};
+  const auto rank = [&](Outcome outcome) {
+    return std::find(std::begin(ascending), std::end(ascending), outcome);
   };
   return rank(a) < rank(b) ? b : a;
 }

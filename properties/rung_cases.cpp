@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "properties/words.h"
+
 namespace assay::properties {
 namespace {
 
@@ -102,16 +104,6 @@ std::span<const RungCase> rung_cases() {
   return cases;
 }
 
-const char* name_of(Rung rung) {
-  switch (rung) {
-    case Rung::axis:
-      return "axis";
-    case Rung::interval:
-      return "interval";
-    case Rung::algebraic:
-      return "algebraic";
-  }
-  return "";
-}
+const char* name_of(Rung rung) { return word_of({"axis", "interval", "algebraic"}, rung); }
 
 }  // namespace assay::properties

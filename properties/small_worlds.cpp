@@ -4,6 +4,8 @@
 #include <cassert>
 #include <utility>
 
+#include "properties/grid_symmetries.h"
+
 namespace assay::properties {
 namespace {
 
@@ -23,32 +25,13 @@ Paths sorted(Paths p, int first_group) {
   return p;
 }
 
-int power(int base, int exponent) {
-  int result = 1;
-  for (int i = 0; i < exponent; ++i) result *= base;
-  return result;
-}
-
 }  // namespace
 
 SmallWorld::SmallWorld(int side, int dimensions, WorldMotion motion)
     : side_(side), dimensions_(dimensions), motion_(motion), grid_points_(power(side, dimensions)) {
   assert(side >= 2 && dimensions >= 1 && dimensions <= 3);
-  std::array<int, 3> axes = {0, 1, 2};
-  do {
-    for (int mirrored = 0; mirrored < power(2, dimensions); ++mirrored) {
-      std::vector<int> image(static_cast<std::size_t>(grid_points_));
-      for (int p = 0; p < grid_points_; ++p) {
-        int to = 0;
-        for (int k = 0; k < dimensions; ++k) {
-          const int c = p / power(side, axes[static_cast<std::size_t>(k)]) % side;
-          to += ((mirrored >> k) % 2 == 0 ? c : side - 1 - c) * power(side, k);
-        }
-        image[static_cast<std::size_t>(p)] = to;
-      }
-      symmetries_.push_back(std::move(image));
-    }
-  } while (std::next_permutation(axes.begin(), axes.begin() + dimensions));
+  for_each_symmetry(dimensions,
+                    [&](const ImageOfGrid& image_of) { symmetries_.push_back(image_of(side)); });
 }
 
 std::uint64_t SmallWorld::places() const {

@@ -5,16 +5,11 @@
 #include <span>
 #include <utility>
 
-#include "properties/random.h"
+#include "properties/grid_symmetries.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 namespace {
-
-int power(int base, int exponent) {
-  int result = 1;
-  for (int i = 0; i < exponent; ++i) result *= base;
-  return result;
-}
 
 // The next ascending list (equal numbers allowed) of numbers below `end`, none below the first
 // list's; false after the last.
@@ -48,19 +43,13 @@ TetrahedronMotions::TetrahedronMotions(const TetrahedronGrid& grid)
   for (int path = 0; path < places_ * places_; ++path) {
     if (path / places_ != path % places_) moving_paths_.push_back(path);
   }
-  std::array<int, 3> axes = {0, 1, 2};
-  do {
-    for (int mirrored = 0; mirrored < power(2, grid.dimensions); ++mirrored) {
-      Symmetry s{image_of_axes(grid.side, axes, mirrored),
-                 {},
-                 image_of_axes(2 * grid.side - 1, axes, mirrored)};
-      for (int path = 0; path < places_ * places_; ++path) {
-        s.path.push_back(s.place[static_cast<std::size_t>(path / places_)] * places_ +
-                         s.place[static_cast<std::size_t>(path % places_)]);
-      }
-      symmetries_.push_back(std::move(s));
+  for_each_symmetry(grid.dimensions, [&](const ImageOfGrid& image_of) {
+    Symmetry s{image_of(grid.side), {}, image_of(2 * grid.side - 1)};
+    for (int path = 0; path < places_ * places_; ++path) {
+      s.path.push_back(s.place[at(path / places_)] * places_ + s.place[at(path % places_)]);
     }
-  } while (std::next_permutation(axes.begin(), axes.begin() + grid.dimensions));
+    symmetries_.push_back(std::move(s));
+  });
   const int paths = static_cast<int>(moving_paths_.size());
   for (int moving = 0; moving <= grid.movers; ++moving) {
     Block block;
@@ -70,34 +59,17 @@ TetrahedronMotions::TetrahedronMotions(const TetrahedronGrid& grid)
         block.first_path = first;
         blocks_.push_back(block);
       }
-    } while (next_ascending(std::span(block.resting).first(4 - static_cast<std::size_t>(moving)),
-                            places_));
+    } while (next_ascending(std::span(block.resting).first(4 - at(moving)), places_));
   }
   // Degenerate ones stand together: in another order a part of the world is a fair sample of it.
   Random random(0, 0);
-  for (std::size_t i = blocks_.size(); i > 1; --i) {
-    std::swap(blocks_[i - 1], blocks_[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
-  }
-}
-
-std::vector<int> TetrahedronMotions::image_of_axes(int side, const std::array<int, 3>& axes,
-                                                   int mirrored) const {
-  std::vector<int> image;
-  for (int p = 0; p < power(side, grid_.dimensions); ++p) {
-    int to = 0;
-    for (int k = 0; k < grid_.dimensions; ++k) {
-      const int c = p / power(side, axes[static_cast<std::size_t>(k)]) % side;
-      to += ((mirrored >> k) % 2 == 0 ? c : side - 1 - c) * power(side, k);
-    }
-    image.push_back(to);
-  }
-  return image;
+  blocks_ = shuffled(random, std::move(blocks_));
 }
 
 TetrahedronMotions::Paths TetrahedronMotions::image(const Paths& paths,
                                                     const Symmetry& symmetry) const {
   Paths to;
-  for (std::size_t i = 0; i < 4; ++i) to[i] = symmetry.path[static_cast<std::size_t>(paths[i])];
+  for (std::size_t i = 0; i < 4; ++i) to[i] = symmetry.path[at(paths[i])];
   std::sort(to.begin(), to.end());
   return to;
 }
@@ -105,14 +77,14 @@ TetrahedronMotions::Paths TetrahedronMotions::image(const Paths& paths,
 void TetrahedronMotions::for_each(
     std::size_t block, const std::function<bool(const TetrahedronMotion&)>& visit) const {
   const Block& b = blocks_[block];
-  const auto moving = static_cast<std::size_t>(b.moving);
+  const auto moving = at(b.moving);
   std::array<int, 4> movers;
   movers.fill(b.first_path);
   for (bool more = true; more;) {
     Paths paths;
     for (std::size_t i = 0; i < 4 - moving; ++i) paths[i] = b.resting[i] * (places_ + 1);
     for (std::size_t i = 0; i < moving; ++i) {
-      paths[4 - moving + i] = moving_paths_[static_cast<std::size_t>(movers[i])];
+      paths[4 - moving + i] = moving_paths_[at(movers[i])];
     }
     std::sort(paths.begin(), paths.end());
     if (!visit_class(paths, visit)) return;
@@ -135,7 +107,7 @@ bool TetrahedronMotions::visit_class(
   const auto point = [&](int number, int side, int unit) {
     detector::Point p = {0, 0, 0};
     for (int k = 0; k < grid_.dimensions; ++k) {
-      p[static_cast<std::size_t>(k)] = unit * (number / power(side, k) % side);
+      p[at(k)] = unit * (number / power(side, k) % side);
     }
     return p;
   };
@@ -145,7 +117,7 @@ bool TetrahedronMotions::visit_class(
   }
   for (int q = 0; q < views_; ++q) {
     std::vector<int> images;
-    for (const auto* s : own) images.push_back(s->view[static_cast<std::size_t>(q)]);
+    for (const auto* s : own) images.push_back(s->view[at(q)]);
     std::sort(images.begin(), images.end());
     if (images.front() < q) continue;
     const auto last = std::unique(images.begin(), images.end());

@@ -61,7 +61,6 @@ class TetrahedronMotions {
     std::vector<int> place, path, view;  // to their images
   };
 
-  std::vector<int> image_of_axes(int side, const std::array<int, 3>& axes, int mirrored) const;
   Paths image(const Paths& paths, const Symmetry& symmetry) const;
   bool visit_class(const Paths& paths,
                    const std::function<bool(const TetrahedronMotion&)>& visit) const;

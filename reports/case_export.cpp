@@ -7,6 +7,7 @@
 #include "corpus/atomic_file.h"
 #include "properties/case_check.h"
 #include "properties/worker/given_view.h"
+#include "reports/joined.h"
 
 namespace assay::reports {
 namespace {
@@ -48,7 +49,6 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
                       const std::vector<oracle::StepJudgement>& truth) {
   std::string culling = properties::name_of(options.culling);
   std::replace(culling.begin(), culling.end(), '-', '_');
-  const char* const starts[] = {"verified", "clean", "unknown"};
   const char* const arithmetics[] = {"exact", "bounded", "double_precision", "single_precision"};
   const bool exact = options.arithmetic == detector::Arithmetic::exact;
   std::string out = fmt::format(
@@ -75,8 +75,7 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
       "{{Culling::{}, Start::{}, Pairs::{}, Arithmetic::{}}});\n  ASSERT_TRUE(made);\n  using "
       "Views = "
       "std::vector<ViewPrimitive>;\n",
-      culling, starts[static_cast<int>(options.start)],
-      options.pairs == detector::Pairs::all ? "all" : "first",
+      culling, properties::name_of(options.start), properties::name_of(options.pairs),
       arithmetics[static_cast<int>(options.arithmetic)]);
   const auto script = corpus::steps_of(c);
   for (std::size_t s = 0; s < script.size(); ++s) {
@@ -97,11 +96,12 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
                          truth[s].first.lo, truth[s].first.hi);
     }
     if (options.pairs == detector::Pairs::all) {
-      out += "    const std::vector<TrianglePair> expected = {";
-      for (std::size_t i = 0; i < truth[s].pairs.size(); ++i) {
-        out += fmt::format("{}{{{}, {}}}", i == 0 ? "" : ", ", truth[s].pairs[i].pair.a,
-                           truth[s].pairs[i].pair.b);
+      std::vector<std::string> pairs;
+      for (const auto& contact : truth[s].pairs) {
+        pairs.push_back(fmt::format("{{{}, {}}}", contact.pair.a, contact.pair.b));
       }
+      out +=
+          fmt::format("    const std::vector<TrianglePair> expected = {{{}", joined(pairs, ", "));
       out +=
           "};\n    std::vector<TrianglePair> found;\n    for (const auto& contact : r.pairs) "
           "found.push_back(contact.pair);\n";

@@ -232,9 +232,7 @@ class Check {
                                            {"limit_reached", or_null(limits_.reached())},
                                            {"peak_memory_bytes", peak_resident_bytes()},
                                            {"steps", std::move(steps)}};
-    return write_text_file(
-        request_.json_file,
-        report.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    return write_json_file(request_.json_file, report);
   }
 
   const CheckRequest& request_;

@@ -9,8 +9,10 @@
 #include "corpus/query_csv.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary_test.h"
-#include "oracle/contact.h"
 #include "oracle/referee.h"
+#include "properties/query_methods.h"
+#include "properties/words.h"
+#include "reports/bench/estimate.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"
 #include "reports/json_output.h"
@@ -32,11 +34,7 @@ detector::FourPoints four_points_of(const LabelledQuery& q) {
 }
 
 Answered answer_by_oracle(const LabelledQuery& q) {
-  const auto answer = std::holds_alternative<detector::VertexFace>(q.query)
-                          ? oracle::vertex_face_contact(std::get<detector::VertexFace>(q.query),
-                                                        detector::Want::yes_no)
-                          : oracle::edge_edge_contact(std::get<detector::EdgeEdge>(q.query),
-                                                      detector::Want::yes_no);
+  const auto answer = properties::ask_oracle(four_points_of(q), detector::Want::yes_no);
   return {answer.contact, static_cast<int>(answer.rung)};
 }
 
@@ -55,9 +53,8 @@ Answered answer_by_referee(const LabelledQuery& q) {
   return {verdict == oracle::RefereeVerdict::contact, 0, verdict == oracle::RefereeVerdict::open};
 }
 
-// By method: its name, of the command line and the report, and the names of its rungs.
+// By method: the names of its rungs, and how it answers.
 struct MethodWords {
-  const char* name;
   std::array<const char*, 3> rungs;  // "" where there is none
   Answered (*answer)(const LabelledQuery&);
 };
@@ -65,12 +62,12 @@ struct MethodWords {
 const MethodWords& words_of(QueryMethod method) {
   using detector::Arithmetic;
   static const std::array<MethodWords, 6> words = {{
-      {"oracle", {"axis", "interval", "algebraic"}, answer_by_oracle},
-      {"referee", {"", "", ""}, answer_by_referee},
-      {"detector-exact", {"axis", "filter", "exact"}, answer_by_detector<Arithmetic::exact>},
-      {"detector-bounded", {"axis", "filter", "open"}, answer_by_detector<Arithmetic::bounded>},
-      {"detector-double", {"axis", "filter", ""}, answer_by_detector<Arithmetic::double_precision>},
-      {"detector-float", {"axis", "filter", ""}, answer_by_detector<Arithmetic::single_precision>},
+      {{"axis", "interval", "algebraic"}, answer_by_oracle},
+      {{"", "", ""}, answer_by_referee},
+      {{"axis", "filter", "exact"}, answer_by_detector<Arithmetic::exact>},
+      {{"axis", "filter", "open"}, answer_by_detector<Arithmetic::bounded>},
+      {{"axis", "filter", ""}, answer_by_detector<Arithmetic::double_precision>},
+      {{"axis", "filter", ""}, answer_by_detector<Arithmetic::single_precision>},
   }};
   return words[static_cast<std::size_t>(method)];
 }
@@ -81,7 +78,7 @@ QueryMethod other(QueryMethod method) {
   return method == QueryMethod::oracle ? QueryMethod::detector_exact : QueryMethod::oracle;
 }
 
-const char* name_of(QueryMethod method) { return words_of(method).name; }
+const char* name_of(QueryMethod method) { return properties::word_of(query_method_names, method); }
 
 bool has_rungs(QueryMethod method) { return method != QueryMethod::referee; }
 
@@ -133,7 +130,6 @@ class Score {
   }
 
   void print() {
-    std::sort(microseconds_.begin(), microseconds_.end());
     fmt::print("{}: {} queries, {} yes, {} without a label{}\n", name_of(method_), count(), yes_,
                unlabelled_,
                method_ == QueryMethod::referee
@@ -228,13 +224,8 @@ class Score {
     for (const double t : microseconds_) sum += t;
     return count() ? sum / static_cast<double>(count()) : 0;
   }
-  // The value at rank ceil(share * n) of the sorted times (nearest rank).
   double quantile(double share) const {
-    if (microseconds_.empty()) return 0;
-    const double rank = share * static_cast<double>(count());
-    auto index = static_cast<std::size_t>(rank);
-    if (static_cast<double>(index) == rank && index > 0) --index;
-    return microseconds_[std::min(index, count() - 1)];
+    return microseconds_.empty() ? 0 : reports::quantile(microseconds_, share);
   }
 
   static constexpr std::size_t most_listed = 50;
@@ -268,11 +259,7 @@ int run_check_queries(const CheckQueriesRequest& request) {
   for (std::size_t i = 0; i < sets.size(); ++i) score.add(request.files[i], sets[i]);
   score.print();
   if (!request.json_file.empty()) {
-    if (auto problem =
-            write_text_file(request.json_file,
-                            score.json(request.files)
-                                    .dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
-                                "\n")) {
+    if (auto problem = write_json_file(request.json_file, score.json(request.files))) {
       return refuse(*problem);
     }
     fmt::print("wrote {}\n", request.json_file);

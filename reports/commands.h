@@ -37,6 +37,9 @@ enum class QueryMethod : std::uint8_t {
   detector_double,
   detector_float
 };
+// Of the command line and the report, in the order of QueryMethod.
+inline constexpr const char* query_method_names[] = {
+    "oracle", "referee", "detector-exact", "detector-bounded", "detector-double", "detector-float"};
 struct CheckQueriesRequest {
   std::vector<std::string> files;
   std::vector<std::string> truths;  // none, or one a file

@@ -174,4 +174,8 @@ std::optional<std::string> write_text_file(const std::string& path, const std::s
   return std::nullopt;
 }
 
+std::optional<std::string> write_json_file(const std::string& path, const Json& json) {
+  return write_text_file(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
 }  // namespace assay::reports

@@ -27,5 +27,8 @@ std::optional<std::string> cannot_write(const std::string& path,
 
 // Writes a whole file or leaves the old one: a line for the user when that fails.
 std::optional<std::string> write_text_file(const std::string& path, const std::string& text);
+// The same of JSON, indented by one; bytes that are no UTF-8 are replaced.
+std::optional<std::string> write_json_file(const std::string& path,
+                                           const nlohmann::ordered_json& json);
 
 }  // namespace assay::reports

@@ -4,10 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <sstream>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include "reports/commands.h"
 #include "reports/complaint.h"
@@ -18,40 +21,53 @@ namespace {
 
 using namespace assay;
 
+// Each verb with its request, which holds what was said on the command line.
+class Verbs {
+ public:
+  explicit Verbs(CLI::App& app) : app_(app) {}
+
+  template <class Request>
+  void add(void (*add_options)(CLI::App&, Request&), int (*run)(const Request&)) {
+    auto request = std::make_shared<Request>();
+    if constexpr (requires { request->jobs; }) {
+      request->jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    }
+    add_options(app_, *request);
+    runs_.push_back([request, run] { return run(*request); });
+  }
+
+  int run_chosen() const {
+    const auto all = app_.get_subcommands({});
+    const auto chosen =
+        std::find_if(all.begin(), all.end(), [](auto* verb) { return verb->parsed(); });
+    return runs_[static_cast<std::size_t>(chosen - all.begin())]();
+  }
+
+ private:
+  CLI::App& app_;
+  std::vector<std::function<int()>> runs_;  // in the order of the verbs
+};
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Assay certifies continuous self-collision detectors for deforming triangle meshes.");
   app.set_version_flag("--version", [] { return reports::version_text(); });
   app.require_subcommand(1);
 
-  reports::CheckRequest check;
-  reports::CheckQueriesRequest queries;
-  reports::SceneRequest scene;
-  reports::CertifyRequest certify;
-  reports::SelfTestRequest self_test;
-  reports::RunCommandRequest campaign;
-  reports::ReplayRequest replay;
-  reports::ShrinkRequest shrink;
-  reports::BenchRequest bench;
-  reports::MergeRequest merge;
-  reports::VerifyRequest verify;
-  reports::ReportRequest report;
-  reports::ListRequest list;
-  check.jobs = certify.jobs = self_test.jobs = campaign.jobs =
-      static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  reports::add_check(app, check);
-  reports::add_check_queries(app, queries);
-  reports::add_scene(app, scene);
-  reports::add_self_test(app, self_test);
-  reports::add_run(app, campaign);
-  reports::add_replay(app, replay);
-  reports::add_shrink(app, shrink);
-  reports::add_bench(app, bench);
-  reports::add_report(app, report);
-  reports::add_merge(app, merge);
-  reports::add_verify(app, verify);
-  reports::add_list(app, list);
-  reports::add_certify(app, certify);
+  Verbs verbs(app);
+  verbs.add(reports::add_check, reports::run_check);
+  verbs.add(reports::add_check_queries, reports::run_check_queries);
+  verbs.add(reports::add_scene, reports::run_scene);
+  verbs.add(reports::add_self_test, reports::run_self_test);
+  verbs.add(reports::add_run, reports::run_campaign);
+  verbs.add(reports::add_replay, reports::run_replay);
+  verbs.add(reports::add_shrink, reports::run_shrink);
+  verbs.add(reports::add_bench, reports::run_bench);
+  verbs.add(reports::add_report, reports::run_report);
+  verbs.add(reports::add_merge, reports::run_merge);
+  verbs.add(reports::add_verify, reports::run_verify);
+  verbs.add(reports::add_list, reports::run_list);
+  verbs.add(reports::add_certify, reports::run_certify);
 
   try {
     app.parse(argc, argv);
@@ -62,27 +78,15 @@ int run(int argc, char** argv) {
     return code;
   } catch (const CLI::ParseError& wrong) {
     const std::string first = argc > 1 ? argv[1] : "";
-    const auto verbs =
+    const auto known =
         app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; });
-    const bool is_verb = !verbs.empty();
+    const bool is_verb = !known.empty();
     return reports::refuse((first.empty() || first[0] == '-' || is_verb
                                 ? std::string(wrong.what())
                                 : fmt::format("unknown verb '{}'", first)) +
                            " (assay --help lists verbs and options)");
   }
-  if (app.got_subcommand("check")) return reports::run_check(check);
-  if (app.got_subcommand("check-queries")) return reports::run_check_queries(queries);
-  if (app.got_subcommand("scene")) return reports::run_scene(scene);
-  if (app.got_subcommand("certify")) return reports::run_certify(certify);
-  if (app.got_subcommand("run")) return reports::run_campaign(campaign);
-  if (app.got_subcommand("self-test")) return reports::run_self_test(self_test);
-  if (app.got_subcommand("replay")) return reports::run_replay(replay);
-  if (app.got_subcommand("verify")) return reports::run_verify(verify);
-  if (app.got_subcommand("merge")) return reports::run_merge(merge);
-  if (app.got_subcommand("bench")) return reports::run_bench(bench);
-  if (app.got_subcommand("shrink")) return reports::run_shrink(shrink);
-  if (app.got_subcommand("report")) return reports::run_report(report);
-  return reports::run_list(list);
+  return verbs.run_chosen();
 }
 
 }  // namespace

@@ -50,4 +50,8 @@ void add_jobs(CLI::App* verb, int& jobs) {
       ->capture_default_str();
 }
 
+void add_seed(CLI::App* verb, std::uint64_t& seed, const std::string& about) {
+  verb->add_option("--seed", seed, about)->check(whole_number())->capture_default_str();
+}
+
 }  // namespace assay::reports

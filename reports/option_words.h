@@ -32,7 +32,8 @@ CLI::Validator positive();      // a number above 0
 CLI::Validator whole_number();  // 0 .. 2^64-1
 CLI::Validator share();         // a number above 0, at most 1
 
-// --jobs
+// --jobs, --seed
 void add_jobs(CLI::App* verb, int& jobs);
+void add_seed(CLI::App* verb, std::uint64_t& seed, const std::string& about);
 
 }  // namespace assay::reports

@@ -8,6 +8,7 @@
 #include "oracle/layers.h"
 #include "oracle/touched_by_ghosts.h"
 #include "properties/agreement.h"
+#include "properties/numbering.h"
 #include "properties/worker/case_player.h"
 #include "reports/step_text.h"
 
@@ -16,19 +17,11 @@ namespace {
 
 using detector::doubt::dirty;
 using detector::doubt::violated;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+using properties::at;
 
 const char* sign_text(detector::ViewSign sign) {
-  switch (sign) {
-    case detector::ViewSign::positive:
-      return "V+";
-    case detector::ViewSign::negative:
-      return "V-";
-    case detector::ViewSign::zero:
-      return "V0";
-  }
-  return "?";
+  constexpr const char* from_negative[] = {"V-", "V0", "V+"};
+  return from_negative[static_cast<int>(sign) + 1];
 }
 
 class PairStory {

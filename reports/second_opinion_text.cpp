@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/agreement.h"
+#include "properties/words.h"
 
 namespace assay::reports {
 namespace {
@@ -14,19 +15,8 @@ using oracle::Contradiction;
 using oracle::ContradictionKind;
 
 const char* name_of(ContradictionKind kind) {
-  switch (kind) {
-    case ContradictionKind::query:
-      return "query";
-    case ContradictionKind::missing_pair:
-      return "missing-pair";
-    case ContradictionKind::static_pair:
-      return "static-pair";
-    case ContradictionKind::static_late:
-      return "static-late";
-    case ContradictionKind::static_apart:
-      return "static-apart";
-  }
-  return "";
+  return properties::word_of(
+      {"query", "missing-pair", "static-pair", "static-late", "static-apart"}, kind);
 }
 
 bool is_static(const Contradiction& c) {

@@ -22,14 +22,8 @@ bool differs(const properties::StepDiff& diff) {
 }
 
 std::string verdict_text(const properties::StepDiff& diff) {
-  switch (diff.outcome) {
-    case Outcome::holds:
-      return differs(diff) ? "all claims hold" : "agree";
-    case Outcome::undecided:
-      return "undecided";
-    default:
-      return "DIFFER";
-  }
+  if (diff.outcome == Outcome::holds) return differs(diff) ? "all claims hold" : "agree";
+  return diff.outcome == Outcome::undecided ? "undecided" : "DIFFER";
 }
 
 std::string diff_text(const properties::StepDiff& diff) {

@@ -51,9 +51,7 @@ void add_run(CLI::App& app, RunCommandRequest& request) {
   verb->add_option("--campaign", request.campaign,
                    "smoke, quick, nightly, release, faults, or a campaign file (.json)")
       ->capture_default_str();
-  verb->add_option("--seed", request.seed, "Of all random cases")
-      ->check(whole_number())
-      ->capture_default_str();
+  add_seed(verb, request.seed, "Of all random cases");
   add_time_limit(*verb, request.time_limit);
   add_power(*verb, request.power);
   verb->add_option_function<std::string>(
@@ -71,10 +69,8 @@ void add_replay(CLI::App& app, ReplayRequest& request) {
       ->required();
   verb->add_option("--export", request.export_folder,
                    "Write frames as OBJ and a ready GoogleTest into this folder");
-  verb->add_option_function<std::string>(
-          "--why", [&request](const std::string& word) { request.why = parse_pair(word); },
-          "A,B: why this pair of triangles was or was not tested")
-      ->check(one_of("A,B: two triangles", parse_pair));
+  add_choice(verb, "--why", request.why, "A,B: two triangles", parse_pair,
+             "A,B: why this pair of triangles was or was not tested");
   verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");
 }
 
@@ -115,9 +111,7 @@ void add_certify(CLI::App& app, CertifyRequest& request) {
   verb->add_option("--campaign", request.campaign,
                    "smoke, quick, nightly, release, or a campaign file (.json)")
       ->capture_default_str();
-  verb->add_option("--seed", request.seed, "Of all random cases; a fresh one a night")
-      ->check(whole_number())
-      ->capture_default_str();
+  add_seed(verb, request.seed, "Of all random cases; a fresh one a night");
   add_time_limit(*verb, request.time_limit);
   add_power(*verb, request.power);
   verb->add_option("--detector", request.detector, "A plug-in's library (default: the built-in)");

@@ -2,6 +2,8 @@
 #include <array>
 
 #include "properties/case_check.h"
+#include "properties/words.h"
+#include "reports/joined.h"
 #include "reports/option_words.h"
 #include "reports/verb_options.h"
 
@@ -58,11 +60,8 @@ void add_check(CLI::App& app, CheckRequest& request) {
                    "Limit in seconds of processor time, all threads together; what is left is "
                    "undecided")
       ->check(positive());
-  verb->add_option_function<std::string>(
-          "--memory",
-          [&request](const std::string& word) { request.memory_limit = parse_size(word); },
-          "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)")
-      ->check(one_of("a number above 0 with B, KB, MB or GB", parse_size));
+  add_choice(verb, "--memory", request.memory_limit, "a number above 0 with B, KB, MB or GB",
+             parse_size, "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
   verb->add_flag("--fail-on-collision", request.fail_on_collision,
                  "Exit code 5 when they agree on a collision");
   verb->add_option("--json", request.json_file, "Write the report here (assay-check/1)");
@@ -73,30 +72,20 @@ void add_check_queries(CLI::App& app, CheckQueriesRequest& request) {
       app.add_subcommand("check-queries", "Labelled VF and EE queries against their truth");
   verb->add_option("files", request.files, "Query files (.csv, .csv.gz)")->required();
   verb->add_option("--truth", request.truths, "Labels (.json), one file for each query file");
-  const auto parse = [](std::string_view word) -> std::optional<QueryMethod> {
-    if (word == "oracle") return QueryMethod::oracle;
-    if (word == "referee") return QueryMethod::referee;
-    if (word == "detector-exact") return QueryMethod::detector_exact;
-    if (word == "detector-bounded") return QueryMethod::detector_bounded;
-    if (word == "detector-double") return QueryMethod::detector_double;
-    if (word == "detector-float") return QueryMethod::detector_float;
-    return std::nullopt;
+  const auto parse = [](std::string_view word) {
+    return properties::value_of<QueryMethod>(query_method_names, word);
   };
   verb->add_option_function<std::string>(
           "--method", [&request, parse](const std::string& word) { request.method = *parse(word); },
           "Who answers (default oracle)")
-      ->check(one_of("oracle, referee, detector-exact, detector-bounded, detector-double, "
-                     "detector-float",
-                     parse));
+      ->check(one_of(joined(query_method_names, ", "), parse));
   verb->add_option("--json", request.json_file, "Write the report here (assay-queries/1)");
 }
 
 void add_self_test(CLI::App& app, SelfTestRequest& request) {
   auto* verb = app.add_subcommand("self-test",
                                   "The oracle against every other method on elementary queries");
-  verb->add_option("--seed", request.seed, "Of all random queries")
-      ->check(whole_number())
-      ->capture_default_str();
+  add_seed(verb, request.seed, "Of all random queries");
   verb->add_option("--queries", request.queries,
                    "Random small-integer queries; the other families follow this number")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))

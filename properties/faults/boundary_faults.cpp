@@ -9,7 +9,6 @@ namespace {
 using detector::BoundaryHandler;
 using detector::MovingPoint;
 using detector::PositionsView;
-using detector::Stages;
 using detector::Surface;
 
 // No loops where `is_closed` says so of the number of triangles at each edge.
@@ -75,44 +74,37 @@ struct AlwaysCentroid : BoundaryHandler {
   }
 };
 
-template <class Handler>
-Fault row(std::string_view name, std::string_view about, std::string_view law,
-          std::string_view curated, int vertices) {
-  return {name,        about,   law,      FaultStatus::planted, "",
-          with_points, curated, vertices, "boundary",           with<&Stages::boundary, Handler>};
-}
-
 }  // namespace
 
 std::vector<Fault> boundary_faults() {
   return {
-      row<TakenAsClosed<always>>("boundary/open-taken-as-closed",
-                                 "holes are not looked for: every mesh is taken as closed", "L11",
-                                 "D1_open_allplus", 12),
-      row<TakenAsClosed<edges_used_evenly>>(
+      planted<TakenAsClosed<always>>("boundary/open-taken-as-closed",
+                                     "holes are not looked for: every mesh is taken as closed",
+                                     "L11", "D1_open_allplus", 12),
+      planted<TakenAsClosed<edges_used_evenly>>(
           "boundary/orientation-not-checked",
           "a mesh with an even number of triangles at each edge is taken as closed, however they "
           "are oriented",
           "L12", "A5_one_face_flipped", 5),
-      row<TakenAsClosed<no_edge_used_once>>(
+      planted<TakenAsClosed<no_edge_used_once>>(
           "boundary/fin-taken-as-closed",
           "a mesh without an edge of one triangle alone is taken as closed: three at an edge are "
           "no cycle",
           "L12", "F_fin", 5),
-      row<ApexStaysBehind>("boundary/apex-stays-behind",
-                           "an apex stays where it is at t=0 and jumps between two steps", "L11",
-                           "F_apex_moves", 8),
-      row<ApexAhead>("boundary/apex-ahead",
-                     "an apex is where it is at t=1 and jumps between two steps", "L11",
-                     "F_apex_in_step", 8),
-      row<ApexChosenAnew>("boundary/apex-chosen-anew",
-                          "the rule of an apex is chosen anew at each step", "L11",
-                          "F_apex_rule_kept", 13),
-      {"boundary/always-centroid", "every apex is the centroid of its loop", "L11",
-       FaultStatus::equivalent,
-       "the proof of L3 asks for an apex that moves continuously and not where: the choice costs "
-       "time only",
-       with_points, "", 0, "boundary", with<&Stages::boundary, AlwaysCentroid>},
+      planted<ApexStaysBehind>("boundary/apex-stays-behind",
+                               "an apex stays where it is at t=0 and jumps between two steps",
+                               "L11", "F_apex_moves", 8),
+      planted<ApexAhead>("boundary/apex-ahead",
+                         "an apex is where it is at t=1 and jumps between two steps", "L11",
+                         "F_apex_in_step", 8),
+      planted<ApexChosenAnew>("boundary/apex-chosen-anew",
+                              "the rule of an apex is chosen anew at each step", "L11",
+                              "F_apex_rule_kept", 13),
+      unseen<AlwaysCentroid>(FaultStatus::equivalent, "boundary/always-centroid",
+                             "every apex is the centroid of its loop", "L11",
+                             "the proof of L3 asks for an apex that moves continuously and not "
+                             "where: the choice costs "
+                             "time only"),
   };
 }
 

@@ -15,7 +15,6 @@ using detector::DirectionSet;
 using detector::MovingContour;
 using detector::NormalConeSearch;
 using detector::PositionsView;
-using detector::Stages;
 using detector::Topology;
 using Triangle = std::array<detector::MovingPoint, 3>;
 
@@ -100,16 +99,7 @@ struct JoinedAtVertex : NormalConeSearch {
 
 template <class Search>
 Fault cone(std::string_view name, std::string_view about, std::string_view curated, int vertices) {
-  return {name,
-          about,
-          "all-pairs (L13)",
-          FaultStatus::planted,
-          "",
-          with_cones,
-          curated,
-          vertices,
-          "pair_search",
-          with<&Stages::pair_search, Search>};
+  return planted<Search>(name, about, "all-pairs (L13)", curated, vertices, with_cones);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ namespace {
 using detector::ContactResult;
 using detector::FourPoints;
 using detector::Point;
-using detector::Stages;
 using detector::Want;
 
 // Right answers, some of which are then suppressed.
@@ -27,90 +26,71 @@ class ContactDropped : public detector::ElementaryTest {
   virtual bool drops(const FourPoints& query, const ContactResult& right) const = 0;
 };
 
+template <bool (*drops_it)(const FourPoints&, const ContactResult&)>
+struct Dropped : ContactDropped {
+  bool drops(const FourPoints& query, const ContactResult& right) const override {
+    return drops_it(query, right);
+  }
+};
+
 bool is_edge_edge(const FourPoints& query) { return query.first_group == 2; }
 
-struct EndExcluded : ContactDropped {
-  bool drops(const FourPoints&, const ContactResult& right) const override {
-    return right.time.lo == 1;
-  }
-};
+bool at_end(const FourPoints&, const ContactResult& right) { return right.time.lo == 1; }
 
-struct StartExcluded : ContactDropped {
-  bool drops(const FourPoints&, const ContactResult& right) const override {
-    return right.time.hi == 0;
-  }
-};
+bool at_start(const FourPoints&, const ContactResult& right) { return right.time.hi == 0; }
 
-struct CoplanarIgnored : ContactDropped {
-  bool drops(const FourPoints& query, const ContactResult&) const override {
-    return detector::coplanar_throughout(query);
-  }
-};
+bool of_coplanar_points(const FourPoints& query, const ContactResult&) {
+  return detector::coplanar_throughout(query);
+}
 
-struct ParallelIgnored : ContactDropped {
-  bool drops(const FourPoints& query, const ContactResult& right) const override {
-    if (!is_edge_edge(query)) return false;
-    const double t = right.time.lo;
-    std::array<double, 3> a, b;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto place = [&](std::size_t i) {
-        const auto& p = query.points[i];
-        return p.t0[k] + t * (p.t1[k] - p.t0[k]);
-      };
-      a[k] = place(1) - place(0);
-      b[k] = place(3) - place(2);
-    }
-    return a[1] * b[2] == a[2] * b[1] && a[2] * b[0] == a[0] * b[2] && a[0] * b[1] == a[1] * b[0];
+bool of_parallel_edges(const FourPoints& query, const ContactResult& right) {
+  if (!is_edge_edge(query)) return false;
+  const double t = right.time.lo;
+  std::array<double, 3> a, b;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto place = [&](std::size_t i) {
+      const auto& p = query.points[i];
+      return p.t0[k] + t * (p.t1[k] - p.t0[k]);
+    };
+    a[k] = place(1) - place(0);
+    b[k] = place(3) - place(2);
   }
-};
+  return a[1] * b[2] == a[2] * b[1] && a[2] * b[0] == a[0] * b[2] && a[0] * b[1] == a[1] * b[0];
+}
 
-struct OnlyVertexFace : ContactDropped {
-  bool drops(const FourPoints& query, const ContactResult&) const override {
-    return is_edge_edge(query);
-  }
-};
+bool of_edges(const FourPoints& query, const ContactResult&) { return is_edge_edge(query); }
 
-struct OnlyEdgeEdge : ContactDropped {
-  bool drops(const FourPoints& query, const ContactResult&) const override {
-    return !is_edge_edge(query);
-  }
-};
+bool of_vertex_and_face(const FourPoints& query, const ContactResult&) {
+  return !is_edge_edge(query);
+}
 
-struct StillIgnored : ContactDropped {
-  bool drops(const FourPoints& query, const ContactResult&) const override {
-    for (const auto& point : query.points) {
-      if (point.t0 != point.t1) return false;
-    }
-    return true;
+bool of_still_features(const FourPoints& query, const ContactResult&) {
+  for (const auto& point : query.points) {
+    if (point.t0 != point.t1) return false;
   }
-};
+  return true;
+}
 
-struct FirstRootOnly : ContactDropped {
-  bool drops(const FourPoints& query, const ContactResult& right) const override {
-    const auto& x = query.points;
-    const auto f = view_polynomials({x[1], x[2], x[3]}, {x[0], x[0]}).h0;
-    return !f.is_zero() && detector::roots_in_unit_interval(f).front().enclosure() < right.time;
-  }
-};
+bool after_first_root(const FourPoints& query, const ContactResult& right) {
+  const auto& x = query.points;
+  const auto f = view_polynomials({x[1], x[2], x[3]}, {x[0], x[0]}).h0;
+  return !f.is_zero() && detector::roots_in_unit_interval(f).front().enclosure() < right.time;
+}
 
 int orientation_at(const FourPoints& query, Point detector::MovingPoint::*end) {
   const auto& x = query.points;
   return detector::orientation(x[1].*end, x[2].*end, x[3].*end, x[0].*end);
 }
 
-struct SignChangeOfEnds : ContactDropped {
-  bool drops(const FourPoints& query, const ContactResult&) const override {
-    return orientation_at(query, &detector::MovingPoint::t0) *
-               orientation_at(query, &detector::MovingPoint::t1) >
-           0;
-  }
-};
+bool oriented_alike_at_ends(const FourPoints& query, const ContactResult&) {
+  return orientation_at(query, &detector::MovingPoint::t0) *
+             orientation_at(query, &detector::MovingPoint::t1) >
+         0;
+}
 
-struct BehindIgnored : ContactDropped {
-  bool drops(const FourPoints& query, const ContactResult&) const override {
-    return !is_edge_edge(query) && orientation_at(query, &detector::MovingPoint::t0) < 0;
-  }
-};
+bool from_behind(const FourPoints& query, const ContactResult&) {
+  return !is_edge_edge(query) && orientation_at(query, &detector::MovingPoint::t0) < 0;
+}
 
 struct PiercingIgnored : detector::ElementaryTest {
   bool pierces(const Point&, const Point&, const std::array<Point, 3>&) const override {
@@ -141,28 +121,26 @@ double determinant(const Point& a, const Point& b, const Point& c) {
 
 // The filter of coplanarity, with an error bound from the result: that of sums without
 // cancellation. The right one is from the coordinates that they are made of.
-struct BoundOfResult : ContactDropped {
-  bool drops(const FourPoints& query, const ContactResult&) const override {
-    std::array<std::array<Point, 2>, 3> edges;  // from point 0, at t=0 and t=1
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto &p = query.points[i + 1], &o = query.points[0];
-      for (std::size_t k = 0; k < 3; ++k) {
-        edges[i][0][k] = p.t0[k] - o.t0[k];
-        edges[i][1][k] = p.t1[k] - o.t1[k];
-      }
+bool beyond_bound_of_result(const FourPoints& query, const ContactResult&) {
+  std::array<std::array<Point, 2>, 3> edges;  // from point 0, at t=0 and t=1
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto &p = query.points[i + 1], &o = query.points[0];
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges[i][0][k] = p.t0[k] - o.t0[k];
+      edges[i][1][k] = p.t1[k] - o.t1[k];
     }
-    // Bernstein coefficients: of each, the mean over the choices of so many edges at t=1.
-    std::array<double, 4> sum = {};
-    for (unsigned ends = 0; ends < 8; ++ends) {
-      const unsigned a = ends & 1, b = ends >> 1 & 1, c = ends >> 2;
-      sum[a + b + c] += determinant(edges[0][a], edges[1][b], edges[2][c]);
-    }
-    const auto [least, greatest] = std::minmax_element(sum.begin(), sum.end());
-    constexpr double unit = 0x1p-53;
-    const double bound = 22 * unit * std::max(std::abs(*least), std::abs(*greatest));
-    return *least > bound || *greatest < -bound;
   }
-};
+  // Bernstein coefficients: of each, the mean over the choices of so many edges at t=1.
+  std::array<double, 4> sum = {};
+  for (unsigned ends = 0; ends < 8; ++ends) {
+    const unsigned a = ends & 1, b = ends >> 1 & 1, c = ends >> 2;
+    sum[a + b + c] += determinant(edges[0][a], edges[1][b], edges[2][c]);
+  }
+  const auto [least, greatest] = std::minmax_element(sum.begin(), sum.end());
+  constexpr double unit = 0x1p-53;
+  const double bound = 22 * unit * std::max(std::abs(*least), std::abs(*greatest));
+  return *least > bound || *greatest < -bound;
+}
 
 // "Each feature pair once" by where it is: two seams in one place are two features.
 class TakenForDuplicate : public ContactDropped {
@@ -180,65 +158,58 @@ class TakenForDuplicate : public ContactDropped {
   mutable std::set<std::vector<double>> seen_;  // in contact so far
 };
 
-template <class Test>
-Fault row(std::string_view name, std::string_view about, std::string_view law,
-          std::string_view curated, int vertices) {
-  return {name,        about,   law,      FaultStatus::planted, "",
-          with_points, curated, vertices, "elementary",         with<&Stages::elementary, Test>};
-}
-
 }  // namespace
 
 std::vector<Fault> elementary_faults() {
   return {
-      row<EndExcluded>("elementary/end-excluded", "the step is [0,1): contacts at t=1 do not count",
-                       "free-sound", "A3_nonstrict_end", 7),
-      row<StartExcluded>("elementary/start-excluded",
-                         "the step is (0,1]: contacts at t=0 do not count", "free-sound",
-                         "F_start_excluded", 4),
-      row<CoplanarIgnored>("elementary/coplanar-ignored",
-                           "four points that stay in one plane are in no contact", "free-sound",
-                           "F_coplanar_motion", 4),
-      row<ParallelIgnored>("elementary/parallel-ignored",
-                           "edges that are parallel where they meet are in no contact",
-                           "free-sound", "F_parallel_edges", 4),
-      row<OnlyVertexFace>("elementary/only-vertex-face", "no edge-edge tests", "free-sound",
-                          "F_edge_edge_only", 4),
-      row<OnlyEdgeEdge>("elementary/only-edge-edge", "no vertex-face tests", "free-sound",
-                        "F_vertex_face_only", 4),
-      row<StillIgnored>("elementary/still-ignored", "features that do not move are in no contact",
-                        "free-sound", "F_still_features", 4),
-      row<FirstRootOnly>("elementary/first-root-only",
-                         "only the first time at which the four points are coplanar is looked at",
-                         "free-sound", "F_second_root", 4),
-      row<SignChangeOfEnds>("elementary/sign-change-of-ends",
-                            "no contact where the four points are oriented alike at t=0 and t=1",
-                            "free-sound", "F_no_sign_change", 4),
-      row<BehindIgnored>("elementary/behind-ignored",
-                         "a vertex that starts behind a face does not meet it", "free-sound",
-                         "F_from_behind", 4),
-      row<PiercingIgnored>("elementary/piercing-ignored",
-                           "edges that pierce a triangle at t=0 are not looked for", "free-sound",
-                           "F_pierced_start", 5),
-      row<TimeRoundedUp>("elementary/time-rounded-up", "times are rounded to the next double",
-                         "not-late", "F_inexact_time", 4),
-      row<TimeInSinglePrecision>("elementary/time-in-single-precision",
-                                 "times are rounded to single precision", "first-time",
-                                 "F_inexact_time", 4),
-      row<BoundOfResult>("elementary/bound-of-result",
-                         "the filter's error bound is a share of its result", "free-sound",
-                         "F_bound_of_result", 4),
+      planted<Dropped<at_end>>("elementary/end-excluded",
+                               "the step is [0,1): contacts at t=1 do not count", "free-sound",
+                               "A3_nonstrict_end", 7),
+      planted<Dropped<at_start>>("elementary/start-excluded",
+                                 "the step is (0,1]: contacts at t=0 do not count", "free-sound",
+                                 "F_start_excluded", 4),
+      planted<Dropped<of_coplanar_points>>("elementary/coplanar-ignored",
+                                           "four points that stay in one plane are in no contact",
+                                           "free-sound", "F_coplanar_motion", 4),
+      planted<Dropped<of_parallel_edges>>(
+          "elementary/parallel-ignored",
+          "edges that are parallel where they meet are in no contact", "free-sound",
+          "F_parallel_edges", 4),
+      planted<Dropped<of_edges>>("elementary/only-vertex-face", "no edge-edge tests", "free-sound",
+                                 "F_edge_edge_only", 4),
+      planted<Dropped<of_vertex_and_face>>("elementary/only-edge-edge", "no vertex-face tests",
+                                           "free-sound", "F_vertex_face_only", 4),
+      planted<Dropped<of_still_features>>("elementary/still-ignored",
+                                          "features that do not move are in no contact",
+                                          "free-sound", "F_still_features", 4),
+      planted<Dropped<after_first_root>>(
+          "elementary/first-root-only",
+          "only the first time at which the four points are coplanar is looked at", "free-sound",
+          "F_second_root", 4),
+      planted<Dropped<oriented_alike_at_ends>>(
+          "elementary/sign-change-of-ends",
+          "no contact where the four points are oriented alike at t=0 and t=1", "free-sound",
+          "F_no_sign_change", 4),
+      planted<Dropped<from_behind>>("elementary/behind-ignored",
+                                    "a vertex that starts behind a face does not meet it",
+                                    "free-sound", "F_from_behind", 4),
+      planted<PiercingIgnored>("elementary/piercing-ignored",
+                               "edges that pierce a triangle at t=0 are not looked for",
+                               "free-sound", "F_pierced_start", 5),
+      planted<TimeRoundedUp>("elementary/time-rounded-up", "times are rounded to the next double",
+                             "not-late", "F_inexact_time", 4),
+      planted<TimeInSinglePrecision>("elementary/time-in-single-precision",
+                                     "times are rounded to single precision", "first-time",
+                                     "F_inexact_time", 4),
+      planted<Dropped<beyond_bound_of_result>>("elementary/bound-of-result",
+                                               "the filter's error bound is a share of its result",
+                                               "free-sound", "F_bound_of_result", 4),
       // Without views: the tests of a verified start ask for still features first.
-      {"elementary/taken-for-duplicate",
-       "a feature pair in the place of another is dropped as a duplicate",
-       "all-pairs (L7)",
-       FaultStatus::planted,
-       "",
-       {detector::Culling::bvh, detector::Start::verified, detector::Pairs::all},
-       "F_doubled_features",
-       5,
-       "elementary",
-       with<&Stages::elementary, TakenForDuplicate>},
+      planted<TakenForDuplicate>(
+          "elementary/taken-for-duplicate",
+          "a feature pair in the place of another is dropped as a duplicate", "all-pairs (L7)",
+          "F_doubled_features", 5,
+          {detector::Culling::bvh, detector::Start::verified, detector::Pairs::all}),
   };
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "properties/faults/planting.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -35,15 +36,7 @@ std::size_t planted_count() {
 }
 
 const char* name_of(FaultStatus status) {
-  switch (status) {
-    case FaultStatus::planted:
-      return "planted";
-    case FaultStatus::open:
-      return "open";
-    case FaultStatus::equivalent:
-      return "equivalent";
-  }
-  return "unknown";
+  return word_of({"planted", "open", "equivalent"}, status);
 }
 
 }  // namespace assay::properties

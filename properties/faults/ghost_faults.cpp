@@ -13,14 +13,11 @@ using detector::FourPoints;
 using detector::GhostCounts;
 using detector::GhostSweep;
 using detector::MovingPoint;
-using detector::Stages;
 using detector::StopFunction;
 
 using Flags = std::vector<std::uint8_t>;
 using Ghosts = std::span<const std::int32_t>;
 using Corners = std::array<std::int32_t, 3>;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::ptrdiff_t common_vertices(const Corners& a, const Corners& b) {
   return std::count_if(a.begin(), a.end(),
@@ -154,39 +151,32 @@ struct PiercedGhostsIgnored : BoundaryHandler {
   }
 };
 
-template <class Handler>
-Fault row(std::string_view name, std::string_view about, std::string_view law,
-          std::string_view curated, int vertices) {
-  return {name,        about,   law,      FaultStatus::planted, "",
-          with_points, curated, vertices, "boundary",           with<&Stages::boundary, Handler>};
-}
-
 }  // namespace
 
 std::vector<Fault> ghost_faults() {
   return {
-      row<NothingSwept>("boundary/no-ghost-sweep", "no ghost touches anything", "L11",
-                        "F_ghosts_swept", 12),
-      row<OverlapAtEnds>("boundary/overlap-at-ends", "ghosts are tested at t=0 and t=1 only", "L11",
-                         "F_ghosts_between_ends", 12),
-      row<GhostsNotMoved>("boundary/ghosts-not-moved", "ghosts stay where they are at t=0", "L11",
-                          "F_ghosts_move", 13),
-      row<FirstLoopOnly>("boundary/first-loop-only", "ghosts of the first loop only are swept",
-                         "L11", "F_second_loop", 6),
-      row<FlatGhostsSkipped>("boundary/flat-ghosts-skipped",
-                             "a ghost without area at t=0 or t=1 is not swept", "L11",
-                             "F_flat_ghost", 8),
-      row<SweptVertexFaceOnly>("boundary/swept-vertex-face-only",
-                               "ghosts are swept without edge-edge tests", "L11", "F_ghost_edges",
-                               5),
-      row<PiercedGhostsIgnored>("boundary/pierced-ghosts-ignored",
-                                "what pierces a ghost at a new start is not looked for", "L11",
-                                "F_pierced_ghost", 8),
-      row<LoopNeighboursSkipped<1>>(
+      planted<NothingSwept>("boundary/no-ghost-sweep", "no ghost touches anything", "L11",
+                            "F_ghosts_swept", 12),
+      planted<OverlapAtEnds>("boundary/overlap-at-ends", "ghosts are tested at t=0 and t=1 only",
+                             "L11", "F_ghosts_between_ends", 12),
+      planted<GhostsNotMoved>("boundary/ghosts-not-moved", "ghosts stay where they are at t=0",
+                              "L11", "F_ghosts_move", 13),
+      planted<FirstLoopOnly>("boundary/first-loop-only", "ghosts of the first loop only are swept",
+                             "L11", "F_second_loop", 6),
+      planted<FlatGhostsSkipped>("boundary/flat-ghosts-skipped",
+                                 "a ghost without area at t=0 or t=1 is not swept", "L11",
+                                 "F_flat_ghost", 8),
+      planted<SweptVertexFaceOnly>("boundary/swept-vertex-face-only",
+                                   "ghosts are swept without edge-edge tests", "L11",
+                                   "F_ghost_edges", 5),
+      planted<PiercedGhostsIgnored>("boundary/pierced-ghosts-ignored",
+                                    "what pierces a ghost at a new start is not looked for", "L11",
+                                    "F_pierced_ghost", 8),
+      planted<LoopNeighboursSkipped<1>>(
           "boundary/loop-neighbours-skipped",
           "triangles that share a vertex with a ghost are not tested against it", "L11",
           "F_loop_neighbours", 5),
-      row<LoopNeighboursSkipped<2>>(
+      planted<LoopNeighboursSkipped<2>>(
           "boundary/loop-edge-neighbours-skipped",
           "triangles that share an edge with a ghost are not tested against it", "L11",
           "F_loop_edge_neighbours", 8),

@@ -14,11 +14,8 @@ using detector::PairTables;
 using detector::PositionsView;
 using detector::SearchCounts;
 using detector::SearchInput;
-using detector::Stages;
 using detector::Topology;
 using detector::TrianglePair;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 template <std::uint8_t a, std::uint8_t b>
 struct BlockDropped : detector::PairRule {
@@ -176,73 +173,59 @@ class SinglePassClosure : public detector::TreeSearch {
   mutable int searches_ = 0;  // of the step at hand
 };
 
-template <class Rule>
-Fault rule(std::string_view name, std::string_view about, std::string_view law,
-           std::string_view curated, int vertices) {
-  return {name,        about,   law,      FaultStatus::planted, "",
-          with_points, curated, vertices, "pair_rule",          with<&Stages::pair_rule, Rule>};
-}
-
-template <class Search>
-Fault search(std::string_view name, std::string_view about, std::string_view law,
-             std::string_view curated, int vertices) {
-  return {name,        about,   law,      FaultStatus::planted, "",
-          with_points, curated, vertices, "pair_search",        with<&Stages::pair_search, Search>};
-}
-
 }  // namespace
 
 std::vector<Fault> pair_faults() {
   return {
-      rule<BlockDropped<flag::zero, flag::zero>>("pair/zero-zero-dropped", "(V0,V0) is left out",
-                                                 "L3", "C6_only_ZZ", 4),
-      rule<BlockDropped<flag::positive, flag::zero>>("pair/positive-zero-dropped",
-                                                     "(V+,V0) is left out", "L3", "C6_only_PZ", 4),
-      rule<BlockDropped<flag::negative, flag::zero>>("pair/negative-zero-dropped",
-                                                     "(V-,V0) is left out", "L3", "C6_only_MZ", 5),
-      rule<BlockDropped<flag::positive, flag::negative>>(
+      planted<BlockDropped<flag::zero, flag::zero>>("pair/zero-zero-dropped", "(V0,V0) is left out",
+                                                    "L3", "C6_only_ZZ", 4),
+      planted<BlockDropped<flag::positive, flag::zero>>(
+          "pair/positive-zero-dropped", "(V+,V0) is left out", "L3", "C6_only_PZ", 4),
+      planted<BlockDropped<flag::negative, flag::zero>>(
+          "pair/negative-zero-dropped", "(V-,V0) is left out", "L3", "C6_only_MZ", 5),
+      planted<BlockDropped<flag::positive, flag::negative>>(
           "pair/positive-negative-dropped", "(V+,V-) is left out", "L3", "C6_only_PM", 5),
-      rule<OnlyOppositeSigns>("pair/only-opposite-signs", "only (V+,V-) is kept besides Vv", "L3",
-                              "M_pOnlyPM", 4),
-      rule<BlockDropped<flag::violated, flag::violated>>("pair/u-without-violated",
-                                                         "U is reduced by Vv: (Vv,Vv) is left out",
-                                                         "L11", "D5_U_minus_Vv", 7),
-      rule<BlockDropped<flag::positive, flag::violated>>(
+      planted<OnlyOppositeSigns>("pair/only-opposite-signs", "only (V+,V-) is kept besides Vv",
+                                 "L3", "M_pOnlyPM", 4),
+      planted<BlockDropped<flag::violated, flag::violated>>(
+          "pair/u-without-violated", "U is reduced by Vv: (Vv,Vv) is left out", "L11",
+          "D5_U_minus_Vv", 7),
+      planted<BlockDropped<flag::positive, flag::violated>>(
           "pair/positive-violated-dropped", "(V+,Vv) is left out", "L11", "F_positive_violated", 4),
-      rule<BlockDropped<flag::negative, flag::violated>>(
+      planted<BlockDropped<flag::negative, flag::violated>>(
           "pair/negative-violated-dropped", "(V-,Vv) is left out", "L11", "F_negative_violated", 4),
-      rule<BlockDropped<flag::zero, flag::violated>>(
+      planted<BlockDropped<flag::zero, flag::violated>>(
           "pair/zero-violated-dropped", "(V0,Vv) is left out", "L11", "F_zero_violated", 4),
-      rule<AcrossBySign>("pair/across-by-sign", "pairs of two components are judged by sign", "L10",
-                         "A2_nested_outward", 9),
-      rule<NoClosure>("pair/no-closure", "K is claimed to be all pairs", "all-pairs (L7)",
-                      "F_closure_one_side", 6),
-      rule<ClosureFromOneSide>("pair/closure-from-one-side",
-                               "of a pair in contact only the lower triangle joins the closure",
-                               "all-pairs (L7)", "F_closure_one_side", 6),
-      rule<ClosureLeavesNegative>("pair/closure-leaves-negative",
-                                  "the closure looks at V+ only, not at V-", "all-pairs (L7)",
-                                  "C2_lost_minus_minus", 8),
-      search<NeighboursSkipped<1>>("pair/vertex-sharing-skipped",
-                                   "triangles with a common vertex are no candidates", "L3",
-                                   "C3_skip_adjacent", 6),
-      search<NeighboursSkipped<2>>("pair/edge-sharing-skipped",
-                                   "triangles with a common edge are no candidates", "L3",
-                                   "M_pSkipEdge", 5),
-      search<ZeroAreaDropped>("pair/zero-area-dropped",
-                              "a triangle that has no area at t=0 or t=1 is no candidate", "L12",
-                              "A3_nonstrict_end", 7),
-      search<OpenBoxes>("pair/open-boxes", "boxes that only touch do not meet", "free-sound",
-                        "F_open_boxes", 4),
-      search<StillBoxes<false>>("pair/boxes-at-start", "boxes are those at t=0, not swept",
-                                "free-sound", "F_boxes_at_start", 6),
-      search<StillBoxes<true>>("pair/boxes-at-end", "boxes are those at t=1, not swept",
-                               "free-sound", "F_boxes_at_end", 6),
-      {"pair/closure-single-pass", "the closure ends after its first round", "all-pairs (L7)",
-       FaultStatus::open,
-       "a pair that only the second round asks for is not known: what the first round finds has "
-       "so far always been all",
-       with_points, "", 0, "pair_search", with<&Stages::pair_search, SinglePassClosure>},
+      planted<AcrossBySign>("pair/across-by-sign", "pairs of two components are judged by sign",
+                            "L10", "A2_nested_outward", 9),
+      planted<NoClosure>("pair/no-closure", "K is claimed to be all pairs", "all-pairs (L7)",
+                         "F_closure_one_side", 6),
+      planted<ClosureFromOneSide>("pair/closure-from-one-side",
+                                  "of a pair in contact only the lower triangle joins the closure",
+                                  "all-pairs (L7)", "F_closure_one_side", 6),
+      planted<ClosureLeavesNegative>("pair/closure-leaves-negative",
+                                     "the closure looks at V+ only, not at V-", "all-pairs (L7)",
+                                     "C2_lost_minus_minus", 8),
+      planted<NeighboursSkipped<1>>("pair/vertex-sharing-skipped",
+                                    "triangles with a common vertex are no candidates", "L3",
+                                    "C3_skip_adjacent", 6),
+      planted<NeighboursSkipped<2>>("pair/edge-sharing-skipped",
+                                    "triangles with a common edge are no candidates", "L3",
+                                    "M_pSkipEdge", 5),
+      planted<ZeroAreaDropped>("pair/zero-area-dropped",
+                               "a triangle that has no area at t=0 or t=1 is no candidate", "L12",
+                               "A3_nonstrict_end", 7),
+      planted<OpenBoxes>("pair/open-boxes", "boxes that only touch do not meet", "free-sound",
+                         "F_open_boxes", 4),
+      planted<StillBoxes<false>>("pair/boxes-at-start", "boxes are those at t=0, not swept",
+                                 "free-sound", "F_boxes_at_start", 6),
+      planted<StillBoxes<true>>("pair/boxes-at-end", "boxes are those at t=1, not swept",
+                                "free-sound", "F_boxes_at_end", 6),
+      unseen<SinglePassClosure>(
+          FaultStatus::open, "pair/closure-single-pass", "the closure ends after its first round",
+          "all-pairs (L7)",
+          "a pair that only the second round asks for is not known: what the first round finds has "
+          "so far always been all"),
   };
 }
 

@@ -5,14 +5,45 @@
 #include <vector>
 
 #include "properties/faults/fault.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 
-// Replaces one stage of the standard ones: with<&Stages::classifier, SignAtStart>.
-template <auto stage, class Wrong>
+// Where a stage of this kind stands in a detector, and its name in the registry.
+template <class Stage>
+struct StagePlace {
+  std::shared_ptr<const Stage> detector::Stages::*stage;
+  std::string_view name;
+};
+constexpr StagePlace<detector::ViewClassifier> place_of(const detector::ViewClassifier*) {
+  return {&detector::Stages::classifier, "classifier"};
+}
+constexpr StagePlace<detector::BoundaryHandler> place_of(const detector::BoundaryHandler*) {
+  return {&detector::Stages::boundary, "boundary"};
+}
+constexpr StagePlace<detector::PairRule> place_of(const detector::PairRule*) {
+  return {&detector::Stages::pair_rule, "pair_rule"};
+}
+constexpr StagePlace<detector::Marking> place_of(const detector::Marking*) {
+  return {&detector::Stages::marking, "marking"};
+}
+constexpr StagePlace<detector::PairSearch> place_of(const detector::PairSearch*) {
+  return {&detector::Stages::pair_search, "pair_search"};
+}
+constexpr StagePlace<detector::ElementaryTest> place_of(const detector::ElementaryTest*) {
+  return {&detector::Stages::elementary, "elementary"};
+}
+constexpr StagePlace<detector::ReleaseRule> place_of(const detector::ReleaseRule*) {
+  return {&detector::Stages::release, "release"};
+}
+template <class Wrong>
+inline constexpr auto place = place_of(static_cast<const Wrong*>(nullptr));
+
+// The standard stages, but for the one that `Wrong` derives from.
+template <class Wrong>
 detector::Stages with(const detector::Options& options) {
   detector::Stages stages = detector::standard_stages(options);
-  stages.*stage = std::make_shared<Wrong>();
+  stages.*place<Wrong>.stage = std::make_shared<Wrong>();
   return stages;
 }
 
@@ -22,6 +53,23 @@ inline constexpr detector::Options with_lines = {detector::Culling::view_line,
                                                  detector::Start::verified, detector::Pairs::all};
 inline constexpr detector::Options with_cones = {detector::Culling::normal_cone,
                                                  detector::Start::verified, detector::Pairs::all};
+
+// A row of the registry: this wrong stage, in a detector of these options.
+template <class Wrong>
+Fault planted(std::string_view name, std::string_view about, std::string_view law,
+              std::string_view curated, int vertices,
+              const detector::Options& options = with_points) {
+  return {name,    about,   law,      FaultStatus::planted, "",
+          options, curated, vertices, place<Wrong>.name,    with<Wrong>};
+}
+
+// A row of one that is not known to show, or never does, and why.
+template <class Wrong>
+Fault unseen(FaultStatus status, std::string_view name, std::string_view about,
+             std::string_view law, std::string_view reason,
+             const detector::Options& options = with_points) {
+  return {name, about, law, status, reason, options, "", 0, place<Wrong>.name, with<Wrong>};
+}
 
 // The modules, each with its rows of the registry.
 std::vector<Fault> view_point_faults();

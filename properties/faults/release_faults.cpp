@@ -10,14 +10,11 @@ namespace assay::properties {
 namespace {
 
 using detector::ReleaseRule;
-using detector::Stages;
 using detector::StepWork;
 
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
 using Triangles = std::vector<std::int32_t>;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 enum class Contacts { tested, ignored };
 enum class Ghosts { tested, ignored };
@@ -99,12 +96,6 @@ struct ReleasedWhileTouched : ReleaseRule {
   }
 };
 
-template <class Release>
-Fault row(std::string_view name, std::string_view about, std::string_view curated, int vertices) {
-  return {name,    about,    "L9",      FaultStatus::planted,           "", with_points,
-          curated, vertices, "release", with<&Stages::release, Release>};
-}
-
 }  // namespace
 
 std::vector<Fault> release_faults() {
@@ -112,25 +103,26 @@ std::vector<Fault> release_faults() {
   using G = Ghosts;
   using L = Layers;
   return {
-      row<ReleaseHalfChecked<C::tested, G::ignored, L::of_pieces>>(
-          "release/blind-to-ghosts", "released without looking at the ghosts",
+      planted<ReleaseHalfChecked<C::tested, G::ignored, L::of_pieces>>(
+          "release/blind-to-ghosts", "released without looking at the ghosts", "L9",
           "D8_release_arm_sequence", 22),
-      row<ReleaseHalfChecked<C::ignored, G::tested, L::of_pieces>>(
-          "release/blind-to-contacts", "released although still in contact with the mesh",
+      planted<ReleaseHalfChecked<C::ignored, G::tested, L::of_pieces>>(
+          "release/blind-to-contacts", "released although still in contact with the mesh", "L9",
           "F_contacts_carried", 5),
-      row<ReleaseHalfChecked<C::tested, G::tested, L::by_connection>>(
+      planted<ReleaseHalfChecked<C::tested, G::tested, L::by_connection>>(
           "release/released-when-connected",
-          "a clean neighbour is enough, also at an edge of four triangles",
+          "a clean neighbour is enough, also at an edge of four triangles", "L9",
           "F_released_by_connection", 6),
-      row<ReleaseHalfChecked<C::tested, G::tested, L::across_touched>>(
+      planted<ReleaseHalfChecked<C::tested, G::tested, L::across_touched>>(
           "release/linked-across-touched", "pieces go on through triangles that touch something",
-          "D8_release_arm_sequence", 22),
-      row<ReleaseHalfChecked<C::tested, G::tested, L::not_looked_at>>(
+          "L9", "D8_release_arm_sequence", 22),
+      planted<ReleaseHalfChecked<C::tested, G::tested, L::not_looked_at>>(
           "release/layers-not-checked", "what touches nothing is released, whatever its layer",
-          "D8_release_arm_sequence", 22),
-      row<ReleasedWhileTouched>("release/released-while-touched",
-                                "what still touches something is released beside a clean neighbour",
-                                "F_released_while_touched", 5),
+          "L9", "D8_release_arm_sequence", 22),
+      planted<ReleasedWhileTouched>(
+          "release/released-while-touched",
+          "what still touches something is released beside a clean neighbour", "L9",
+          "F_released_while_touched", 5),
   };
 }
 

@@ -17,10 +17,7 @@ using detector::PairTable;
 using detector::PositionsView;
 using detector::SearchCounts;
 using detector::SearchInput;
-using detector::Stages;
 using detector::Topology;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // A flag gone from a leaf goes from all above, though another leaf there may have it.
 struct ClearedForOthersToo : detector::Marking {
@@ -171,55 +168,39 @@ struct CountedTogether : detector::TreeSearch {
   }
 };
 
-template <auto stage, class Wrong>
-Fault row(std::string_view name, std::string_view about, std::string_view law,
-          std::string_view curated, int vertices, bool is_disturbed = false) {
-  constexpr bool marks = std::is_base_of_v<detector::Marking, Wrong>;
-  Fault fault = {name,
-                 about,
-                 law,
-                 FaultStatus::planted,
-                 "",
-                 with_points,
-                 curated,
-                 vertices,
-                 marks ? "marking" : "pair_search",
-                 with<stage, Wrong>};
-  fault.is_disturbed = is_disturbed;
+Fault disturbed(Fault fault) {
+  fault.is_disturbed = true;
   return fault;
 }
 
 }  // namespace
 
 std::vector<Fault> search_faults() {
-  constexpr auto marking = &Stages::marking;
-  constexpr auto pair_search = &Stages::pair_search;
   return {
-      row<marking, ClearedForOthersToo>("marking/cleared-for-others-too",
-                                        "a flag that one leaf loses is cleared on all nodes above",
-                                        "L3", "F_cleared_for_others", 4),
-      row<marking, MarkedUntilAnyFlag>(
+      planted<ClearedForOthersToo>("marking/cleared-for-others-too",
+                                   "a flag that one leaf loses is cleared on all nodes above", "L3",
+                                   "F_cleared_for_others", 4),
+      planted<MarkedUntilAnyFlag>(
           "marking/marked-until-any-flag",
           "marking ends at a node that has some flag other than P, not at one that has this flag",
           "L3", "F_marked_until_any_flag", 6),
-      row<marking, GatheredFromFirstChild>("marking/gathered-from-first-child",
-                                           "clearing gives a node the flags of its first child",
-                                           "L3", "F_gathered_from_first_child", 4),
-      row<pair_search, SkippedForOneSet>(
+      planted<GatheredFromFirstChild>("marking/gathered-from-first-child",
+                                      "clearing gives a node the flags of its first child", "L3",
+                                      "F_gathered_from_first_child", 4),
+      planted<SkippedForOneSet>(
           "search/skipped-for-one-set",
           "a node is left for its only child in one partial tree, whatever the others hold", "L3",
           "F_skipped_for_one_set", 5),
-      row<pair_search, FittedOnce>("search/fitted-once",
-                                   "the tree is fitted to the first step and kept", "free-sound",
-                                   "F_fitted_once", 6),
-      row<pair_search, GoesOnAfterStop>(
+      planted<FittedOnce>("search/fitted-once", "the tree is fitted to the first step and kept",
+                          "free-sound", "F_fitted_once", 6),
+      disturbed(planted<GoesOnAfterStop>(
           "search/goes-on-after-stop",
           "a step that was stopped leaves its place in the search behind, for the next one",
-          "deterministic", "F_after_stop", 7, true),
-      row<pair_search, CountedTogether>("search/counted-together",
-                                        "all detectors of the process count their box tests in "
-                                        "one place",
-                                        "deterministic", "F_counted_together", 4, true),
+          "deterministic", "F_after_stop", 7)),
+      disturbed(planted<CountedTogether>("search/counted-together",
+                                         "all detectors of the process count their box tests in "
+                                         "one place",
+                                         "deterministic", "F_counted_together", 4)),
   };
 }
 

@@ -10,14 +10,11 @@ namespace assay::properties {
 namespace {
 
 using detector::ReleaseRule;
-using detector::Stages;
 using detector::StepWork;
 using detector::ViewSign;
 
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // Triangles that meet another one of their component at t=0.
 void add_own_contacts(const StepWork& work, std::size_t c, Flags& touched) {
@@ -133,44 +130,37 @@ struct GhostSignsNotAsked : ReleaseRule {
   }
 };
 
-template <class Release>
-Fault row(std::string_view name, std::string_view about, std::string_view law,
-          std::string_view curated, int vertices) {
-  return {name,    about,    law,       FaultStatus::planted,           "", with_points,
-          curated, vertices, "release", with<&Stages::release, Release>};
-}
-
 }  // namespace
 
 std::vector<Fault> start_faults() {
   using enum Layers;
   return {
-      row<StartNotChecked>("state/start-not-checked", "every start is taken for clean", "L9",
-                           "C5_start_intersecting", 6),
-      row<StartHalfChecked<false, true, by_piece>>("state/start-contacts-not-checked",
-                                                   "contacts at a new start are not looked for",
-                                                   "L9", "C5_start_intersecting", 6),
-      row<StartHalfChecked<true, false, by_piece>>("state/start-ghosts-not-checked",
-                                                   "released without the ghost test at a new start",
-                                                   "L9", "F_late_start", 22),
-      row<StartHalfChecked<true, true, not_looked_at>>(
+      planted<StartNotChecked>("state/start-not-checked", "every start is taken for clean", "L9",
+                               "C5_start_intersecting", 6),
+      planted<StartHalfChecked<false, true, by_piece>>("state/start-contacts-not-checked",
+                                                       "contacts at a new start are not looked for",
+                                                       "L9", "C5_start_intersecting", 6),
+      planted<StartHalfChecked<true, false, by_piece>>(
+          "state/start-ghosts-not-checked", "released without the ghost test at a new start", "L9",
+          "F_late_start", 22),
+      planted<StartHalfChecked<true, true, not_looked_at>>(
           "state/start-layers-not-checked", "whatever touches nothing at a new start is clean",
           "L9", "L9_shared_edge_two_layers", 22),
-      row<StartHalfChecked<true, true, of_component>>(
+      planted<StartHalfChecked<true, true, of_component>>(
           "state/released-when-connected",
           "the layer of one untouched triangle serves the whole component", "L9",
           "L9_shared_edge_two_layers", 6),
-      row<WindingNotChecked>("state/winding-not-checked",
-                             "all positive is enough: the winding number is not asked for", "L5",
-                             "A1_winding2_allpositive", 8),
-      row<GhostSignsNotAsked>("state/ghost-signs-not-asked",
-                              "all positive without the ghosts is enough", "L5", "D1_open_allplus",
-                              12),
-      {"state/lowest-layer-is-common",
-       "the common layer is that of the lowest untouched triangle, not that of most", "L9",
-       FaultStatus::equivalent,
-       "the proof of L3 needs one common layer and does not ask which: the choice costs pairs only",
-       with_points, "", 0, "release", with<&Stages::release, LowestLayerIsCommon>},
+      planted<WindingNotChecked>("state/winding-not-checked",
+                                 "all positive is enough: the winding number is not asked for",
+                                 "L5", "A1_winding2_allpositive", 8),
+      planted<GhostSignsNotAsked>("state/ghost-signs-not-asked",
+                                  "all positive without the ghosts is enough", "L5",
+                                  "D1_open_allplus", 12),
+      unseen<LowestLayerIsCommon>(
+          FaultStatus::equivalent, "state/lowest-layer-is-common",
+          "the common layer is that of the lowest untouched triangle, not that of most", "L9",
+          "the proof of L3 needs one common layer and does not ask which: the choice costs pairs "
+          "only"),
   };
 }
 

@@ -8,11 +8,8 @@ namespace {
 
 using detector::PairContact;
 using detector::ReleaseRule;
-using detector::Stages;
 using detector::StepState;
 using detector::StepWork;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // What the step leaves behind, from a start at which more is believed clean, or from a step that
 // has seen less.
@@ -95,41 +92,34 @@ class EvaluationKept : public ReleaseRule {
 constexpr detector::Options first_pairs = {detector::Culling::view_point, detector::Start::verified,
                                            detector::Pairs::first};
 
-template <class Release>
-Fault row(std::string_view name, std::string_view about, std::string_view law,
-          std::string_view curated, int vertices, detector::Options options = with_points) {
-  return {name,    about,    law,       FaultStatus::planted,           "", options,
-          curated, vertices, "release", with<&Stages::release, Release>};
-}
-
 }  // namespace
 
 std::vector<Fault> state_faults() {
   return {
-      row<DirtyNotCarried>("state/dirty-not-carried",
-                           "doubt of a step's start does not outlive the step", "L8",
-                           "F_doubt_carried", 6),
-      row<ViolatedNotCarried>("state/violated-not-carried",
-                              "what a ghost touched is clean in the next step", "L8",
-                              "D8_release_arm_sequence", 22),
-      row<ReleasedOnNoContact>("state/released-on-no-contact",
-                               "a step without contact releases everything", "L8",
-                               "D8_release_arm_sequence", 22),
-      row<ContactsNotCarried>("state/contacts-not-carried",
-                              "what was in contact is clean in the next step", "L8",
-                              "F_contacts_carried", 5),
-      row<OneSideDirty>("state/one-side-dirty",
-                        "of a pair in contact only the lower triangle gets dirty", "L8",
-                        "F_contacts_carried", 5),
-      row<FirstPairsAreAll>("state/first-pairs-are-all",
-                            "after a collision found by K alone the rest is taken for clean", "L8",
-                            "F_first_pairs_only", 6, first_pairs),
-      row<KeptElsewhere>("state/kept-elsewhere",
-                         "the state is kept although the step starts at other positions", "L8",
-                         "F_start_elsewhere", 6),
-      row<EvaluationKept>("state/evaluation-kept",
-                          "a free evaluation that was not committed releases what is dirty", "L8",
-                          "F_evaluation_kept", 6),
+      planted<DirtyNotCarried>("state/dirty-not-carried",
+                               "doubt of a step's start does not outlive the step", "L8",
+                               "F_doubt_carried", 6),
+      planted<ViolatedNotCarried>("state/violated-not-carried",
+                                  "what a ghost touched is clean in the next step", "L8",
+                                  "D8_release_arm_sequence", 22),
+      planted<ReleasedOnNoContact>("state/released-on-no-contact",
+                                   "a step without contact releases everything", "L8",
+                                   "D8_release_arm_sequence", 22),
+      planted<ContactsNotCarried>("state/contacts-not-carried",
+                                  "what was in contact is clean in the next step", "L8",
+                                  "F_contacts_carried", 5),
+      planted<OneSideDirty>("state/one-side-dirty",
+                            "of a pair in contact only the lower triangle gets dirty", "L8",
+                            "F_contacts_carried", 5),
+      planted<FirstPairsAreAll>("state/first-pairs-are-all",
+                                "after a collision found by K alone the rest is taken for clean",
+                                "L8", "F_first_pairs_only", 6, first_pairs),
+      planted<KeptElsewhere>("state/kept-elsewhere",
+                             "the state is kept although the step starts at other positions", "L8",
+                             "F_start_elsewhere", 6),
+      planted<EvaluationKept>("state/evaluation-kept",
+                              "a free evaluation that was not committed releases what is dirty",
+                              "L8", "F_evaluation_kept", 6),
   };
 }
 

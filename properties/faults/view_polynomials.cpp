@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "properties/numbering.h"
+
 namespace assay::properties {
 
 using detector::Integer;
@@ -144,9 +146,9 @@ void TriangleSigns::classify(const detector::Topology& surface,
                              const detector::PositionsView& x_t1, const ViewPrimitive& primitive,
                              std::vector<ViewSign>& signs, detector::ViewCounts& counts) const {
   for (const auto t : component.triangles) {
-    const auto& v = surface.triangles[static_cast<std::size_t>(t)];
+    const auto& v = surface.triangles[at(t)];
     const auto corner = [&](std::size_t i) { return detector::moving_point(x_t0, x_t1, v[i]); };
-    signs[static_cast<std::size_t>(t)] = sign({corner(0), corner(1), corner(2)}, primitive);
+    signs[at(t)] = sign({corner(0), corner(1), corner(2)}, primitive);
     ++counts.exact;
   }
 }

@@ -2,6 +2,8 @@
 // them.
 #pragma once
 
+#include <type_traits>
+
 #include "detector/exact/real_root.h"
 #include "detector/view/view_classifier.h"
 
@@ -52,6 +54,13 @@ detector::MovingPoint still(Sample sample, const detector::MovingPoint& point);
 // The common sign, zero where they differ.
 detector::ViewSign common_sign(std::initializer_list<detector::ViewSign> signs);
 
+// The sign at some times, taken for that of the step.
+template <Sample... samples>
+detector::ViewSign sampled(const detector::MovingTriangle& triangle,
+                           const detector::ViewPrimitive& primitive) {
+  return common_sign({sign_at(samples, triangle, primitive)...});
+}
+
 // A classifier that looks at one triangle after the other.
 class TriangleSigns : public detector::ViewClassifier {
  public:
@@ -61,6 +70,19 @@ class TriangleSigns : public detector::ViewClassifier {
                 detector::ViewCounts& counts) const override;
   virtual detector::ViewSign sign(const detector::MovingTriangle& triangle,
                                   const detector::ViewPrimitive& primitive) const = 0;
+};
+
+// That classifier by a function, of the step's polynomials or of the triangle itself.
+template <auto look>
+struct Signs : TriangleSigns {
+  detector::ViewSign sign(const detector::MovingTriangle& triangle,
+                          const detector::ViewPrimitive& primitive) const override {
+    if constexpr (std::is_invocable_v<decltype(look), const ViewPolynomials&>) {
+      return look(view_polynomials(triangle, primitive));
+    } else {
+      return look(triangle, primitive);
+    }
+  }
 };
 
 // The right sign.

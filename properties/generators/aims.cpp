@@ -6,8 +6,6 @@
 namespace assay::properties {
 namespace {
 
-bool has(const Face& f, std::int32_t v) { return f[0] == v || f[1] == v || f[2] == v; }
-
 struct Aimed {
   std::int32_t vertex = 0;
   Face target{};
@@ -26,7 +24,7 @@ class Aimer {
   // A vertex of the mesh and a face beside it that does not hold it: the nearest of a few.
   std::optional<Aimed> choose() {
     const Face& own = any_of(random_, draft_.faces);
-    const std::int32_t v = own[static_cast<std::size_t>(random_.below(3))];
+    const std::int32_t v = own[at(random_.below(3))];
     const Point& from = at(x_t0(), v);
     std::optional<Aimed> best;
     double nearest = 0;
@@ -109,7 +107,7 @@ class Aimer {
   void flatten(const Aimed& aimed) {
     const auto own = std::find_if(draft_.faces.begin(), draft_.faces.end(),
                                   [&](const Face& f) { return has(f, aimed.vertex); });
-    const auto axis = static_cast<std::size_t>(random_.below(3));
+    const auto axis = at(random_.below(3));
     const double level = at(x_t0(), aimed.target[0])[axis];
     for (auto& x : draft_.frames) {
       for (const auto v : aimed.target) at(x, v)[axis] = level;
@@ -120,7 +118,7 @@ class Aimer {
 
   // A view-line whose end region borders on the slab exactly at `place`, in every frame.
   void border_of_regions(const Point& place) {
-    const auto axis = static_cast<std::size_t>(random_.below(3));
+    const auto axis = at(random_.below(3));
     Point q = place;
     q[(axis + 1) % 3] += random_.between(-4, 4) / 4.0;
     q[(axis + 2) % 3] += random_.between(-4, 4) / 4.0;

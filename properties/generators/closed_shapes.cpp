@@ -22,23 +22,18 @@ void scale_and_move(Draft& d, double scale, const Point& by) {
   for (auto& p : d.rest()) p = scale * p + by;
 }
 
-double highest(const Draft& d, std::size_t axis) {
-  double h = d.rest()[0][axis];
-  for (const auto& p : d.rest()) h = std::max(h, p[axis]);
-  return h;
-}
-
-double lowest(const Draft& d, std::size_t axis) {
-  double h = d.rest()[0][axis];
-  for (const auto& p : d.rest()) h = std::min(h, p[axis]);
-  return h;
+// The least and the greatest x.
+std::array<double, 2> extent(const Draft& d) {
+  const auto [low, high] = std::minmax_element(
+      d.rest().begin(), d.rest().end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
+  return {(*low)[0], (*high)[0]};
 }
 
 // Side by side along x with a gap, from a hair to half a unit.
 Draft two_pieces(Random& random, int size) {
   Draft a = simple_shape(random, size / 2), b = simple_shape(random, size / 2);
   const double gap = random.between(1, 32) / 64.0;
-  scale_and_move(b, 1, {highest(a, 0) - lowest(b, 0) + gap, 0, 0});
+  scale_and_move(b, 1, {extent(a)[1] - extent(b)[0] + gap, 0, 0});
   Draft d = joined(std::move(a), b);
   d.tag("pieces:apart");
   return d;

@@ -9,7 +9,7 @@ namespace assay::properties {
 void drop_unused_vertices(Draft& draft) {
   std::vector<std::int32_t> number(draft.rest().size(), -1);
   for (const auto& face : draft.faces) {
-    for (const auto v : face) number[static_cast<std::size_t>(v)] = 0;
+    for (const auto v : face) number[at(v)] = 0;
   }
   std::int32_t used = 0, second = 0;
   for (std::size_t v = 0; v < number.size(); ++v) {
@@ -18,7 +18,7 @@ void drop_unused_vertices(Draft& draft) {
   }
   draft.second_piece = second;
   for (auto& face : draft.faces) {
-    for (auto& v : face) v = number[static_cast<std::size_t>(v)];
+    for (auto& v : face) v = number[at(v)];
   }
   for (auto& x : draft.frames) {
     Points kept;

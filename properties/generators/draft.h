@@ -8,6 +8,7 @@
 
 #include "properties/generators/generated_case.h"
 #include "properties/generators/points.h"
+#include "properties/numbering.h"
 #include "properties/random.h"
 
 namespace assay::properties {
@@ -45,10 +46,12 @@ struct Draft {
 inline const Point& at(const Points& x, std::int32_t v) { return x[static_cast<std::size_t>(v)]; }
 inline Point& at(Points& x, std::int32_t v) { return x[static_cast<std::size_t>(v)]; }
 
+inline bool has(const Face& f, std::int32_t v) { return f[0] == v || f[1] == v || f[2] == v; }
+
 // REQUIRES a non-empty list.
 template <class List>
 auto& any_of(Random& random, List& list) {
-  return list[static_cast<std::size_t>(random.below(static_cast<int>(std::size(list))))];
+  return list[at(random.below(static_cast<int>(std::size(list))))];
 }
 
 // Drops vertices that no face uses, and numbers the rest in their order.

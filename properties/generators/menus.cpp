@@ -34,7 +34,7 @@ void place_ulp_neighbours(Random& random, Draft& draft) {
     Points& x = any_of(random, draft.frames);
     const Point other = any_of(random, x);
     Point& p = any_of(random, x);
-    const auto k = static_cast<std::size_t>(random.below(3));
+    const auto k = at(random.below(3));
     // Mostly its own value: another's moves the vertex far.
     double c = random.one_in(4) ? other[k] : p[k];
     const double towards = random.one_in(2) ? kInfinity : -kInfinity;
@@ -98,8 +98,7 @@ void make_denormal(Random& random, Draft& draft) {
   } else {
     for (int changes = random.between(1, 8); changes > 0; --changes) {
       Point& p = any_of(random, any_of(random, draft.frames));
-      p[static_cast<std::size_t>(random.below(3))] =
-          std::ldexp(random.between(-3, 3), kLeastExponent) + 0.0;
+      p[at(random.below(3))] = std::ldexp(random.between(-3, 3), kLeastExponent) + 0.0;
     }
   }
   draft.tag("menu:denormal");

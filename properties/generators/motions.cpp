@@ -38,7 +38,7 @@ double reach(const Points& x, std::size_t axis) {
   return r;
 }
 
-std::size_t any_axis(Random& random) { return static_cast<std::size_t>(random.below(3)); }
+std::size_t any_axis(Random& random) { return at(random.below(3)); }
 
 void rigid(Random& random, const Draft&, Points& x, double amount) {
   const auto axis = any_axis(random);
@@ -113,7 +113,7 @@ void collapse(Random& random, const Draft&, Points& x, double) {
   const auto first = any_axis(random);
   const int axes = random.between(1, 4) == 4 ? random.between(2, 3) : 1;
   for (int i = 0; i < axes; ++i) {
-    for (auto& p : x) p[(first + static_cast<std::size_t>(i)) % 3] = 0;
+    for (auto& p : x) p[(first + at(i)) % 3] = 0;
   }
 }
 

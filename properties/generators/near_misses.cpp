@@ -24,7 +24,7 @@ Point beside(Random& random, const Points& x, const Face& f, int kind) {
 
 void put_beside(Random& random, Draft& draft) {
   const Face own = any_of(random, draft.faces), target = any_of(random, draft.faces);
-  const std::int32_t v = own[static_cast<std::size_t>(random.below(3))];
+  const std::int32_t v = own[at(random.below(3))];
   // A target that holds v makes a sliver: v goes to its other edge.
   const bool sliver = target[0] == v || target[1] == v || target[2] == v;
   Face f = target;

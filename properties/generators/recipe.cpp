@@ -72,10 +72,7 @@ void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) 
 }
 
 void shuffle_faces(Random& random, Draft& draft) {
-  for (std::size_t i = draft.faces.size(); i > 1; --i) {
-    std::swap(draft.faces[i - 1],
-              draft.faces[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
-  }
+  draft.faces = shuffled(random, std::move(draft.faces));
   for (auto& f : draft.faces) std::rotate(f.begin(), f.begin() + random.below(3), f.end());
   draft.tag("order:shuffled");
 }

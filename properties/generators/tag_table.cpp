@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "properties/claims.h"
+#include "properties/numbering.h"
+
 namespace assay::properties {
 
 using detector::ViewSign;
@@ -26,19 +29,6 @@ PairBlock block_of(ViewSign a, ViewSign b, bool either_violated) {
   return a == ViewSign::positive ? PairBlock::positive_positive : PairBlock::negative_negative;
 }
 
-namespace {
-
-std::size_t shared_vertices(const detector::TrianglesView& triangles,
-                            const detector::TrianglePair& pair) {
-  std::size_t shared = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) shared += triangles(pair.a, i) == triangles(pair.b, j) ? 1 : 0;
-  }
-  return std::min<std::size_t>(shared, 2);
-}
-
-}  // namespace
-
 void TagTable::add(const std::vector<std::string>& tags, std::uint64_t steps,
                    std::uint64_t collisions) {
   for (const auto& tag : tags) {
@@ -52,15 +42,13 @@ void TagTable::add(const std::vector<std::string>& tags, std::uint64_t steps,
 void TagTable::add_contacts(const detector::TrianglesView& triangles,
                             const oracle::StepJudgement& judgement, std::span<const ViewSign> signs,
                             std::span<const std::uint8_t> violated) {
-  const auto in_vv = [&](std::int32_t t) {
-    return !violated.empty() && violated[static_cast<std::size_t>(t)] != 0;
-  };
+  const auto in_vv = [&](std::int32_t t) { return !violated.empty() && violated[at(t)] != 0; };
   for (const auto& contact : judgement.pairs) {
     const auto [a, b] = contact.pair;
-    const PairBlock block = block_of(signs[static_cast<std::size_t>(a)],
-                                     signs[static_cast<std::size_t>(b)], in_vv(a) || in_vv(b));
+    const PairBlock block = block_of(signs[at(a)], signs[at(b)], in_vv(a) || in_vv(b));
     BlockCount& count = blocks_[static_cast<std::size_t>(block)];
-    const std::size_t shared = shared_vertices(triangles, contact.pair);
+    const auto shared =
+        static_cast<std::size_t>(std::min(shared_vertices(triangles, contact.pair), 2));
     ++count.contacts[shared];
     if (contact.time == judgement.first) ++count.first_contacts[shared];
   }

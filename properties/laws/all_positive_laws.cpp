@@ -11,18 +11,8 @@ namespace {
 
 using detector::ViewSign;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 bool is_cycle(const CaseFacts& facts, std::size_t component) {
   return facts.surface().mesh.components[component].is_cycle;
-}
-
-// Mesh and ghosts of the component positive over the step, w = 1 at its start.
-bool is_positive_around(CaseFacts& facts, std::size_t s, std::size_t component) {
-  const auto& triangles = facts.surface().all().components[component].triangles;
-  return std::all_of(triangles.begin(), triangles.end(),
-                     [&](std::int32_t t) { return facts.signs(s)[at(t)] == ViewSign::positive; }) &&
-         facts.winding_at_start(s, component) == 1;
 }
 
 std::string what_is_not_free(CaseFacts& facts, std::size_t s, std::size_t component) {
@@ -50,7 +40,7 @@ Observation all_positive_is_free(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
   bool met = false;
   for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c) {
-    if (is_cycle(facts, c) != closed || !is_positive_around(facts, s, c)) continue;
+    if (is_cycle(facts, c) != closed || !facts.is_free_by_view(s, c)) continue;
     met = true;
     const std::string wrong = what_is_not_free(facts, s, c);
     if (!wrong.empty()) return fmt::format("component {}: {}", c, wrong);
@@ -62,7 +52,7 @@ Observation detector_takes_the_free_path(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
   const auto components = facts.surface().mesh.components.size();
   std::size_t free = 0;
-  for (std::size_t c = 0; c < components; ++c) free += is_positive_around(facts, s, c);
+  for (std::size_t c = 0; c < components; ++c) free += facts.is_free_by_view(s, c);
   if (free == 0 && facts.result(s).counts.free_components == 0) return not_met();
   if (facts.result(s).counts.free_components != free) {
     return fmt::format("the detector released {} components, the oracle {}",

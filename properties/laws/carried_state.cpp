@@ -6,14 +6,21 @@ namespace assay::properties {
 
 using OptionalLayers = std::vector<std::optional<oracle::Layer>>;  // by component
 
+namespace {
+
+std::size_t component_of(const CaseFacts& facts, std::size_t triangle) {
+  return at(facts.component_of(static_cast<std::int32_t>(triangle)));
+}
+
+}  // namespace
+
 std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& layers,
                               const TriangleFlags& held) {
   OptionalLayers shared(facts.surface().mesh.components.size());
   for (std::size_t t = 0; t < held.size(); ++t) {
     if (!held[t]) continue;
     if (layers.touched[t]) return fmt::format("triangle {} is touched", t);
-    auto& layer =
-        shared[static_cast<std::size_t>(facts.component_of(static_cast<std::int32_t>(t)))];
+    auto& layer = shared[component_of(facts, t)];
     if (!layer) layer = layers.layer[t];
     if (layer != layers.layer[t]) return fmt::format("triangle {} is of another layer", t);
   }
@@ -24,17 +31,14 @@ TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags&
   const auto& layers = facts.layers_at_start(s);
   const auto dirty = dirty_triangles(facts, s);
   OptionalLayers wanted(facts.surface().mesh.components.size());
-  const auto component = [&](std::size_t t) {
-    return static_cast<std::size_t>(facts.component_of(static_cast<std::int32_t>(t)));
-  };
   for (std::size_t t = 0; t < dirty.size(); ++t) {
-    auto& layer = wanted[component(t)];
+    auto& layer = wanted[component_of(facts, t)];
     if (!layer && !dirty[t] && !in_question[t] && !layers.touched[t]) layer = layers.layer[t];
   }
   TriangleFlags clean(dirty.size(), 0);
   for (std::size_t t = 0; t < dirty.size(); ++t) {
     if (!in_question[t] || layers.touched[t]) continue;
-    const auto& layer = wanted[component(t)];
+    const auto& layer = wanted[component_of(facts, t)];
     clean[t] = layer ? layer == layers.layer[t] : layers.clean[t] != 0;
   }
   return clean;
@@ -61,15 +65,12 @@ TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s) {
 
 TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s) {
   const std::size_t count = facts.surface().mesh.triangles.size();
-  const auto component = [&](std::size_t t) {
-    return static_cast<std::size_t>(facts.component_of(static_cast<std::int32_t>(t)));
-  };
   TriangleFlags dirty(count, 0);
   const auto p = facts.known_from(s);
   if (!p) {
     for (std::size_t t = 0; t < count; ++t) {
       dirty[t] = facts.options().start == detector::Start::unknown
-                     ? !facts.is_free_by_view(s, component(t))
+                     ? !facts.is_free_by_view(s, component_of(facts, t))
                      : !facts.layers_at_start(s).clean[t];
     }
     return dirty;
@@ -78,12 +79,12 @@ TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s) {
   const auto& layers = facts.layers_at_start(s);
   OptionalLayers common(facts.surface().mesh.components.size());
   for (std::size_t t = 0; t < count; ++t) {
-    auto& layer = common[component(t)];
+    auto& layer = common[component_of(facts, t)];
     if (!layer && !in_doubt[t]) layer = layers.layer[t];
   }
   for (std::size_t t = 0; t < count; ++t) {
     if (!in_doubt[t]) continue;
-    const auto& layer = common[component(t)];
+    const auto& layer = common[component_of(facts, t)];
     const bool released =
         !layers.touched[t] && (layer ? layer == layers.layer[t] : layers.clean[t] != 0);
     dirty[t] = !released;

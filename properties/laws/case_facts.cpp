@@ -14,8 +14,6 @@ using detector::Triangles;
 
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 Triangles rows_of(const detector::Topology& surface, std::span<const std::int32_t> triangles) {
   Triangles rows(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t i = 0; i < triangles.size(); ++i) {

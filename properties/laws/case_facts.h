@@ -14,6 +14,7 @@
 #include "oracle/layers.h"
 #include "oracle/step.h"
 #include "properties/laws/view_range.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 

@@ -15,7 +15,7 @@ using detector::ViewSign;
 
 // Whether signs and doubts would leave the pair out of K inside a component.
 bool is_left_out_by_signs(CaseFacts& facts, std::size_t s, const detector::TrianglePair& pair) {
-  const auto sign = [&](std::int32_t t) { return facts.signs(s)[static_cast<std::size_t>(t)]; };
+  const auto sign = [&](std::int32_t t) { return facts.signs(s)[at(t)]; };
   return !facts.in_doubt(s, pair.a) && !facts.in_doubt(s, pair.b) &&
          sign(pair.a) != ViewSign::zero && sign(pair.a) == sign(pair.b);
 }
@@ -63,8 +63,8 @@ oracle::LayerState layers_alone(CaseFacts& facts, std::size_t s, std::size_t com
   const auto& surface = facts.surface();
   detector::Triangles own(0, 3), ghosts(0, 3);
   for (const auto t : surface.all().components[component].triangles) {
-    const auto& v = surface.all().triangles[static_cast<std::size_t>(t)];
-    auto& list = static_cast<std::size_t>(t) < surface.mesh.triangles.size() ? own : ghosts;
+    const auto& v = surface.all().triangles[at(t)];
+    auto& list = at(t) < surface.mesh.triangles.size() ? own : ghosts;
     list.conservativeResize(list.rows() + 1, 3);
     list.bottomRows(1) << v[0], v[1], v[2];
   }
@@ -79,8 +79,7 @@ Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) 
     const auto alone = layers_alone(facts, s, c);
     for (std::size_t i = 0; i < components[c].triangles.size(); ++i) {
       const auto t = components[c].triangles[i];
-      const bool dirty =
-          (facts.result(s).doubts[static_cast<std::size_t>(t)] & detector::doubt::dirty) != 0;
+      const bool dirty = (facts.result(s).doubts[at(t)] & detector::doubt::dirty) != 0;
       if (dirty == (alone.clean[i] != 0)) {
         return fmt::format("triangle {} is {}, in its component alone {}", t,
                            dirty ? "dirty" : "clean", alone.clean[i] ? "clean" : "not");

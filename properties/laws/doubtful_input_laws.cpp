@@ -46,7 +46,7 @@ Observation zero_area_stays_in_v0(CaseFacts& facts, std::size_t s) {
   for (std::int32_t t = 0; t < count; ++t) {
     if (!has_zero_area(facts, s, t)) continue;
     met = true;
-    if (facts.result(s).signs[static_cast<std::size_t>(t)] != detector::ViewSign::zero) {
+    if (facts.result(s).signs[at(t)] != detector::ViewSign::zero) {
       return fmt::format("triangle {} has no area at an end, and a sign", t);
     }
   }

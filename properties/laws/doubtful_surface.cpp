@@ -15,7 +15,7 @@ bool has_broken_edges(const CaseFacts& facts) {
     if (around.size() > 2) return true;
     if (around.size() < 2) continue;
     const auto runs_upward = [&](std::int32_t t) {
-      const auto& v = mesh.triangles[static_cast<std::size_t>(t)];
+      const auto& v = mesh.triangles[at(t)];
       const auto i =
           static_cast<std::size_t>(std::find(v.begin(), v.end(), mesh.edges[e][0]) - v.begin());
       return v[(i + 1) % 3] == mesh.edges[e][1];
@@ -49,7 +49,7 @@ bool surely_has_area(const detector::Positions& x, const std::array<std::int32_t
 }  // namespace
 
 bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle) {
-  const auto& v = facts.surface().mesh.triangles[static_cast<std::size_t>(triangle)];
+  const auto& v = facts.surface().mesh.triangles[at(triangle)];
   for (const auto* x : {&facts.x_t0(s), &facts.x_t1(s)}) {
     if (surely_has_area(*x, v)) continue;
     const auto corner = [&](std::size_t i) { return detector::moving_point(*x, *x, v[i]); };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "properties/numbering.h"
+
 namespace assay::properties {
 namespace {
 
@@ -72,7 +74,7 @@ ExactView::ExactView(const std::array<detector::MovingPoint, 3>& triangle,
   if (length2_ == 0) length2_ = 1;
 }
 
-ExactPoint ExactView::corner(int i) const { return triangle_[static_cast<std::size_t>(i)]; }
+ExactPoint ExactView::corner(int i) const { return triangle_[at(i)]; }
 
 ExactPoint ExactView::inner_point(const std::array<int, 3>& sixteenths) const {
   ExactPoint x;

@@ -43,7 +43,7 @@ Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
   std::set<TimeEnclosure> times_outside;
   for (const auto& [pair, time, feature] : own) {
     for (const auto t : {pair.a, pair.b}) {
-      auto& first = first_of[static_cast<std::size_t>(t)];
+      auto& first = first_of[at(t)];
       first = std::min(first, time);
     }
     if (!facts.candidates(s).holds(pair)) times_outside.insert(time);
@@ -54,8 +54,7 @@ Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
       if (!all_outside(part, facts.candidates(s))) continue;
       met = true;
       const bool earlier = std::any_of(part.begin(), part.end(), [&](const PairContact& contact) {
-        return first_of[static_cast<std::size_t>(contact.pair.a)] < time ||
-               first_of[static_cast<std::size_t>(contact.pair.b)] < time;
+        return first_of[at(contact.pair.a)] < time || first_of[at(contact.pair.b)] < time;
       });
       if (!earlier) {
         return fmt::format("the place of ({}, {}) is outside K and nothing there met before {}",

@@ -22,7 +22,7 @@ bool is_any(const ViewPrimitive&) { return true; }
 bool is_all_of(CaseFacts& facts, std::size_t s, std::size_t component, ViewSign sign) {
   const auto& own = facts.surface().mesh.components[component].triangles;
   return std::all_of(own.begin(), own.end(), [&](std::int32_t t) {
-    return !facts.in_doubt(s, t) && facts.signs(s)[static_cast<std::size_t>(t)] == sign;
+    return !facts.in_doubt(s, t) && facts.signs(s)[at(t)] == sign;
   });
 }
 
@@ -34,7 +34,7 @@ Observation one_sign_is_collision_free(CaseFacts& facts, std::size_t s) {
     if (!applies(facts.result(s).primitives[c]) || !is_all_of(facts, s, c, sign)) continue;
     met = true;
     for (const auto t : facts.surface().mesh.components[c].triangles) {
-      if (facts.own_contacts(s)[static_cast<std::size_t>(t)]) {
+      if (facts.own_contacts(s)[at(t)]) {
         return fmt::format("component {} is of one sign, and triangle {} is in contact", c, t);
       }
     }

@@ -99,7 +99,7 @@ bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component
   const auto& surface = facts.surface().all();
   const auto& triangles = surface.components[component].triangles;
   return std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
-    const auto& v = surface.triangles[static_cast<std::size_t>(t)];
+    const auto& v = surface.triangles[at(t)];
     const auto corner = [&](std::size_t i) { return detector::moving_point(x, x, v[i]); };
     return oracle::view_sign({corner(0), corner(1), corner(2)}, still) ==
            detector::ViewSign::positive;
@@ -114,7 +114,7 @@ Observation all_positive_at_the_start_releases(CaseFacts& facts, std::size_t s) 
     if (!is_positive_at_start(facts, s, c) || facts.winding_at_start(s, c) != 1) continue;
     met = true;
     for (const auto t : facts.surface().mesh.components[c].triangles) {
-      const auto i = static_cast<std::size_t>(t);
+      const auto i = at(t);
       if (!facts.layers_at_start(s).clean[i]) return fmt::format("triangle {} is not clean", t);
       if (facts.result(s).doubts[i] & detector::doubt::dirty) {
         return fmt::format("triangle {} is not released", t);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "properties/numbering.h"
+
 namespace assay::properties {
 namespace {
 
@@ -56,8 +58,7 @@ ViewRange view_range(const detector::Topology& surface, std::span<const std::int
   for (const auto t : triangles) {
     std::array<MovingPoint, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = scaled(
-          detector::moving_point(x_t0, x_t1, surface.triangles[static_cast<std::size_t>(t)][i]));
+      corners[i] = scaled(detector::moving_point(x_t0, x_t1, surface.triangles[at(t)][i]));
     }
     bool positive = false, negative = false;
     for (int k = 0; k < times; ++k) {

@@ -20,7 +20,7 @@ Observation compare_signs(CaseFacts& facts, std::size_t s, std::size_t begin, st
   bool met = false;
   for (std::size_t t = begin; t < end; ++t) {
     const auto c = facts.surface().all().component_of_triangle[t];
-    if (result.primitives[static_cast<std::size_t>(c)].is_point() != point) continue;
+    if (result.primitives[at(c)].is_point() != point) continue;
     met = true;
     const auto exact = facts.signs(s)[t];
     if (result.signs[t] != exact) {

@@ -24,7 +24,7 @@ Observation each_sample(CaseFacts& facts, std::size_t s, Look look) {
   for (int i = 0; i < triangles; ++i) {
     const auto t =
         static_cast<std::size_t>(random.below(static_cast<int>(surface.triangles.size())));
-    const auto c = static_cast<std::size_t>(surface.component_of_triangle[t]);
+    const auto c = at(surface.component_of_triangle[t]);
     const auto& corners = surface.triangles[t];
     const std::array<detector::MovingPoint, 3> triangle = {
         detector::moving_point(x_t0, x_t1, corners[0]),

@@ -24,7 +24,7 @@ detector::Triangles matrix_of(const std::vector<Corners>& triangles) {
   detector::Triangles matrix(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      matrix(static_cast<Eigen::Index>(t), i) = triangles[t][static_cast<std::size_t>(i)];
+      matrix(static_cast<Eigen::Index>(t), i) = triangles[t][at(i)];
     }
   }
   return matrix;
@@ -53,10 +53,10 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
   result.triangles = matrix_of(triangles);
   if (c.ghosts) result.ghosts = renewed_ghosts(c, result.triangles, target);
 
-  const auto vertices = static_cast<std::size_t>(c.frames.front().rows());
+  const auto vertices = vertex_count(c);
   std::vector<std::int32_t> number(vertices, -1);
   for (const auto& corners : triangles) {
-    for (const auto v : corners) number[static_cast<std::size_t>(v)] = 0;
+    for (const auto v : corners) number[at(v)] = 0;
   }
   std::vector<Eigen::Index> kept;
   for (std::size_t v = 0; v < vertices; ++v) {
@@ -74,7 +74,7 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
   const auto renumber = [&](detector::Triangles& matrix) {
     for (Eigen::Index i = 0; i < matrix.size(); ++i) {
       auto& v = matrix.data()[i];
-      const auto old = static_cast<std::size_t>(v);
+      const auto old = at(v);
       v = old < vertices ? number[old] : static_cast<std::int32_t>(old - vertices + kept.size());
     }
   };
@@ -86,12 +86,6 @@ Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
     renumber(result.ghosts->triangles);
   }
   return result;
-}
-
-std::vector<std::int32_t> identity(const Case& c) {
-  std::vector<std::int32_t> map(static_cast<std::size_t>(c.frames.front().rows()));
-  for (std::size_t v = 0; v < map.size(); ++v) map[v] = static_cast<std::int32_t>(v);
-  return map;
 }
 
 }  // namespace
@@ -138,7 +132,7 @@ std::vector<Corners> triangles_of(const Case& c) {
 }
 
 Case with_triangles(const Case& c, const std::vector<Corners>& triangles) {
-  return rebuilt(c, triangles, identity(c));
+  return rebuilt(c, triangles, in_order(vertex_count(c)));
 }
 
 Case keep_triangles(const Case& c, const std::vector<std::uint8_t>& keep) {
@@ -153,14 +147,14 @@ Case keep_triangles(const Case& c, const std::vector<std::uint8_t>& keep) {
 Case merge_vertices(const Case& c, const std::vector<std::int32_t>& target) {
   std::vector<std::int32_t> end = target;
   for (auto& v : end) {
-    while (target[static_cast<std::size_t>(v)] != v) v = target[static_cast<std::size_t>(v)];
+    while (target[at(v)] != v) v = target[at(v)];
   }
   const auto all = triangles_of(c);
   std::vector<Corners> moved;
   std::map<Corners, int> surplus;  // by corners: orientations added up
   for (const auto& corners : all) {
     Corners m;
-    for (std::size_t i = 0; i < 3; ++i) m[i] = end[static_cast<std::size_t>(corners[i])];
+    for (std::size_t i = 0; i < 3; ++i) m[i] = end[at(corners[i])];
     if (m[0] == m[1] || m[1] == m[2] || m[2] == m[0]) continue;
     moved.push_back(m);
     surplus[sorted(m)] += orientation(m);
@@ -206,8 +200,8 @@ Case with_steps(const Case& c, const std::vector<corpus::CaseStep>& steps) {
   result.pending = "{}";
   std::vector<std::int32_t> number(c.frames.size(), -1);
   for (const auto& step : steps) {
-    number[static_cast<std::size_t>(step.from)] = 0;
-    number[static_cast<std::size_t>(step.to)] = 0;
+    number[at(step.from)] = 0;
+    number[at(step.to)] = 0;
   }
   std::int32_t kept = 0;
   for (auto& n : number) n = n < 0 ? -1 : kept++;
@@ -227,8 +221,8 @@ Case with_steps(const Case& c, const std::vector<corpus::CaseStep>& steps) {
   if (result.ghosts) select(result.ghosts->apexes);
   result.script = steps;
   for (auto& step : result.script) {
-    step.from = number[static_cast<std::size_t>(step.from)];
-    step.to = number[static_cast<std::size_t>(step.to)];
+    step.from = number[at(step.from)];
+    step.to = number[at(step.to)];
   }
   if (result.script == corpus::consecutive_steps(result.frames.size())) result.script.clear();
   return result;

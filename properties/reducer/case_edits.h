@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "corpus/case_file.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 
@@ -17,6 +18,10 @@ namespace assay::properties {
 // triangles with the same three vertices; coordinates finite; frames, view and apexes of equal
 // lengths. Only such cases are judged.
 bool is_valid(const corpus::Case& c);
+
+inline std::size_t vertex_count(const corpus::Case& c) {
+  return static_cast<std::size_t>(c.frames.front().rows());
+}
 
 corpus::Case with_triangles(const corpus::Case& c,
                             const std::vector<std::array<std::int32_t, 3>>& triangles);

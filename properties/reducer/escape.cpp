@@ -6,7 +6,6 @@
 // so far, so the same reduction walks the same way.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "properties/random.h"
 #include "properties/reducer/case_edits.h"
@@ -42,9 +41,6 @@ class Escape {
   }
 
  private:
-  std::size_t vertices(const Case& c) const {
-    return static_cast<std::size_t>(c.frames.front().rows());
-  }
   int index_below(std::size_t n) { return random_.below(static_cast<int>(n)); }
 
   // A coordinate of the size of those that the case has.
@@ -55,8 +51,8 @@ class Escape {
   }
 
   void change(Case& c) {
-    const auto v = static_cast<Eigen::Index>(index_below(vertices(c)));
-    const auto f = static_cast<std::size_t>(index_below(c.frames.size()));
+    const auto v = static_cast<Eigen::Index>(index_below(vertex_count(c)));
+    const auto f = at(index_below(c.frames.size()));
     switch (random_.below(8)) {
       case 0:
       case 1:
@@ -96,14 +92,13 @@ class Escape {
 
   void flip_edge(Case& c) {
     const auto mesh = triangles_of(c);
-    const auto other = flipped(mesh, static_cast<std::size_t>(index_below(mesh.size())),
-                               static_cast<std::size_t>(random_.below(3)));
+    const auto other = flipped(mesh, at(index_below(mesh.size())), at(random_.below(3)));
     if (!other.empty()) c = with_triangles(c, other);
   }
 
   void change_view(Case& c) {
     auto& end = !c.view->q1.empty() && random_.below(2) == 0 ? c.view->q1 : c.view->q0;
-    const auto k = static_cast<std::size_t>(random_.below(3));
+    const auto k = at(random_.below(3));
     const double value = some_number();
     for (auto& place : end) place[k] = value;
   }
@@ -116,17 +111,14 @@ class Escape {
 
   // All cheap ways down from a case that fails alike.
   bool descend(const Case& c) {
-    const auto n = vertices(c);
+    const auto n = vertex_count(c);
     constexpr std::size_t few = 12;
     if (n > 4) {
       for (std::size_t i = 0; i < std::min(n * (n - 1), few * (few - 1)); ++i) {
         std::size_t u = i / (n - 1), v = i % (n - 1);
-        if (n > few)
-          u = static_cast<std::size_t>(index_below(n)),
-          v = static_cast<std::size_t>(index_below(n - 1));
+        if (n > few) u = at(index_below(n)), v = at(index_below(n - 1));
         if (v >= u) ++v;
-        std::vector<std::int32_t> targets(n);
-        std::iota(targets.begin(), targets.end(), 0);
+        Numbers targets = in_order(n);
         targets[u] = static_cast<std::int32_t>(v);
         if (offer_seen_anew(merge_vertices(c, targets))) return true;
       }
@@ -150,7 +142,7 @@ class Escape {
 
   // All spheres over all vertices but one.
   bool spheres_without_one(const Case& c) {
-    const auto n = static_cast<std::int32_t>(vertices(c));
+    const auto n = static_cast<std::int32_t>(vertex_count(c));
     for (std::int32_t left_out = 0; n > 4 && left_out < n; ++left_out) {
       for (const SphereMesh& sphere : sphere_meshes(n - 1)) {
         if (sphere.size() >= search_.size().triangles) break;
@@ -180,11 +172,10 @@ class Escape {
   }
 
   bool merge_and_change() {
-    const auto n = vertices(search_.best());
+    const auto n = vertex_count(search_.best());
     for (int tries = 0; tries < 40 && n > 4; ++tries) {
-      std::vector<std::int32_t> targets(n);
-      std::iota(targets.begin(), targets.end(), 0);
-      const auto u = static_cast<std::size_t>(index_below(n));
+      Numbers targets = in_order(n);
+      const auto u = at(index_below(n));
       const auto v = index_below(n);
       targets[u] = v;
       Case merged = merge_vertices(search_.best(), targets);
@@ -198,11 +189,11 @@ class Escape {
   // Fewer vertices than now, at random places: in reach where a small mesh fails often.
   bool change_small_sphere() {
     const Case& best = search_.best();
-    const int most = static_cast<int>(std::min<std::size_t>(vertices(best), 7)) - 1;
+    const int most = static_cast<int>(std::min<std::size_t>(vertex_count(best), 7)) - 1;
     if (most < 4) return false;
     for (int tries = 0; tries < 40; ++tries) {
       const auto& spheres = sphere_meshes(random_.between(4, most));
-      auto mesh = spheres[static_cast<std::size_t>(index_below(spheres.size()))];
+      auto mesh = spheres[at(index_below(spheres.size()))];
       if (mesh.size() >= search_.size().triangles) return false;
       if (random_.below(2) == 0) mesh = mirrored(mesh);
       Case c = with_triangles(best, mesh);

@@ -20,12 +20,11 @@ std::vector<std::int32_t> far_triangles_first(const ReductionSearch& search) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     order[t] = static_cast<std::int32_t>(t);
     for (const auto v : triangles[t]) {
-      distance[t] = std::max(distance[t], rings.distance[static_cast<std::size_t>(v)]);
+      distance[t] = std::max(distance[t], rings.distance[at(v)]);
     }
   }
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return distance[static_cast<std::size_t>(a)] > distance[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](auto a, auto b) { return distance[at(a)] > distance[at(b)]; });
   return order;
 }
 
@@ -43,7 +42,7 @@ void drop_components(ReductionSearch& search) {
     if (end - begin == all.size()) return false;
     std::vector<std::uint8_t> keep(static_cast<std::size_t>(search.best().triangles.rows()), 1);
     for (std::size_t i = begin; i < end; ++i) {
-      for (const auto t : all[i].triangles) keep[static_cast<std::size_t>(t)] = 0;
+      for (const auto t : all[i].triangles) keep[at(t)] = 0;
     }
     return search.offer(keep_triangles(search.best(), keep));
   });
@@ -54,17 +53,11 @@ void keep_rings(ReductionSearch& search) {
   const auto triangles = triangles_of(search.best());
   if (!search.finding().focus.empty()) {
     std::vector<std::uint8_t> keep(triangles.size(), 0);
-    for (const auto t : search.finding().focus) keep.at(static_cast<std::size_t>(t)) = 1;
+    for (const auto t : search.finding().focus) keep.at(at(t)) = 1;
     if (search.offer(keep_triangles(search.best(), keep))) return;
   }
   for (int ring = 0; ring < rings.farthest; ++ring) {
-    std::vector<std::uint8_t> keep(triangles.size(), 1);
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      for (const auto v : triangles[t]) {
-        if (rings.distance[static_cast<std::size_t>(v)] > ring) keep[t] = 0;
-      }
-    }
-    if (search.offer(keep_triangles(search.best(), keep))) return;
+    if (search.offer(within(search.best(), rings, ring))) return;
   }
 }
 
@@ -74,7 +67,7 @@ void drop_faces(ReductionSearch& search) {
     const auto order = far_triangles_first(search);
     if (end - begin == order.size()) return false;
     std::vector<std::uint8_t> keep(order.size(), 1);
-    for (std::size_t i = begin; i < end; ++i) keep[static_cast<std::size_t>(order[i])] = 0;
+    for (std::size_t i = begin; i < end; ++i) keep[at(order[i])] = 0;
     return search.offer(keep_triangles(search.best(), keep));
   });
 }

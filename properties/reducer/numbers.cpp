@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "properties/numbering.h"
 #include "properties/reducer/mesh_size.h"
 
 namespace assay::properties {
@@ -60,7 +61,7 @@ std::vector<double*> numbers_along(corpus::Case& c, int axis) {
   const auto append = [&](std::vector<detector::Point>& points) {
     for (auto& point : points) {
       for (int k = 0; k < 3; ++k) {
-        if (wanted(k)) numbers.push_back(&point[static_cast<std::size_t>(k)]);
+        if (wanted(k)) numbers.push_back(&point[at(k)]);
       }
     }
   };

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "oracle/loops.h"
+#include "properties/numbering.h"
 
 namespace assay::properties {
 
@@ -19,7 +20,7 @@ corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Tr
     }
     for (int i = 0; i < 3 && apex >= 0; ++i) {
       const auto v = old.triangles(g, i);
-      if (v < vertices) apex_at.emplace(target[static_cast<std::size_t>(v)], apex);
+      if (v < vertices) apex_at.emplace(target[at(v)], apex);
     }
   }
   const auto loops = oracle::boundary_loops(triangles);
@@ -31,14 +32,13 @@ corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Tr
         std::find_if(loop.begin(), loop.end(), [&](std::int32_t v) { return apex_at.contains(v); });
     for (std::size_t f = 0; f < before.frames.size(); ++f) {
       if (known != loop.end()) {
-        ghosts.apexes[f].push_back(old.apexes[f][static_cast<std::size_t>(apex_at.at(*known))]);
+        ghosts.apexes[f].push_back(old.apexes[f][at(apex_at.at(*known))]);
         continue;
       }
       detector::Point mean = {0, 0, 0};
       for (const auto v : loop) {
         for (int k = 0; k < 3; ++k) {
-          mean[static_cast<std::size_t>(k)] +=
-              before.frames[f](v, k) / static_cast<double>(loop.size());
+          mean[at(k)] += before.frames[f](v, k) / static_cast<double>(loop.size());
         }
       }
       ghosts.apexes[f].push_back(mean);

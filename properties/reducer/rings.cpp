@@ -1,21 +1,21 @@
 #include "properties/reducer/rings.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "properties/reducer/case_edits.h"
 
 namespace assay::properties {
 
 Rings rings_of(const ReductionSearch& search) {
   const auto& triangles = search.best().triangles;
-  const auto vertices = static_cast<std::size_t>(search.best().frames.front().rows());
+  const auto vertices = vertex_count(search.best());
   Rings rings;
   rings.distance.assign(vertices, Rings::unreached);
-  rings.parent.resize(vertices);
-  std::iota(rings.parent.begin(), rings.parent.end(), 0);
+  rings.parent = in_order(vertices);
   rings.neighbours.resize(vertices);
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      auto& row = rings.neighbours[static_cast<std::size_t>(triangles(t, i))];
+      auto& row = rings.neighbours[at(triangles(t, i))];
       row.push_back(triangles(t, (i + 1) % 3));
       row.push_back(triangles(t, (i + 2) % 3));
     }
@@ -31,29 +31,35 @@ Rings rings_of(const ReductionSearch& search) {
   if (focus.empty()) focus.push_back(0);
   for (const auto t : focus) {
     for (int i = 0; i < 3; ++i) {
-      auto& distance = rings.distance[static_cast<std::size_t>(triangles(t, i))];
+      auto& distance = rings.distance[at(triangles(t, i))];
       if (distance == Rings::unreached) queue.push_back(triangles(t, i));
       distance = 0;
     }
   }
   for (std::size_t head = 0; head < queue.size(); ++head) {
-    const auto v = static_cast<std::size_t>(queue[head]);
+    const auto v = at(queue[head]);
     rings.farthest = rings.distance[v];
     for (const auto w : rings.neighbours[v]) {
-      auto& distance = rings.distance[static_cast<std::size_t>(w)];
+      auto& distance = rings.distance[at(w)];
       if (distance != Rings::unreached) continue;
       distance = rings.distance[v] + 1;
-      rings.parent[static_cast<std::size_t>(w)] = queue[head];
+      rings.parent[at(w)] = queue[head];
       queue.push_back(w);
     }
   }
-  rings.far_first.resize(vertices);
-  std::iota(rings.far_first.begin(), rings.far_first.end(), 0);
-  std::stable_sort(rings.far_first.begin(), rings.far_first.end(), [&](auto a, auto b) {
-    return rings.distance[static_cast<std::size_t>(a)] >
-           rings.distance[static_cast<std::size_t>(b)];
-  });
+  rings.far_first = in_order(vertices);
+  std::stable_sort(rings.far_first.begin(), rings.far_first.end(),
+                   [&](auto a, auto b) { return rings.distance[at(a)] > rings.distance[at(b)]; });
   return rings;
+}
+
+corpus::Case within(const corpus::Case& c, const Rings& rings, int ring) {
+  std::vector<std::uint8_t> keep;
+  for (const auto& corners : triangles_of(c)) {
+    keep.push_back(std::all_of(corners.begin(), corners.end(),
+                               [&](std::int32_t v) { return rings.distance[at(v)] <= ring; }));
+  }
+  return keep_triangles(c, keep);
 }
 
 }  // namespace assay::properties

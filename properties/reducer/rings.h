@@ -24,6 +24,9 @@ struct Rings {
 // n).
 Rings rings_of(const ReductionSearch& search);
 
+// The triangles with all vertices at a distance of `ring` or less.
+corpus::Case within(const corpus::Case& c, const Rings& rings, int ring);
+
 // Offers to drop or change ranges [begin, end) of a list, halves first: `try_range` is called with
 // ever smaller ranges and tells whether it succeeded, after which the list (`size`) has become
 // shorter and the same place is tried again. No range is tried a second time after a success

@@ -51,8 +51,7 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
   std::vector<std::int32_t> pool(rings.far_first.rbegin(), rings.far_first.rend());  // near first
   if (pool.size() > largest_pool) pool.resize(largest_pool);
   if (of_pair_only) {
-    std::erase_if(pool,
-                  [&](std::int32_t v) { return rings.distance[static_cast<std::size_t>(v)] > 0; });
+    std::erase_if(pool, [&](std::int32_t v) { return rings.distance[at(v)] > 0; });
   }
 
   for (std::size_t n = 4; n <= std::min<std::size_t>(7, pool.size()); ++n) {
@@ -60,7 +59,7 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
     const bool smaller = any_subset(pool.size(), n, [&](const std::vector<std::size_t>& chosen) {
       std::vector<std::int32_t> place(static_cast<std::size_t>(start.frames.front().rows()), -1);
       for (std::size_t i = 0; i < n; ++i) {
-        place[static_cast<std::size_t>(pool[chosen[i]])] = static_cast<std::int32_t>(i);
+        place[at(pool[chosen[i]])] = static_cast<std::int32_t>(i);
       }
       std::vector<Corners> wanted;
       if (n >= many) {
@@ -68,8 +67,7 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
         for (const auto t : search.finding().focus) {
           Corners corners;
           for (int i = 0; i < 3; ++i) {
-            corners[static_cast<std::size_t>(i)] =
-                place[static_cast<std::size_t>(start.triangles(t, i))];
+            corners[at(i)] = place[at(start.triangles(t, i))];
           }
           if (sorted(corners)[0] < 0) return false;
           wanted.push_back(corners);
@@ -80,7 +78,7 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
         for (SphereMesh mesh : {sphere, mirrored(sphere)}) {
           if (search.ended()) return true;
           for (Corners& corners : mesh) {
-            for (auto& v : corners) v = pool[chosen[static_cast<std::size_t>(v)]];
+            for (auto& v : corners) v = pool[chosen[at(v)]];
           }
           const corpus::Case small = with_triangles(start, mesh);
           if (search.offer(small)) return true;

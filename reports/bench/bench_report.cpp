@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "properties/words.h"
 #include "reports/bench/error_output.h"
 #include "reports/bench/stability_output.h"
 #include "reports/commands.h"
@@ -33,17 +34,7 @@ void BenchReport::add_no_data(std::string what, const std::string& missing) {
 }
 
 const char* name_of(RowOutcome outcome) {
-  switch (outcome) {
-    case RowOutcome::holds:
-      return "holds";
-    case RowOutcome::fails:
-      return "fails";
-    case RowOutcome::no_data:
-      return "no data";
-    case RowOutcome::not_judged:
-      break;
-  }
-  return "-";
+  return properties::word_of({"holds", "fails", "-", "no data"}, outcome);
 }
 
 std::string text_of(const Wanted& wanted) {
@@ -91,11 +82,7 @@ Json to_json(const BenchReport& report) {
   Json rows = Json::array(), scatter = Json::array();
   for (const auto& row : report.rows) {
     Json measured, wanted;
-    if (row.measured) {
-      measured = {{"median", row.measured->value},
-                  {"interval", {row.measured->lo, row.measured->hi}},
-                  {"samples", row.measured->samples}};
-    }
+    if (row.measured) measured = to_json(*row.measured);
     if (row.wanted) wanted = text_of(*row.wanted);
     rows.push_back({{"what", row.what},
                     {"unit", row.unit},

@@ -21,6 +21,9 @@ struct Wanted {
 inline Wanted at_most(double bound) { return {Wanted::Sense::at_most, bound}; }
 inline Wanted at_least(double bound) { return {Wanted::Sense::at_least, bound}; }
 inline Wanted below(double bound) { return {Wanted::Sense::below, bound}; }
+inline std::optional<Wanted> wanted_if(bool condition, Wanted wanted) {
+  return condition ? std::optional(wanted) : std::nullopt;
+}
 
 enum class RowOutcome : unsigned char { holds, fails, not_judged, no_data };
 
@@ -53,6 +56,9 @@ struct GrowthPoint {
 };
 
 struct BenchReport {
+  BenchReport() = default;
+  explicit BenchReport(std::string name) : suite(std::move(name)) {}
+
   std::string suite;
   std::vector<BenchRow> rows;
   // One line each. Times are noisy, answers are not: any of these fails the run.

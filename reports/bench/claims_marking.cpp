@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "properties/case_options.h"
 #include "reports/bench/claims_parts.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/timed_step.h"
@@ -74,9 +75,8 @@ void count_traversals_of_free_steps(const BenchSettings& settings, BenchReport& 
       const auto& s = result.counts.search;
       looks += static_cast<double>(s.box_tests + s.child_counts + s.candidate_pairs);
     }
-    report.add(fmt::format("looks at the tree in free steps, view-{}",
-                           culling == Culling::view_line ? "line" : "point"),
-               "", exactly(looks), at_most(0),
+    report.add(fmt::format("looks at the tree in free steps, {}", properties::name_of(culling)), "",
+               exactly(looks), at_most(0),
                fmt::format("{} of {} steps free by L5", free, scene.frames.size() - 1));
   }
 }

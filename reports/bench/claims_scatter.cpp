@@ -85,7 +85,7 @@ void add_worst(const std::string& culling, const std::string& over,
   for (const auto& p : points) slower += p.ratio > 1.05;
   const bool promised = culling == "view-auto" && over == "bvh";
   report.add(fmt::format("largest time over {}'s, {}", over, culling), "times",
-             exactly(worst->ratio), promised ? std::optional(at_most(1.05)) : std::nullopt,
+             exactly(worst->ratio), wanted_if(promised, at_most(1.05)),
              fmt::format("{} of {} steps are slower than 1.05; worst in {} at V+ {:.1f} %", slower,
                          points.size(), worst->scene, 100 * worst->share));
 }
@@ -104,7 +104,7 @@ void add_medians(const std::string& culling, const std::string& over,
     report.add(
         fmt::format("{} over {}, steps of {}", culling, over, p->scene), "times",
         steps == 1 ? Estimate{p->ratio, p->lo, p->hi, ratios} : bootstrap_median(std::move(ratios)),
-        promised ? std::optional(at_most(1.05)) : std::nullopt,
+        wanted_if(promised, at_most(1.05)),
         steps == 1 ? "1 step, over its rounds" : fmt::format("{} steps; bootstrap", steps));
     p = end;
   }

@@ -25,9 +25,7 @@ void compare(const NamedStep& named, bool is_rod_twist, int rounds, BenchReport&
       interleave(rounds, {[&] { return bvh.time(); }, [&] { return point.time(); },
                           [&] { return line.time(); }, [&] { return chosen.time(); },
                           [&] { return in_doubles.time(); }});
-  const auto only_rods = [&](Wanted wanted) {
-    return is_rod_twist ? std::optional(wanted) : std::nullopt;
-  };
+  const auto only_rods = [&](Wanted wanted) { return wanted_if(is_rod_twist, wanted); };
   report.add(fmt::format("whole step, {}, bvh", name), "s", scaled(median_of(samples[0]), 1e-9), {},
              fmt::format("{} pairs", bvh.result().pairs.size()));
   const auto with_views = [&](TimedStep& views, const std::vector<double>& times,

@@ -1,46 +1,22 @@
 // Suite `claims`: what the thesis says of costs, and DESIGN's rows on whole steps.
-#include <filesystem>
-
-#include "corpus/scenes.h"
 #include "reports/bench/claims_parts.h"
 #include "reports/bench/contact_step.h"
 #include "reports/bench/real_sequences.h"
 
 namespace assay::reports {
-namespace {
-
-bool exists(const std::string& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored);
-}
-
-// The bunny as it is bent into a ring: the first of six steps.
-std::optional<NamedStep> bent_bunny(const BenchSettings& settings) {
-  const std::string file = settings.file("ipc-toolkit/bunny.ply");
-  if (!exists(file)) return std::nullopt;
-  auto mesh = corpus::read_mesh(file);
-  if (!mesh) throw UnusableData(mesh.error().message);
-  auto scene = corpus::make_scene("bend", {0, 6, std::move(mesh.value())});
-  if (!scene) throw UnusableData(scene.error().message);
-  scene.value().frames.resize(2);
-  return NamedStep{"bunny", std::move(scene.value())};
-}
-
-}  // namespace
-
 BenchReport claims_suite(const BenchSettings& settings, Progress& progress) {
-  BenchReport report;
-  report.suite = "claims";
+  BenchReport report("claims");
   progress.phase("steps");
   std::vector<NamedStep> steps;
   for (const std::string scene : {"dented-sphere", "crumpling-sphere", "bend"}) {
     auto step = step_at_first_contact(scene, settings.triangles(20'000));
     if (step) steps.push_back({scene, std::move(*step)});
   }
-  if (auto step = bent_bunny(settings)) {
-    steps.push_back(std::move(*step));
+  if (auto bunny = bent_bunny(settings)) {
+    bunny->frames.resize(2);
+    steps.push_back({"bunny", std::move(*bunny)});
   } else {
-    report.add_no_data("bunny", settings.file("ipc-toolkit/bunny.ply"));
+    report.add_no_data("bunny", bunny_file(settings));
   }
   auto rods = rod_twist_step(settings);
   const bool has_rod_twist = rods.has_value();

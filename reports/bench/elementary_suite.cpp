@@ -6,22 +6,16 @@
 #include <filesystem>
 
 #include "detector/contact/elementary_test.h"
+#include "properties/case_options.h"
 #include "reports/bench/interleave.h"
+#include "reports/bench/judged_step.h"
 #include "reports/bench/query_sets.h"
 
 namespace assay::reports {
 namespace {
 
 using namespace detector;
-
-struct Method {
-  Arithmetic arithmetic;
-  const char* name;
-};
-constexpr Method methods[] = {{Arithmetic::exact, "exact"},
-                              {Arithmetic::bounded, "bounded"},
-                              {Arithmetic::double_precision, "double"},
-                              {Arithmetic::single_precision, "float"}};
+using properties::name_of;
 
 std::string rungs_of(const std::vector<FourPoints>& queries) {
   ContactRungCounts rungs;
@@ -34,8 +28,8 @@ std::string rungs_of(const std::vector<FourPoints>& queries) {
 void time_means(const std::string& what, const std::vector<FourPoints>& queries, Want want,
                 double bound, int rounds, const std::string& note, BenchReport& report) {
   std::vector<Measurement> measurements;
-  for (const Method& method : methods) {
-    measurements.push_back([&queries, want, arithmetic = method.arithmetic] {
+  for (const auto arithmetic : every_arithmetic) {
+    measurements.push_back([&queries, want, arithmetic] {
       return ns_of([&] {
         for (const auto& q : queries) keep(test_contact(q, want, arithmetic));
       });
@@ -43,17 +37,16 @@ void time_means(const std::string& what, const std::vector<FourPoints>& queries,
   }
   const auto samples = interleave(rounds, measurements);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const bool exact = methods[i].arithmetic == Arithmetic::exact;
-    report.add(fmt::format("{}, {}", what, methods[i].name), "us",
+    const bool exact = every_arithmetic[i] == Arithmetic::exact;
+    report.add(fmt::format("{}, {}", what, name_of(every_arithmetic[i])), "us",
                scaled(median_of(samples[i]), 1e-3 / static_cast<double>(queries.size())),
-               exact ? std::optional(at_most(bound)) : std::nullopt,
-               exact ? note + "; " + rungs_of(queries) : "");
+               wanted_if(exact, at_most(bound)), exact ? note + "; " + rungs_of(queries) : "");
   }
 }
 
 // Answers against labels. Exact arithmetic claims no wrong answer, bounded no miss.
 void score(const std::string& what, const LabelledSet& set, BenchReport& report) {
-  for (const auto& [arithmetic, name] : methods) {
+  for (const auto arithmetic : every_arithmetic) {
     std::size_t alarms = 0, misses = 0;
     for (std::size_t i = 0; i < set.queries.size(); ++i) {
       const bool contact = test_contact(set.queries[i], Want::yes_no, arithmetic).contact;
@@ -61,14 +54,14 @@ void score(const std::string& what, const LabelledSet& set, BenchReport& report)
       misses += !contact && set.truths[i];
     }
     const bool exact = arithmetic == Arithmetic::exact, bounded = arithmetic == Arithmetic::bounded;
-    report.add(fmt::format("wrong answers, {}, {}", what, name), "",
-               exactly(static_cast<double>(alarms + misses)),
-               exact ? std::optional(at_most(0)) : std::nullopt,
+    report.add(fmt::format("wrong answers, {}, {}", what, name_of(arithmetic)), "",
+               exactly(static_cast<double>(alarms + misses)), wanted_if(exact, at_most(0)),
                fmt::format("{} false alarms, {} misses of {} queries", alarms, misses,
                            set.queries.size()));
     if ((exact && alarms > 0) || ((exact || bounded) && misses > 0)) {
-      report.wrong_answers.push_back(fmt::format(
-          "{} against the labels of {}: {} false alarms, {} misses", name, what, alarms, misses));
+      report.wrong_answers.push_back(
+          fmt::format("{} against the labels of {}: {} false alarms, {} misses",
+                      name_of(arithmetic), what, alarms, misses));
     }
   }
 }
@@ -114,7 +107,7 @@ double ms_of_one(const FourPoints& query, Arithmetic arithmetic) {
 
 void time_tails(const std::string& what, const std::vector<FourPoints>& queries, double bound_ms,
                 BenchReport& report) {
-  for (const auto& [arithmetic, name] : methods) {
+  for (const auto arithmetic : every_arithmetic) {
     std::vector<double> ms;
     double sum = 0;
     for (const auto& q : queries) {
@@ -123,8 +116,8 @@ void time_tails(const std::string& what, const std::vector<FourPoints>& queries,
     }
     const bool exact = arithmetic == Arithmetic::exact;
     report.add(
-        fmt::format("p99.9 of one query, {}, {}", what, name), "ms", exactly(quantile(ms, 0.999)),
-        exact ? std::optional(below(bound_ms)) : std::nullopt,
+        fmt::format("p99.9 of one query, {}, {}", what, name_of(arithmetic)), "ms",
+        exactly(quantile(ms, 0.999)), wanted_if(exact, below(bound_ms)),
         fmt::format("p99 {:.3g}, max {:.3g}, mean {:.3g} of {} queries{}", quantile(ms, 0.99),
                     quantile(ms, 1), sum / static_cast<double>(ms.size()), ms.size(),
                     exact ? "; " + rungs_of(queries) : ""));
@@ -169,8 +162,7 @@ void rod_twist_candidates(const BenchSettings& settings, int rounds, BenchReport
 }  // namespace
 
 BenchReport elementary_suite(const BenchSettings& settings, Progress& progress) {
-  BenchReport report;
-  report.suite = "elementary";
+  BenchReport report("elementary");
   const int rounds = settings.rounds(15);
   progress.phase("candidates of a mesh");
   rod_twist_candidates(settings, rounds, report);

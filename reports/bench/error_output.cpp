@@ -5,17 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/case_check.h"
+#include "reports/joined.h"
 
 namespace assay::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(const Estimate& estimate) {
-  return {{"median", estimate.value},
-          {"interval", {estimate.lo, estimate.hi}},
-          {"samples", estimate.samples}};
-}
 
 Json to_json(const TimeErrors& errors) {
   return {{"steps", errors.steps},
@@ -42,13 +37,7 @@ Json to_json(const ErrorCounts& counts) {
 Json head_of(const Variant& variant) {
   return {{"arithmetic", properties::name_of(variant.arithmetic)},
           {"culling", properties::name_of(variant.culling)},
-          {"pairs", name_of(variant.pairs)}};
-}
-
-std::string samples_text(const std::vector<double>& samples) {
-  std::string text;
-  for (const double sample : samples) text += fmt::format("{}{}", text.empty() ? "" : " ", sample);
-  return text;
+          {"pairs", properties::name_of(variant.pairs)}};
 }
 
 std::string time_text(const TimeErrors& errors) {
@@ -64,6 +53,12 @@ Json to_json(const ShareOfSteps& share) {
 }
 
 }  // namespace
+
+Json to_json(const Estimate& estimate) {
+  return {{"median", estimate.value},
+          {"interval", {estimate.lo, estimate.hi}},
+          {"samples", estimate.samples}};
+}
 
 std::string families_text(std::span<const FamilySummary> families) {
   std::vector<std::pair<std::string, int>> kinds;
@@ -94,7 +89,7 @@ std::string text_of(std::span<const VariantSummary> variants) {
     const auto& e = v.errors;
     text +=
         fmt::format(fmt::runtime(line), properties::name_of(v.variant.arithmetic),
-                    properties::name_of(v.variant.culling), name_of(v.variant.pairs),
+                    properties::name_of(v.variant.culling), properties::name_of(v.variant.pairs),
                     fmt::format("{:.2f} [{:.2f}, {:.2f}]", v.over_reference.value,
                                 v.over_reference.lo, v.over_reference.hi),
                     steps(e.unsafe, v.unsafe), steps(e.alarming, v.alarming), e.missed,
@@ -140,14 +135,15 @@ std::string csv_of(std::span<const JudgedStep> steps) {
       "elementary_tests,judged,contact,missed,false_alarm,missing,spurious,late_ulps,early_ulps,"
       "late_share,early_share,ns\n";
   for (const auto& s : steps) {
-    text += fmt::format("{},{},{},{},{},{},{},{},", s.family, s.kind, s.case_id, s.step + 1,
-                        s.triangles, properties::name_of(s.variant.arithmetic),
-                        properties::name_of(s.variant.culling), name_of(s.variant.pairs));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},", s.family, s.kind, s.case_id, s.step + 1,
+                    s.triangles, properties::name_of(s.variant.arithmetic),
+                    properties::name_of(s.variant.culling), properties::name_of(s.variant.pairs));
     text += fmt::format("{:016x},{},{},{},", s.hash, s.box_tests, s.candidates, s.elementary_tests);
     text += fmt::format("{:d},{:d},{:d},{:d},{},{},", s.judged, s.contact, s.missed, s.false_alarm,
                         s.missing, s.spurious);
     text += fmt::format("{},{},{},{},{}\n", s.first.late_ulps, s.first.early_ulps,
-                        s.first.late_share, s.first.early_share, samples_text(s.ns));
+                        s.first.late_share, s.first.early_share, joined(s.ns, " "));
   }
   return text;
 }

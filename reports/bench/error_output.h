@@ -17,6 +17,7 @@ std::string families_text(std::span<const FamilySummary> families);
 // median, largest in ulps (largest as a share of the step).
 std::string text_of(std::span<const VariantSummary> variants);
 
+nlohmann::ordered_json to_json(const Estimate& estimate);
 nlohmann::ordered_json to_json(std::span<const FamilySummary> families);
 nlohmann::ordered_json to_json(std::span<const VariantSummary> variants);
 

@@ -118,8 +118,7 @@ void measure(int wanted_triangles, const BenchSettings& settings, Growths& growt
 }  // namespace
 
 BenchReport growth_suite(const BenchSettings& settings, Progress& progress) {
-  BenchReport report;
-  report.suite = "growth";
+  BenchReport report("growth");
   Growths growths;
   int last = 0;
   for (const int size : full_sizes) {

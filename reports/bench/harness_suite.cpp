@@ -120,8 +120,7 @@ void judge_family(const properties::Family& family, const BenchSettings& setting
 }  // namespace
 
 BenchReport harness_suite(const BenchSettings& settings, Progress& progress) {
-  BenchReport report;
-  report.suite = "harness";
+  BenchReport report("harness");
   progress.phase("oracle, rod-twist");
   if (const auto step = rod_twist_step(settings)) {
     judge_rod_twist(*step, settings, report);

@@ -7,14 +7,12 @@
 
 namespace assay::reports {
 
-using detector::Arithmetic;
 using detector::Culling;
 using detector::Pairs;
 
 std::vector<Variant> all_variants(bool with_none) {
   std::vector<Variant> variants = {reference_variant};
-  for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded,
-                                Arithmetic::double_precision, Arithmetic::single_precision}) {
+  for (const auto arithmetic : every_arithmetic) {
     for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
                                Culling::normal_cone, Culling::bvh, Culling::none}) {
       if (culling == Culling::none && !with_none) continue;
@@ -27,11 +25,9 @@ std::vector<Variant> all_variants(bool with_none) {
   return variants;
 }
 
-const char* name_of(Pairs pairs) { return pairs == Pairs::all ? "all" : "first"; }
-
 std::string name_of(const Variant& variant) {
   return std::string(properties::name_of(variant.arithmetic)) + " " +
-         properties::name_of(variant.culling) + " " + name_of(variant.pairs);
+         properties::name_of(variant.culling) + " " + properties::name_of(variant.pairs);
 }
 
 namespace {

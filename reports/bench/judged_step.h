@@ -9,6 +9,10 @@
 
 namespace assay::reports {
 
+inline constexpr detector::Arithmetic every_arithmetic[] = {
+    detector::Arithmetic::exact, detector::Arithmetic::bounded,
+    detector::Arithmetic::double_precision, detector::Arithmetic::single_precision};
+
 // An assembly that a user may choose by options.
 struct Variant {
   detector::Arithmetic arithmetic = detector::Arithmetic::exact;
@@ -24,7 +28,6 @@ inline constexpr Variant reference_variant{};
 // reference is the first.
 std::vector<Variant> all_variants(bool with_none);
 
-const char* name_of(detector::Pairs pairs);
 // "exact view-auto all"
 std::string name_of(const Variant& variant);
 

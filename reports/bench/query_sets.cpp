@@ -7,14 +7,13 @@
 #include "corpus/query_csv.h"
 #include "detector/search/feature_key.h"
 #include "detector/search/pair_search.h"
-#include "properties/random.h"
+#include "properties/numbering.h"
 
 namespace assay::reports {
 namespace {
 
 using namespace detector;
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+using properties::at;
 
 // The feature pairs of two triangles, as keys.
 class Enumeration {

@@ -58,18 +58,27 @@ std::vector<RealSequence> real_sequences(const BenchSettings& settings,
     }
     list.push_back({name, read(files), starts_clean});
   }
-  const std::string bunny = settings.file("ipc-toolkit/bunny.ply");
-  if (!first_missing({bunny}).empty()) {
-    missing.push_back(bunny);
-    return list;
+  if (auto bent = bent_bunny(settings)) {
+    list.push_back({"bunny-bent", std::move(*bent), true});
+  } else {
+    missing.push_back(bunny_file(settings));
   }
-  auto mesh = corpus::read_mesh(bunny);
+  return list;
+}
+
+std::string bunny_file(const BenchSettings& settings) {
+  return settings.file("ipc-toolkit/bunny.ply");
+}
+
+std::optional<corpus::Sequence> bent_bunny(const BenchSettings& settings) {
+  const std::string file = bunny_file(settings);
+  if (!first_missing({file}).empty()) return std::nullopt;
+  auto mesh = corpus::read_mesh(file);
   if (!mesh) throw UnusableData(mesh.error().message);
   constexpr int frames = 6;
   auto bent = corpus::make_scene("bend", {0, frames, std::move(mesh.value())});
   if (!bent) throw UnusableData(bent.error().message);
-  list.push_back({"bunny-bent", std::move(bent.value()), true});
-  return list;
+  return std::move(bent.value());
 }
 
 std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings) {

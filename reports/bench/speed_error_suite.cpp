@@ -7,6 +7,7 @@
 #include "properties/case_check.h"
 #include "reports/bench/error_output.h"
 #include "reports/bench/error_runs.h"
+#include "reports/joined.h"
 
 namespace assay::reports {
 namespace {
@@ -19,8 +20,7 @@ std::size_t time_errors(const ErrorCounts& errors) {
 
 // What each arithmetic gets wrong, whatever the culling and the pairs asked for.
 void add_errors(std::span<const VariantSummary> variants, BenchReport& report) {
-  for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded,
-                                Arithmetic::double_precision, Arithmetic::single_precision}) {
+  for (const auto arithmetic : every_arithmetic) {
     std::size_t judged = 0, answers = 0, missing = 0, spurious = 0, times = 0, missed = 0, late = 0;
     for (const auto& [variant, over_reference, errors, unsafe, alarming] : variants) {
       if (variant.arithmetic != arithmetic) continue;
@@ -36,8 +36,8 @@ void add_errors(std::span<const VariantSummary> variants, BenchReport& report) {
                proved = exact || arithmetic == Arithmetic::bounded;
     const auto add = [&](const char* what, std::size_t count, bool claimed, std::string note) {
       report.add(fmt::format("{}, {}", what, properties::name_of(arithmetic)), "",
-                 exactly(static_cast<double>(count)),
-                 claimed ? std::optional(at_most(0)) : std::nullopt, std::move(note));
+                 exactly(static_cast<double>(count)), wanted_if(claimed, at_most(0)),
+                 std::move(note));
     };
     const std::string of = fmt::format("of {} steps, all cullings, all pairs and first", judged);
     add("wrong answers", answers, exact, of);
@@ -47,12 +47,6 @@ void add_errors(std::span<const VariantSummary> variants, BenchReport& report) {
     add("first times late", late, proved, "steps");
     add("first times late or early", times, exact, "steps");
   }
-}
-
-std::string list_of(const std::set<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 // Families in which an arithmetic has no wrong answer, no wrong pair and no late time.
@@ -72,7 +66,7 @@ void add_families_without_error(std::span<const FamilySummary> families, BenchRe
                         std::inserter(right, right.end()));
     report.add(fmt::format("families never wrong, {}", properties::name_of(arithmetic)), "",
                exactly(static_cast<double>(right.size())), {},
-               fmt::format("of {}: {}", all.size(), list_of(right)));
+               fmt::format("of {}: {}", all.size(), joined(right, ", ")));
   }
 }
 
@@ -85,9 +79,7 @@ void add_ratios(std::span<const FamilySummary> families, BenchReport& report) {
     const std::string& name = family.family;
     // A tiny mesh is no place to judge times: a step is over in some microseconds.
     const bool large = family.kind == "scene" || family.kind == "real";
-    const auto wanted = [&](double bound) {
-      return large ? std::optional(at_most(bound)) : std::nullopt;
-    };
+    const auto wanted = [&](double bound) { return wanted_if(large, at_most(bound)); };
     const std::string note = fmt::format("{:.0f} ns a triangle", family.ns_a_triangle.value);
     report.add("view-auto over bvh, " + name, "times", family.over_reference, wanted(1.05), note);
     report.add("view-auto over normal-cone, " + name, "times",
@@ -100,8 +92,7 @@ void add_ratios(std::span<const FamilySummary> families, BenchReport& report) {
 }  // namespace
 
 BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress) {
-  BenchReport report;
-  report.suite = "speed-error";
+  BenchReport report("speed-error");
   std::vector<std::string> missing;
   std::vector<JudgedStep> steps;
   for (const auto& family : error_families(settings, missing)) {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
-#include "properties/random.h"
+#include "properties/numbering.h"
 
 namespace assay::reports {
 namespace {
@@ -13,26 +12,21 @@ namespace {
 using properties::Random;
 using MoveCoordinate = std::function<double(double x, std::size_t axis)>;
 
-std::vector<std::int32_t> in_order(Eigen::Index n) {
-  std::vector<std::int32_t> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), 0);
-  return order;
+properties::Numbers numbers_of(Eigen::Index rows) {
+  return properties::in_order(static_cast<std::size_t>(rows));
 }
 
-std::vector<std::int32_t> shuffled(Random& random, Eigen::Index n) {
-  auto order = in_order(n);
-  for (std::size_t i = order.size(); i > 1; --i) {
-    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
-  }
+properties::Numbers reordered(Random& random, Eigen::Index rows) {
+  auto order = properties::shuffled(random, numbers_of(rows));
   // The order of few may have stayed.
-  if (order == in_order(n)) std::reverse(order.begin(), order.end());
+  if (order == numbers_of(rows)) std::reverse(order.begin(), order.end());
   return order;
 }
 
 std::optional<ChangedCase> permuted(const corpus::Case& c) {
   Random random(c.id);
-  const auto vertex = shuffled(random, c.frames[0].rows());
-  ChangedCase out{c, shuffled(random, c.triangles.rows())};
+  const auto vertex = reordered(random, c.frames[0].rows());
+  ChangedCase out{c, reordered(random, c.triangles.rows())};
   for (std::size_t f = 0; f < c.frames.size(); ++f) {
     for (Eigen::Index v = 0; v < c.frames[f].rows(); ++v) {
       out.changed.frames[f].row(vertex[static_cast<std::size_t>(v)]) = c.frames[f].row(v);
@@ -51,7 +45,7 @@ std::optional<ChangedCase> permuted(const corpus::Case& c) {
 // Every vertex and end of the view primitive, in every frame; nothing where `move` is not exact.
 std::optional<ChangedCase> moved(const corpus::Case& c, const MoveCoordinate& move,
                                  const MoveCoordinate& back) {
-  ChangedCase out{c, in_order(c.triangles.rows())};
+  ChangedCase out{c, numbers_of(c.triangles.rows())};
   bool exact = true;
   const auto change = [&](double& x, std::size_t axis) {
     const double there = move(x, axis);
@@ -137,14 +131,7 @@ bool same_but_for_numbering(const detector::StepResult& original,
   if (times && original.answer == detector::Answer::collision && original.first != changed.first) {
     return false;
   }
-  std::vector<detector::PairContact> mapped = original.pairs;
-  for (auto& [pair, time, feature] : mapped) {
-    const auto a = triangle[static_cast<std::size_t>(pair.a)];
-    const auto b = triangle[static_cast<std::size_t>(pair.b)];
-    pair = {std::min(a, b), std::max(a, b)};
-  }
-  std::sort(mapped.begin(), mapped.end(),
-            [](const auto& a, const auto& b) { return a.pair < b.pair; });
+  const auto mapped = properties::renumbered(original.pairs, triangle);
   return std::equal(mapped.begin(), mapped.end(), changed.pairs.begin(),
                     [&](const auto& a, const auto& b) {
                       return a.pair == b.pair && (!times || a.time == b.time);

@@ -7,6 +7,7 @@
 #include "oracle/view_sign.h"
 #include "properties/case_check.h"
 #include "properties/worker/case_player.h"
+#include "reports/bench/judged_step.h"
 
 namespace assay::reports {
 
@@ -16,9 +17,7 @@ using detector::ViewSign;
 
 std::vector<StabilitySubject> all_arithmetics() {
   std::vector<StabilitySubject> subjects;
-  for (const auto arithmetic :
-       {detector::Arithmetic::exact, detector::Arithmetic::bounded,
-        detector::Arithmetic::double_precision, detector::Arithmetic::single_precision}) {
+  for (const auto arithmetic : every_arithmetic) {
     subjects.push_back({properties::name_of(arithmetic), arithmetic});
   }
   return subjects;

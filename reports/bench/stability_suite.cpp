@@ -127,8 +127,7 @@ void add_survival_rows(std::span<const StabilitySubject> subjects, const Surviva
       const std::string what =
           fmt::format("answers that survive {}, {}", case_changes()[k].name, subjects[i].name);
       report.add(
-          what, "%", exactly(percent(same, changed)),
-          must ? std::optional(at_least(100)) : std::nullopt,
+          what, "%", exactly(percent(same, changed)), wanted_if(must, at_least(100)),
           fmt::format("{} of {} changed steps{}", same, changed, must ? ", times included" : ""));
       if (must && same < changed) report.wrong_answers.push_back(what + ": not all");
     }
@@ -197,8 +196,7 @@ StabilityPlan plan_for(const corpus::HardFamily& family, const BenchSettings& se
 BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          std::span<const StabilitySubject> subjects, const BenchSettings& settings,
                          Progress& progress) {
-  BenchReport report;
-  report.suite = "stability";
+  BenchReport report("stability");
   AllFamilies all(subjects);
   for (const auto& family : families) {
     progress.phase(std::string(family.name));

@@ -4,8 +4,7 @@
 namespace assay::reports {
 
 BenchReport view_suite(const BenchSettings& settings, Progress& progress) {
-  BenchReport report;
-  report.suite = "view";
+  BenchReport report("view");
   progress.phase("view test against swept boxes");
   time_view_test(settings, report);
   progress.phase("free steps");

@@ -5,6 +5,7 @@
 
 #include "corpus/scenes.h"
 #include "oracle/view_sign.h"
+#include "properties/case_options.h"
 #include "properties/random.h"
 #include "reports/bench/timed_step.h"
 #include "reports/bench/view_parts.h"
@@ -98,10 +99,9 @@ void settled_on_tubes(const BenchSettings& settings, BenchReport& report) {
         sum += step.settled_share();
         least = std::min(least, step.settled_share());
       }
-      const bool line = culling == Culling::view_line;
-      report.add(fmt::format("V+ or V- on scene {}, {}", name, line ? "view-line" : "view-point"),
-                 "%", exactly(100 * sum / static_cast<double>(steps.size())),
-                 line ? std::optional(at_least(95)) : std::nullopt,
+      report.add(fmt::format("V+ or V- on scene {}, {}", name, properties::name_of(culling)), "%",
+                 exactly(100 * sum / static_cast<double>(steps.size())),
+                 wanted_if(culling == Culling::view_line, at_least(95)),
                  fmt::format("mean of {} steps, least {:.1f} %", steps.size(), 100 * least));
     }
   }
@@ -121,9 +121,8 @@ void bunny(const BenchSettings& settings, BenchReport& report) {
   auto bent = corpus::make_scene("bend", {0, 6, std::move(mesh.value())});
   if (!bent) throw UnusableData(bent.error().message);
   for (const auto culling : {Culling::view_point, Culling::view_line}) {
-    const bool line = culling == Culling::view_line;
-    const char* name = line ? "view-line" : "view-point";
-    const auto wanted = at_least(line ? 94 : 89);
+    const char* name = properties::name_of(culling);
+    const auto wanted = at_least(culling == Culling::view_line ? 94 : 89);
     report.add(fmt::format("V+ of the bunny at rest, {}", name), "%",
                exactly(100 * shares_over(rest, culling)[0].positive_share()), wanted);
     std::vector<double> shares;
@@ -141,7 +140,7 @@ void bunny(const BenchSettings& settings, BenchReport& report) {
 void measure_tightness(const BenchSettings& settings, BenchReport& report) {
   for (const auto culling : {Culling::view_point, Culling::view_line}) {
     Beyond beyond;
-    const char* culling_name = culling == Culling::view_line ? "view-line" : "view-point";
+    const char* culling_name = properties::name_of(culling);
     for (const std::string name :
          {"breathing-sphere", "dented-sphere", "crumpling-sphere", "bend", "twist"}) {
       const auto scene = generic(bench_scene(name, settings.triangles(2'560), 11));

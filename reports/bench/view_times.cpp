@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
-#include <numeric>
-
-#include "properties/random.h"
+#include "properties/numbering.h"
+#include "properties/words.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/swept_boxes.h"
 #include "reports/bench/timed_step.h"
@@ -30,11 +29,8 @@ ViewStep view_step(const corpus::Sequence& sequence, std::size_t step, Culling c
 // The same mesh with its vertices in random order: each triangle then reads three places far apart.
 corpus::Sequence shuffled(const corpus::Sequence& in) {
   properties::Random random(20111, 0);
-  std::vector<std::int32_t> to(static_cast<std::size_t>(in.frames[0].rows()));
-  std::iota(to.begin(), to.end(), 0);
-  for (std::size_t i = to.size(); i > 1; --i) {
-    std::swap(to[i - 1], to[random.next() % i]);
-  }
+  const auto to = properties::shuffled(
+      random, properties::in_order(static_cast<std::size_t>(in.frames[0].rows())));
   corpus::Sequence out = in;
   for (auto& v : out.triangles.reshaped()) v = to[static_cast<std::size_t>(v)];
   for (std::size_t f = 0; f < in.frames.size(); ++f) {
@@ -46,9 +42,7 @@ corpus::Sequence shuffled(const corpus::Sequence& in) {
 }
 
 const char* name_of(InstructionSet set) {
-  return set == InstructionSet::baseline ? "baseline"
-         : set == InstructionSet::avx2   ? "avx2"
-                                         : "avx512";
+  return properties::word_of({"baseline", "avx2", "avx512"}, set);
 }
 
 // bound: asked of the instruction set that this machine chooses.
@@ -85,8 +79,7 @@ void compare(const std::string& what, const ViewStep& step, double bound, int ro
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const bool chosen = sets[i] == best_instruction_set();
     report.add(fmt::format("view test over boxes, {}, {}", what, name_of(sets[i])), "times",
-               ratio_of(samples[i + 1], samples[0]),
-               chosen ? std::optional(at_most(bound)) : std::nullopt,
+               ratio_of(samples[i + 1], samples[0]), wanted_if(chosen, at_most(bound)),
                fmt::format("{:.2f} ns a triangle{}", median_of(samples[i + 1]).value * a_triangle,
                            chosen ? "; chosen here" : ""));
     if (signs[i] != signs[0]) {
@@ -99,7 +92,7 @@ void compare(const std::string& what, const ViewStep& step, double bound, int ro
 void add_whole_step(const std::string& what, const std::vector<double>& samples,
                     const StepResult& result, bool full_size, BenchReport& report) {
   report.add("free step, " + what, "ms", scaled(median_of(samples), 1e-6),
-             full_size ? std::optional(at_most(10)) : std::nullopt,
+             wanted_if(full_size, at_most(10)),
              fmt::format("{} triangles, {}", result.signs.size(),
                          result.counts.free_components == 1 ? "free by L5" : "NOT free by L5"));
 }

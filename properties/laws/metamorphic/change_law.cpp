@@ -14,8 +14,6 @@ using detector::ViewSign;
 
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // Two layer classes of a component are of one size: which is the common one is then decided by the
 // order of triangles (L9), at this start or one that the state comes from.
 bool common_layer_is_tied(CaseFacts& facts, std::size_t s) {
@@ -35,19 +33,8 @@ bool common_layer_is_tied(CaseFacts& facts, std::size_t s) {
 
 ViewSign mirrored(ViewSign sign) { return static_cast<ViewSign>(-static_cast<int>(sign)); }
 
-std::vector<detector::PairContact> changed_pairs(const StepResult& result, const Change& change) {
-  auto pairs = result.pairs;
-  for (auto& contact : pairs) {
-    const auto a = change.triangle[at(contact.pair.a)], b = change.triangle[at(contact.pair.b)];
-    contact.pair = {std::min(a, b), std::max(a, b)};
-  }
-  std::sort(pairs.begin(), pairs.end(),
-            [](const auto& a, const auto& b) { return a.pair < b.pair; });
-  return pairs;
-}
-
 std::string compare_pairs(const StepResult& base, const StepResult& other, const Change& change) {
-  const auto pairs = changed_pairs(base, change);
+  const auto pairs = renumbered(base.pairs, change.triangle);
   const bool same =
       std::equal(pairs.begin(), pairs.end(), other.pairs.begin(), other.pairs.end(),
                  [](const auto& a, const auto& b) { return a.pair == b.pair && a.time == b.time; });

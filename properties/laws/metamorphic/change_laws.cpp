@@ -1,7 +1,6 @@
 // Changes of the mesh that leave its self-collisions as they are.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "properties/laws/law_groups.h"
 #include "properties/laws/metamorphic/change_law.h"
@@ -12,37 +11,29 @@ namespace assay::properties {
 namespace {
 
 using detector::Point;
-using Numbers = std::vector<std::int32_t>;
 
 Random random_of(const CaseFacts& facts, std::string_view law) {
   return {Random::hash(facts.source().id), Random::hash(law)};
 }
 
-Numbers in_order(Eigen::Index count) {
-  Numbers numbers(static_cast<std::size_t>(count));
-  std::iota(numbers.begin(), numbers.end(), 0);
-  return numbers;
+Numbers vertices_of(const PinnedRun& run) {
+  return in_order(static_cast<std::size_t>(run.frames.front().rows()));
 }
 
-Numbers backwards(Eigen::Index count) {
-  Numbers numbers = in_order(count);
+Numbers triangles_of(const PinnedRun& run) {
+  return in_order(static_cast<std::size_t>(run.triangles.rows()));
+}
+
+Numbers backwards(Numbers numbers) {
   std::reverse(numbers.begin(), numbers.end());
   return numbers;
 }
 
-Numbers shuffled(Random& random, Eigen::Index count) {
-  Numbers numbers = in_order(count);
-  for (std::size_t i = numbers.size(); i > 1; --i) {
-    std::swap(numbers[i - 1], numbers[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
-  }
-  return numbers;
-}
-
-Change unchanged(const PinnedRun& run) { return {run, in_order(run.triangles.rows()), false}; }
+Change unchanged(const PinnedRun& run) { return {run, triangles_of(run), false}; }
 
 // Vertex v becomes new_number[v].
 void renumber_vertices(PinnedRun& run, const Numbers& new_number) {
-  const auto of = [&](std::int32_t v) { return new_number[static_cast<std::size_t>(v)]; };
+  const auto of = [&](std::int32_t v) { return new_number[at(v)]; };
   run.triangles = run.triangles.unaryExpr(of).eval();
   for (auto& loop : run.loops) std::transform(loop.begin(), loop.end(), loop.begin(), of);
   for (auto& frame : run.frames) {
@@ -56,9 +47,9 @@ void renumber_vertices(PinnedRun& run, const Numbers& new_number) {
 void renumber_triangles(Change& change, const Numbers& new_number) {
   const detector::Triangles old = change.run.triangles;
   for (Eigen::Index t = 0; t < old.rows(); ++t) {
-    change.run.triangles.row(new_number[static_cast<std::size_t>(t)]) = old.row(t);
+    change.run.triangles.row(new_number[at(t)]) = old.row(t);
   }
-  for (auto& seat : change.run.seats) seat = new_number[static_cast<std::size_t>(seat)];
+  for (auto& seat : change.run.seats) seat = new_number[at(seat)];
   change.triangle = new_number;
 }
 
@@ -67,7 +58,7 @@ void turn_triangles_over(PinnedRun& run) { run.triangles.col(1).swap(run.triangl
 std::optional<Change> vertices_renumbered(const CaseFacts& facts, const PinnedRun& run) {
   Random random = random_of(facts, "vertices");
   Change change = unchanged(run);
-  renumber_vertices(change.run, shuffled(random, run.frames.front().rows()));
+  renumber_vertices(change.run, shuffled(random, vertices_of(run)));
   return change;
 }
 
@@ -78,7 +69,7 @@ std::optional<Change> triangles_reordered(const CaseFacts& facts, const PinnedRu
     const int turn = random.below(3);
     for (int i = 0; i < 3; ++i) change.run.triangles(t, i) = run.triangles(t, (i + turn) % 3);
   }
-  renumber_triangles(change, shuffled(random, run.triangles.rows()));
+  renumber_triangles(change, shuffled(random, triangles_of(run)));
   return change;
 }
 
@@ -124,7 +115,7 @@ std::optional<Change> translated(const CaseFacts& facts, const PinnedRun& run) {
 
 std::optional<Change> mirrored(const CaseFacts& facts, const PinnedRun& run) {
   Random random = random_of(facts, "mirror");
-  const auto axis = static_cast<std::size_t>(random.below(3));
+  const auto axis = at(random.below(3));
   Change change = unchanged(run);
   move_points(change.run, [&](Point p) {
     p[axis] = -p[axis];
@@ -189,8 +180,8 @@ std::span<const Law> change_laws() { return all; }
 std::optional<Change> holes_in_another_order(const CaseFacts&, const PinnedRun& run) {
   if (run.loops.size() < 2) return std::nullopt;
   Change change = unchanged(run);
-  renumber_vertices(change.run, backwards(run.frames.front().rows()));
-  renumber_triangles(change, backwards(run.triangles.rows()));
+  renumber_vertices(change.run, backwards(vertices_of(run)));
+  renumber_triangles(change, backwards(triangles_of(run)));
   return change;
 }
 

@@ -11,8 +11,6 @@
 namespace assay::properties {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // Vertices keep their numbers; those of other components are used by nothing.
 PinnedRun taken_out(const CaseFacts& facts, const PinnedRun& run, std::size_t component) {
   const auto& mesh = facts.surface().mesh;

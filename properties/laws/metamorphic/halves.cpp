@@ -66,8 +66,8 @@ Halved halved(const PinnedRun& whole) {
       continue;
     }
     const auto place = static_cast<std::int32_t>(run.frames.size());
-    run.frames.push_back(middle(whole.frames[static_cast<std::size_t>(step.from)],
-                                whole.frames[static_cast<std::size_t>(step.to)], halves.exact));
+    run.frames.push_back(
+        middle(whole.frames[at(step.from)], whole.frames[at(step.to)], halves.exact));
     run.script.push_back({step.from, place, true});
     run.script.push_back({place, step.to, true});
     for (int half = 0; half < 2; ++half) {

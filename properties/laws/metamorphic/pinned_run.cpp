@@ -124,16 +124,15 @@ std::optional<PinnedPlayer> PinnedPlayer::make(const PinnedRun& run,
   const auto& mesh = player.detector_->topology();
   player.seat_of_component_.resize(mesh.components.size());
   for (std::size_t c = 0; c < run.seats.size(); ++c) {
-    const auto component = mesh.component_of_triangle[static_cast<std::size_t>(run.seats[c])];
-    player.seat_of_component_[static_cast<std::size_t>(component)] = c;
+    const auto component = mesh.component_of_triangle[at(run.seats[c])];
+    player.seat_of_component_[at(component)] = c;
   }
   return player;
 }
 
 StepResult PinnedPlayer::evaluate(std::size_t step) {
   const auto& script = run_->script[step];
-  return evaluate(step, run_->frames[static_cast<std::size_t>(script.from)],
-                  run_->frames[static_cast<std::size_t>(script.to)]);
+  return evaluate(step, run_->frames[at(script.from)], run_->frames[at(script.to)]);
 }
 
 StepResult PinnedPlayer::evaluate(std::size_t step, const detector::PositionsView& x_t0,

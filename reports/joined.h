@@ -1,0 +1,17 @@
+// Things as one line of text, with something between them.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace assay::reports {
+
+template <class List>
+std::string joined(const List& list, const char* between) {
+  std::string text;
+  for (const auto& item : list) text += fmt::format("{}{}", text.empty() ? "" : between, item);
+  return text;
+}
+
+}  // namespace assay::reports
