@@ -5,12 +5,14 @@
 
 #include "properties/campaign/binding.h"
 #include "properties/campaign/findings.h"
+#include "properties/campaign/phases.h"
 #include "properties/campaign/power_proof.h"
 #include "properties/worker/worker_process.h"
 #include "reports/detector_choice.h"
 #include "reports/exit_code.h"
 #include "reports/failure_text.h"
 #include "reports/interruption.h"
+#include "reports/plain_progress.h"
 #include "reports/plugin_text.h"
 
 namespace assay::reports {
@@ -32,6 +34,112 @@ std::string rest_text(std::uint64_t done, std::uint64_t left, double seconds) {
   return rest < 2 * minute ? fmt::format("; about {:.0f} s left", rest)
                            : fmt::format("; about {:.0f} min left", rest / minute);
 }
+
+class CampaignTerminal : public properties::CampaignObserver {
+ public:
+  CampaignTerminal(const properties::CampaignRequest& request, const properties::Store& store,
+                   std::string out)
+      : request_(request), store_(store), out_(std::move(out)) {
+    announce();
+  }
+
+  void on_phase(const char* phase) override {
+    phase_began_ = Clock::now();
+    progress_.emplace(phase);
+  }
+
+  void on_canary(const properties::Canary& canary) override {
+    fmt::print("canary {}: {}\n", canary.fault,
+               canary.found_after ? fmt::format("found after {} cases", *canary.found_after)
+                                  : "NOT FOUND: the harness sees nothing");
+    std::fflush(stdout);
+  }
+
+  void on_trial(const properties::TrialProgress& state) override {
+    progress_->show(
+        fmt::format("{}/{} trials, {} with a defect, {} undecided{}{}", state.done, state.planned,
+                    state.defects, state.undecided,
+                    state.disturbed ? fmt::format(", {} disturbed", state.disturbed) : "",
+                    rest_text(state.done - state.stored, state.planned - state.done,
+                              seconds_since(phase_began_))));
+  }
+
+  void on_trials(const properties::TrialsEnd& end) override {
+    progress_.reset();
+    if (!end.harness_problem.empty()) fmt::print("harness: {}\n", end.harness_problem);
+    if (end.trials > 0) fmt::print("{} trials in {:.1f} s\n", end.trials, end.seconds);
+    std::fflush(stdout);
+  }
+
+  void on_shrinking(const std::string& signature) override { progress_->show(signature); }
+
+  void on_failures_shrunk() override {
+    progress_.reset();
+    const auto failures =
+        write_failures(store_, out_, request_.plugin ? request_.plugin->string() : "");
+    fmt::print("{}", failures.text);
+    std::fflush(stdout);
+    problem_ = failures.problem;
+  }
+
+  void on_hunt(const properties::HuntProgress& state) override {
+    const auto seeds = static_cast<std::uint64_t>(state.seeds);
+    const auto done = static_cast<std::uint64_t>(state.seed - 1) * state.most_cases + state.cases;
+    progress_->show(
+        fmt::format("seed {} of {}: {} cases, {} of {} planted faults still hidden{}", state.seed,
+                    state.seeds, state.cases, state.hidden, state.planted,
+                    rest_text(done, seeds * state.most_cases - done, seconds_since(phase_began_))));
+  }
+
+  void on_fault_shrunk(const std::string& fault) override {
+    progress_->show(fmt::format("{} shrunk", fault));
+  }
+
+  void on_world(const std::string& world) override {
+    progress_->show(fmt::format("{}: every motion of a tetrahedron on a small grid", world));
+  }
+
+  // Why a failing mesh could not be written.
+  const std::optional<std::string>& problem() const { return problem_; }
+
+ private:
+  void announce() const {
+    const auto& plan = request_.plan;
+    const auto planned = properties::planned_trial_count(plan, request_.shard);
+    const auto stored = store_.trial_count();
+    fmt::print("campaign {}, seed {}, shard {}: {} trials of {} families{}, {} configurations",
+               plan.name, request_.seed, text_of(request_.shard), planned, plan.strata.size(),
+               stored ? fmt::format(" ({} are stored, {} to do)", stored, planned - stored) : "",
+               request_.detector.configurations.size());
+    if (request_.power) {
+      fmt::print("; planted faults as campaign {}, seed {}, of this build found them",
+                 request_.power->source.campaign, request_.power->source.seed);
+    } else if (plan.fault_cases > 0) {
+      fmt::print("; {} planted faults", properties::planted_count());
+    }
+    fmt::print("; {} jobs; ", request_.jobs);
+    if (plan.seconds > 0) {
+      const auto end = std::time(nullptr) + static_cast<std::time_t>(plan.seconds);
+      fmt::print("until {:%H:%M:%S} at the latest\n", *std::localtime(&end));
+    } else {
+      fmt::print("until done\n");
+    }
+    fmt::print("{}\nwrites {}\n",
+               request_.detector.built_in
+                   ? "detector built-in"
+                   : plugin_text(request_.detector.name, request_.detector.claims,
+                                 request_.detector.contract),
+               out_);
+    std::fflush(stdout);
+  }
+
+  const properties::CampaignRequest& request_;
+  const properties::Store& store_;
+  const std::string out_;
+  Clock::time_point phase_began_;
+  std::optional<PlainProgress> progress_;
+  std::optional<std::string> problem_;
+};
 
 }  // namespace
 
@@ -57,97 +165,6 @@ std::optional<std::string> ask_for_campaign(const CampaignWords& words,
   std::filesystem::create_directories(words.out, error);
   if (error) return fmt::format("{}: cannot be made: {}", words.out, error.message());
   return std::nullopt;
-}
-
-CampaignTerminal::CampaignTerminal(const properties::CampaignRequest& request,
-                                   const properties::Store& store, std::string out)
-    : request_(request), store_(store), out_(std::move(out)) {
-  announce();
-}
-
-void CampaignTerminal::announce() const {
-  const auto& plan = request_.plan;
-  const auto planned = properties::planned_trial_count(plan, request_.shard);
-  const auto stored = store_.trial_count();
-  fmt::print("campaign {}, seed {}, shard {}: {} trials of {} families{}, {} configurations",
-             plan.name, request_.seed, text_of(request_.shard), planned, plan.strata.size(),
-             stored ? fmt::format(" ({} are stored, {} to do)", stored, planned - stored) : "",
-             request_.detector.configurations.size());
-  if (request_.power) {
-    fmt::print("; planted faults as campaign {}, seed {}, of this build found them",
-               request_.power->source.campaign, request_.power->source.seed);
-  } else if (plan.fault_cases > 0) {
-    fmt::print("; {} planted faults", properties::planted_count());
-  }
-  fmt::print("; {} jobs; ", request_.jobs);
-  if (plan.seconds > 0) {
-    const auto end = std::time(nullptr) + static_cast<std::time_t>(plan.seconds);
-    fmt::print("until {:%H:%M:%S} at the latest\n", *std::localtime(&end));
-  } else {
-    fmt::print("until done\n");
-  }
-  fmt::print("{}\nwrites {}\n",
-             request_.detector.built_in
-                 ? "detector built-in"
-                 : plugin_text(request_.detector.name, request_.detector.claims,
-                               request_.detector.contract),
-             out_);
-  std::fflush(stdout);
-}
-
-void CampaignTerminal::on_phase(const char* phase) {
-  phase_began_ = Clock::now();
-  progress_.emplace(phase);
-}
-
-void CampaignTerminal::on_canary(const properties::Canary& canary) {
-  fmt::print("canary {}: {}\n", canary.fault,
-             canary.found_after ? fmt::format("found after {} cases", *canary.found_after)
-                                : "NOT FOUND: the harness sees nothing");
-  std::fflush(stdout);
-}
-
-void CampaignTerminal::on_trial(const properties::TrialProgress& state) {
-  progress_->show(fmt::format("{}/{} trials, {} with a defect, {} undecided{}{}", state.done,
-                              state.planned, state.defects, state.undecided,
-                              state.disturbed ? fmt::format(", {} disturbed", state.disturbed) : "",
-                              rest_text(state.done - state.stored, state.planned - state.done,
-                                        seconds_since(phase_began_))));
-}
-
-void CampaignTerminal::on_trials(const properties::TrialsEnd& end) {
-  progress_.reset();
-  if (!end.harness_problem.empty()) fmt::print("harness: {}\n", end.harness_problem);
-  if (end.trials > 0) fmt::print("{} trials in {:.1f} s\n", end.trials, end.seconds);
-  std::fflush(stdout);
-}
-
-void CampaignTerminal::on_shrinking(const std::string& signature) { progress_->show(signature); }
-
-void CampaignTerminal::on_failures_shrunk() {
-  progress_.reset();
-  const auto failures =
-      write_failures(store_, out_, request_.plugin ? request_.plugin->string() : "");
-  fmt::print("{}", failures.text);
-  std::fflush(stdout);
-  problem_ = failures.problem;
-}
-
-void CampaignTerminal::on_hunt(const properties::HuntProgress& state) {
-  const auto seeds = static_cast<std::uint64_t>(state.seeds);
-  const auto done = static_cast<std::uint64_t>(state.seed - 1) * state.most_cases + state.cases;
-  progress_->show(
-      fmt::format("seed {} of {}: {} cases, {} of {} planted faults still hidden{}", state.seed,
-                  state.seeds, state.cases, state.hidden, state.planted,
-                  rest_text(done, seeds * state.most_cases - done, seconds_since(phase_began_))));
-}
-
-void CampaignTerminal::on_fault_shrunk(const std::string& fault) {
-  progress_->show(fmt::format("{} shrunk", fault));
-}
-
-void CampaignTerminal::on_world(const std::string& world) {
-  progress_->show(fmt::format("{}: every motion of a tetrahedron on a small grid", world));
 }
 
 std::optional<std::string> run_on_terminal(const properties::CampaignRequest& request,

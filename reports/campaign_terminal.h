@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "properties/campaign/phases.h"
-#include "reports/plain_progress.h"
+#include "properties/campaign/request.h"
+#include "properties/campaign/store.h"
 
 namespace assay::reports {
 
@@ -25,39 +25,10 @@ struct CampaignWords {
 std::optional<std::string> ask_for_campaign(const CampaignWords& words,
                                             properties::CampaignRequest& request);
 
-// Says what the campaign is going to do, how far it is and how long that will take, and shows the
-// failures, with their files and pictures below `out`, as soon as all of them are shrunk.
-class CampaignTerminal : public properties::CampaignObserver {
- public:
-  CampaignTerminal(const properties::CampaignRequest& request, const properties::Store& store,
-                   std::string out);
-
-  void on_phase(const char* phase) override;
-  void on_canary(const properties::Canary& canary) override;
-  void on_trial(const properties::TrialProgress& state) override;
-  void on_trials(const properties::TrialsEnd& end) override;
-  void on_shrinking(const std::string& signature) override;
-  void on_failures_shrunk() override;
-  void on_hunt(const properties::HuntProgress& state) override;
-  void on_fault_shrunk(const std::string& fault) override;
-  void on_world(const std::string& world) override;
-
-  // Why a failing mesh could not be written.
-  const std::optional<std::string>& problem() const { return problem_; }
-
- private:
-  void announce() const;
-
-  const properties::CampaignRequest& request_;
-  const properties::Store& store_;
-  const std::string out_;
-  std::chrono::steady_clock::time_point phase_began_;
-  std::optional<PlainProgress> progress_;
-  std::optional<std::string> problem_;
-};
-
-// Does all of the campaign that the store does not hold yet, on the terminal. A line for the user
-// when a file could not be written: what is stored stays then. Throws StoreProblem.
+// Does all of the campaign that the store does not hold yet. Says what it is going to do, how far
+// it is and how long that will take, and shows the failures, with their files and pictures below
+// `out`, as soon as all of them are shrunk. A line for the user when a file could not be written:
+// what is stored stays then. Throws StoreProblem.
 std::optional<std::string> run_on_terminal(const properties::CampaignRequest& request,
                                            properties::Store& store, const std::string& out);
 

@@ -11,22 +11,6 @@ std::filesystem::path store_file(const std::filesystem::path& out, const Shard& 
   return out / fmt::format("shard-{}-of-{}.sqlite", shard.index, shard.count);
 }
 
-std::filesystem::path merged_file(const std::filesystem::path& out) {
-  return out / "merged.sqlite";
-}
-
-std::filesystem::path checks_file(const std::filesystem::path& out) {
-  return out / "checks.sqlite";
-}
-
-std::filesystem::path campaign_file(const std::filesystem::path& out) {
-  return out / "campaign.json";
-}
-
-std::filesystem::path certificate_file(const std::filesystem::path& out) {
-  return out / "certificate.json";
-}
-
 std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& folder,
                                                  std::string& problem) {
   std::error_code error;

@@ -13,12 +13,20 @@ namespace assay::properties {
 // OUT/shard-1-of-4.sqlite
 std::filesystem::path store_file(const std::filesystem::path& out, const Shard& shard);
 // OUT/merged.sqlite
-std::filesystem::path merged_file(const std::filesystem::path& out);
+inline std::filesystem::path merged_file(const std::filesystem::path& out) {
+  return out / "merged.sqlite";
+}
 // OUT/checks.sqlite: what `assay certify` finds out by itself.
-std::filesystem::path checks_file(const std::filesystem::path& out);
+inline std::filesystem::path checks_file(const std::filesystem::path& out) {
+  return out / "checks.sqlite";
+}
 // OUT/campaign.json, OUT/certificate.json
-std::filesystem::path campaign_file(const std::filesystem::path& out);
-std::filesystem::path certificate_file(const std::filesystem::path& out);
+inline std::filesystem::path campaign_file(const std::filesystem::path& out) {
+  return out / "campaign.json";
+}
+inline std::filesystem::path certificate_file(const std::filesystem::path& out) {
+  return out / "certificate.json";
+}
 
 // The stores of trials in a folder, by name: of shards, and a merged one. One line in `problem`
 // where there are none.

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "properties/faults/fault.h"
+#include "properties/words.h"
 #include "properties/worker/case_player.h"
 
 namespace assay::properties {
@@ -12,21 +13,7 @@ namespace assay::properties {
 using detector::StepResult;
 
 const char* name_of(RunEnd end) {
-  switch (end) {
-    case RunEnd::completed:
-      return "completed";
-    case RunEnd::crashed:
-      return "crashed";
-    case RunEnd::hung:
-      return "hung";
-    case RunEnd::refused:
-      return "refused";
-    case RunEnd::out_of_memory:
-      return "out of memory";
-    case RunEnd::not_run:
-      return "not run";
-  }
-  return "unknown";
+  return word_of({"completed", "crashed", "hung", "refused", "out of memory", "not run"}, end);
 }
 
 CaseRun out_of_memory() { return {RunEnd::out_of_memory, "out of memory", {}}; }
