@@ -56,6 +56,7 @@ RunVerdict judge_run(const corpus::Case& c, const CaseRun& run,
                      const Contract& contract, const CaseRun* again) {
   RunVerdict verdict;
   verdict.what = run.what;
+  verdict.disturbances = run.disturbances + (again ? again->disturbances : 0);
   switch (run.end) {
     case RunEnd::completed:
       break;

@@ -15,6 +15,7 @@ struct RunVerdict {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> broken;        // in the order of Claim, each once
   std::string what;                 // how the run ended, where it did not complete
+  std::uint64_t disturbances = 0;   // how often it was killed from outside, and began anew
   std::vector<StepDiff> steps;      // of a completed run
   std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
 };

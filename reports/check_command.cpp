@@ -81,6 +81,9 @@ class Check {
   // Whether there are steps to go through.
   bool begin() {
     const auto verdict = subject_.begin();
+    if (verdict.disturbances > 0)
+      fmt::print("the detector's process was killed from outside {} times, and began anew\n",
+                 verdict.disturbances);
     if (verdict.outcome == Outcome::holds) return true;
     outcome_.ended = verdict.what;
     for (const auto claim : verdict.broken) {

@@ -43,6 +43,7 @@ class Plugin : public Subject {
               {"version", description_.version},
               {"library", library_},
               {"claims", std::move(claims)},
+              {"disturbances", worker_.disturbances()},
               {"contract",
                {{"adjacency", name_of(contract.adjacency)},
                 {"coordinates", name_of(contract.coordinates)},

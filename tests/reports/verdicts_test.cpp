@@ -155,6 +155,27 @@ void expect_gate(const Json& gate, const GateResult& result, const std::string& 
   EXPECT_EQ(gate["reasons"], Json(result.reasons)) << where;
 }
 
+// `run` looks at its own store, and asks for four of the gates.
+void expect_agreement_of_run(const std::string& folder, const States& states,
+                             const Judgement& judgement) {
+  std::string problem;
+  const auto findings = read_one_store(store_file(folder, {}), problem);
+  ASSERT_TRUE(findings) << problem;
+  const auto run = judge(*findings, asked_of_a_run());
+  bool asks_the_same = true;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const bool is_asked = run.gates[i].state != GateState::not_judged;
+    asks_the_same &= is_asked == (states[i] != GateState::not_judged);
+    if (!is_asked || states[i] == GateState::not_judged) continue;
+    EXPECT_EQ(run.gates[i].state, states[i]);
+    EXPECT_EQ(run.gates[i].reasons, judgement.gates[i].reasons);
+  }
+  if (!asks_the_same) return;
+  EXPECT_EQ(run.verdict, judgement.verdict);
+  EXPECT_EQ(run.exit_code, judgement.exit_code);
+  EXPECT_EQ(reports::verdict_text(*findings, run), reports::verdict_text(*findings, judgement));
+}
+
 void expect_agreement(const std::string& folder, const States& states) {
   const auto [verdict, code] = expected_of(states);
   std::string problem;
@@ -165,6 +186,7 @@ void expect_agreement(const std::string& folder, const States& states) {
     EXPECT_EQ(judgement.gates[i].state, states[i]) << gate_rules[i].name;
   EXPECT_EQ(judgement.verdict, verdict);
   EXPECT_EQ(judgement.exit_code, code);
+  expect_agreement_of_run(folder, states, judgement);
 
   // The certificate, as written and as verified.
   const auto verified = reports::verify_certificate(certificate_file(folder));
