@@ -28,11 +28,11 @@ std::string lack_of(const RunFindings& proof, const BoundRun& build, const Campa
   for (const auto& fault : proof.evidence.faults) {
     if (fault.status == FaultStatus::equivalent && fault.found())
       return fmt::format("found {}, which is registered as equivalent", fault.fault);
+    if (fault.time_over) return fmt::format("was over before {} had all of its cases", fault.fault);
     if (!fault.is_whole(plan))
-      return fmt::format("gave {} {} cases of {} seeds{}, campaign {} asks for {} of {}",
-                         fault.fault, fault.cases, fault.needed.size(),
-                         fault.time_over ? " before its time was over" : "", plan.name,
-                         plan.fault_cases, plan.fault_seeds);
+      return fmt::format("gave each fault {} cases of {} seeds, campaign {} asks for {} of {}",
+                         fault.cases, fault.needed.size(), plan.name, plan.fault_cases,
+                         plan.fault_seeds);
   }
   return "";
 }
