@@ -118,7 +118,8 @@ class CampaignTerminal : public properties::CampaignObserver {
       fmt::print("; {} planted faults", properties::planted_count());
     }
     fmt::print("; {} jobs; ", request_.jobs);
-    if (plan.seconds > 0) {
+    constexpr double soon_enough_to_tell = 1e8;
+    if (plan.seconds > 0 && plan.seconds < soon_enough_to_tell) {
       const auto end = std::time(nullptr) + static_cast<std::time_t>(plan.seconds);
       fmt::print("until {:%H:%M:%S} at the latest\n", *std::localtime(&end));
     } else {

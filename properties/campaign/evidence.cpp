@@ -101,8 +101,9 @@ std::optional<std::uint64_t> FaultProof::median() const {
 
 Evidence to_row(const Canary& x) { return row(canary_kind, x.fault, x.shard, x); }
 Evidence to_row(const HarnessProblem& x) {
-  // A later word goes before an earlier one, and at the end the word that there is no problem.
-  return row(problem_kind, trials_name, x.shard, x, 2 * x.trials + (x.what.empty() ? 1 : 0));
+  // A later word goes before an earlier one, and of two at one time that of a problem: it is over
+  // when a further trial is stored without one.
+  return row(problem_kind, trials_name, x.shard, x, 2 * x.trials + (x.what.empty() ? 0 : 1));
 }
 Evidence to_row(const FaultProof& x) {
   // A hunt that had its time is farther than any that was ended by it.

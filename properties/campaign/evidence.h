@@ -15,16 +15,16 @@
 
 namespace assay::properties {
 
+// The shard of a file that holds several, of what belongs to none, and of proofs taken over.
+inline constexpr const char* merged_shard = "merged";
+inline constexpr const char* checks_shard = "checks";
+inline constexpr const char* power_shard = "power";
+
 // A planted fault that every run must find, on the way that the detector under test goes.
 struct Canary {
   std::string fault, shard;
   std::optional<std::uint64_t> found_after;  // cases; nothing: it was not found
 };
-
-// The shard of a file that holds several, of what belongs to none, and of proofs taken over.
-inline constexpr const char* merged_shard = "merged";
-inline constexpr const char* checks_shard = "checks";
-inline constexpr const char* power_shard = "power";
 
 // What kept the harness itself from going on when so many trials were stored; empty: nothing.
 struct HarnessProblem {

@@ -33,10 +33,9 @@ struct GateRule {
 // - corpus: the shipped cases and scenes hold, and no waiver is expired.
 // - claims: no claim and no law is broken in any trial, and no world has a counterexample. A
 //   certificate leaves waived failures aside.
-// - complete: all that was planned is there: shards, trials, planted faults with all of their
-// cases;
-//   for a certificate also the corpus, with an answer in every case, and the self-test. At most 1 %
-//   of the trials were disturbed from outside.
+// - complete: all that was planned is there: shards, trials, and planted faults with all of their
+//   cases. For a certificate the corpus is there too, with an answer in every case, and so is the
+//   self-test. At most 1 % of the trials were disturbed from outside.
 // - bounds: every bound that is wanted is met. Where none is wanted, no trial is without a verdict.
 // - speed: no figure is above its limit, for a time proves nothing wrong. It is not judged where no
 //   limit is set, nor for a plug-in.

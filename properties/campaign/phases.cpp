@@ -48,8 +48,8 @@ class CampaignRun {
  private:
   RunDeadline after(double share) const { return deadline_after(begin_, request_.plan, share); }
 
-  static RunDeadline earlier(RunDeadline deadline, std::chrono::duration<double> from_now) {
-    return std::min(deadline, Clock::now() + std::chrono::duration_cast<Clock::duration>(from_now));
+  static RunDeadline earlier(RunDeadline deadline, double seconds_from_now) {
+    return std::min(deadline, deadline_in(Clock::now(), seconds_from_now));
   }
 
   void judge_trials() {
@@ -64,7 +64,7 @@ class CampaignRun {
 
   void shrink() {
     shrink_failures(request_, store_, shrinking_of_one,
-                    earlier(after(1), shrinking_time(request_.plan)),
+                    earlier(after(1), shrinking_seconds(request_.plan)),
                     [&](const std::string& signature) { observer_.on_shrinking(signature); });
   }
 
@@ -103,8 +103,7 @@ class CampaignRun {
   }
 
   void explore_worlds() {
-    const auto end =
-        earlier(after(1), std::chrono::duration<double>(request_.plan.tetrahedron_seconds));
+    const auto end = earlier(after(1), request_.plan.tetrahedron_seconds);
     std::uint64_t place = 0;
     for (const auto& world : tetrahedron_worlds()) {
       if (!request_.shard.holds(place++)) continue;
@@ -132,10 +131,9 @@ void run_campaign(const CampaignRequest& request, const std::filesystem::path& c
   CampaignRun(request, corpus, store, observer).run();
 }
 
-std::chrono::duration<double> shrinking_time(const CampaignPlan& plan) {
+double shrinking_seconds(const CampaignPlan& plan) {
   constexpr double without_limit = 120;
-  return std::chrono::duration<double>(plan.seconds == 0 ? without_limit
-                                                         : plan.shrink_share * plan.seconds);
+  return plan.seconds == 0 ? without_limit : plan.shrink_share * plan.seconds;
 }
 
 }  // namespace assay::properties

@@ -40,7 +40,8 @@ class CampaignObserver {
 void run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
                   CampaignObserver& observer);
 
-// The time that shrinking failures may take where a plan has a limit of time, and where not.
-std::chrono::duration<double> shrinking_time(const CampaignPlan& plan);
+// Seconds of the clock that shrinking failures may take: the plan's share of its own limit, or two
+// minutes where it has none.
+double shrinking_seconds(const CampaignPlan& plan);
 
 }  // namespace assay::properties

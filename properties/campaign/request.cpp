@@ -6,12 +6,15 @@ namespace assay::properties {
 
 std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 
-RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double share) {
-  // So that nobody's years overflow a clock of nanoseconds.
+RunDeadline deadline_in(RunDeadline begin, double seconds) {
   constexpr double longest = 1e8;
-  if (plan.seconds == 0 || plan.seconds > longest) return RunDeadline::max();
-  return begin + std::chrono::duration_cast<RunDeadline::duration>(
-                     std::chrono::duration<double>(share * plan.seconds));
+  if (seconds > longest) return RunDeadline::max();
+  return begin +
+         std::chrono::duration_cast<RunDeadline::duration>(std::chrono::duration<double>(seconds));
+}
+
+RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double share) {
+  return plan.seconds == 0 ? RunDeadline::max() : deadline_in(begin, share * plan.seconds);
 }
 
 std::uint64_t planned_cases(const StratumPlan& stratum, const Shard& shard) {

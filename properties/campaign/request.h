@@ -39,6 +39,9 @@ struct CampaignRequest {
 // by `seconds`, is such a limit: it makes the run incomplete and decides no trial.
 using RunDeadline = std::chrono::steady_clock::time_point;
 
+// So many seconds after `begin`; never, where that is more than three years: a clock of nanoseconds
+// would overflow.
+RunDeadline deadline_in(RunDeadline begin, double seconds);
 // `share` of the plan's seconds after `begin`; never, where the plan has no limit.
 RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double share);
 

@@ -37,12 +37,12 @@ void keep_corpus_failures(const properties::CampaignRequest& request,
   }
   for (const auto& [signature, failure] : smallest) checks.add(*failure);
   using Clock = std::chrono::steady_clock;
-  const auto share = properties::shrinking_time(request.plan);
   PlainProgress progress("shrinking");
   constexpr double seconds_each = 60;
-  properties::shrink_failures(request, checks, {seconds_each, 1'000'000},
-                              Clock::now() + std::chrono::duration_cast<Clock::duration>(share),
-                              [&](const std::string& text) { progress.show(text); });
+  properties::shrink_failures(
+      request, checks, {seconds_each, 1'000'000},
+      properties::deadline_in(Clock::now(), properties::shrinking_seconds(request.plan)),
+      [&](const std::string& text) { progress.show(text); });
 }
 
 }  // namespace assay::reports

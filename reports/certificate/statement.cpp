@@ -88,7 +88,9 @@ Json replay_json(const RunFindings& findings) {
 Json make_predicate(const RunFindings& findings, const properties::Judgement& judgement,
                     const properties::CampaignPlan& plan, const std::string& campaign_digest) {
   Json problems = Json::array();
-  for (const auto& problem : findings.evidence.problems) problems.push_back(problem.what);
+  for (const auto& problem : findings.evidence.problems) {
+    if (!problem.what.empty()) problems.push_back(problem.what);
+  }
   return {{"schema", certificate_schema},
           {"verdict", judgement.verdict},
           {"exit_code", judgement.exit_code},

@@ -32,7 +32,7 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   const Canary canary{"pair/x", "1/2", 7}, blind{"pair/x", "2/2", std::nullopt};
   expect_same_row(canary, read_back(canary).canaries.at(0));
   expect_same_row(blind, read_back(blind).canaries.at(0));
-  const HarnessProblem problem{"1/2", "no worker"};
+  const HarnessProblem problem{"1/2", "no worker", 7};
   expect_same_row(problem, read_back(problem).problems.at(0));
   auto proof = fault_proof("a/b", FaultStatus::open, true, {3, std::nullopt});
   proof.shrunk = ShrunkFault{{9, 8, 7}, {3, 2, 1}, 55};
@@ -105,6 +105,12 @@ TEST(Evidence, TheFartherOfTwoCountsMore) {
   const World far{"w", "1/1", 1000, 1, 1, 0, false, std::nullopt},
       wrong{"w", "1/1", 1, 1, 1, 0, false, "c"};
   EXPECT_GT(to_row(wrong).progress, to_row(far).progress);
+  // A problem goes before the word of the same time that there is none, and is over after a trial.
+  const auto problem = [](const char* what, std::uint64_t trials) {
+    return to_row(HarnessProblem{"1/1", what, trials}).progress;
+  };
+  EXPECT_GT(problem("no worker", 7), problem("", 7));
+  EXPECT_GT(problem("", 8), problem("no worker", 7));
 }
 
 }  // namespace

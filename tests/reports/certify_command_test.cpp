@@ -77,6 +77,7 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   EXPECT_EQ(statement["subject"][0]["digest"]["sha256"].get<std::string>().size(), 64u);
   const Json& p = statement["predicate"];
   EXPECT_EQ(p["verdict"], "certified");
+  EXPECT_TRUE(p["harness_problems"].empty()) << p["harness_problems"];
   EXPECT_EQ(p["strata"][0]["trials"], 12);
   EXPECT_EQ(p["strata"][0]["distinct"], 12);
   EXPECT_EQ(p["strata"][0]["discards"], 0);

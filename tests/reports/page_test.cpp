@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "properties/campaign/merge.h"
 #include "properties/faults/fault.h"
 #include "reports/page_data/failure_scenes.h"
 #include "reports/page_data/page_file.h"
@@ -84,6 +85,34 @@ TEST_F(Runs, ShardsOfDifferentRunsAreRefused) {
   run.request.seed = 7;
   run.store(scratch / "mixed");
   expect_refused(scratch / "mixed", "different runs");
+}
+
+TEST_F(Runs, AShardThatIsThereTwiceIsRefused) {
+  RunToStore run;
+  run.request.shard = {1, 2};
+  run.judge("closed-generic", 4, 'H').store(scratch / "twice");
+  std::filesystem::copy_file(scratch / "twice/shard-1-of-2.sqlite",
+                             scratch / "twice/shard-2-of-2.sqlite");
+  expect_refused(scratch / "twice", "does not stand beside the others");
+  // Nor do shards of other numbers of shards.
+  run.store(scratch / "mixed");
+  run.request.shard = {2, 3};
+  run.trials.clear();
+  run.store(scratch / "mixed");
+  expect_refused(scratch / "mixed", "does not stand beside the others");
+}
+
+TEST_F(Runs, AShardThatAMergedStoreDoesNotHoldIsNotPassedOver) {
+  RunToStore run;
+  run.request.shard = {1, 2};
+  run.judge("closed-generic", 4, 'H').store(scratch / "grown");
+  const std::vector<std::filesystem::path> first = {scratch / "grown/shard-1-of-2.sqlite"};
+  ASSERT_FALSE(properties::merge_stores(first, properties::merged_file(scratch / "grown")));
+  EXPECT_EQ(read_run(scratch / "grown").tally.trials(), 4u);
+  RunToStore other;
+  other.request.shard = {2, 2};
+  other.judge("broken", 1, 'D').store(scratch / "grown");
+  expect_refused(scratch / "grown", "which merged.sqlite does not: merge again");
 }
 
 TEST_F(Runs, ShardsAreSummed) {

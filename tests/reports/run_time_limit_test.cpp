@@ -35,8 +35,20 @@ TEST(RunTimeLimit, SmokeAndQuickHaveNoneButTheUsers) {
     const auto with = announced({"--campaign", name, "--time", "60"});
     EXPECT_TRUE(std::regex_search(with, until_then)) << with;
   }
+  // Longer than a clock counts: no limit, and above all not over at once.
+  EXPECT_TRUE(std::regex_search(announced({"--campaign", "smoke", "--time", "1e11"}), until_done));
   const auto nightly = announced({"--campaign", "nightly"});
   EXPECT_TRUE(std::regex_search(nightly, until_then)) << nightly;
+}
+
+TEST(RunTimeLimit, MoreThanAClockCountsIsNoLimit) {
+  const Scratch scratch;
+  const auto plan = scratch.write("plan.json", plan_text(4, R"(, "tetrahedron_seconds": 1e-3)"));
+  for (const std::string seconds : {"1e11", "1e300"}) {
+    const auto ended =
+        run_assay("run --campaign " + plan + " --time " + seconds + " --out " + scratch / seconds);
+    EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  }
 }
 
 }  // namespace
