@@ -1,7 +1,7 @@
 #include "detector/detector.h"
 
 #include "detector/mesh/mesh_checks.h"
-#include "detector/step.h"
+#include "detector/step/step.h"
 
 namespace assay::detector {
 

@@ -18,8 +18,8 @@
 #include <memory>
 #include <span>
 
-#include "detector/stages.h"
 #include "detector/state/saved_state.h"
+#include "detector/step/stages.h"
 
 namespace assay::detector {
 

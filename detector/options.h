@@ -5,14 +5,14 @@
 #include <optional>
 #include <vector>
 
-#include "detector/arithmetic.h"
 #include "detector/boundary/ghost_sweep.h"
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
+#include "detector/mesh/arithmetic.h"
 #include "detector/mesh/problem.h"
 #include "detector/mesh/step_types.h"
 #include "detector/search/feature_contacts.h"
 #include "detector/search/pair_search.h"
-#include "detector/view/view_test.h"
+#include "detector/view/view_signs.h"
 
 namespace assay::detector {
 

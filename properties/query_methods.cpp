@@ -3,7 +3,7 @@
 #include <array>
 
 #include "detector/contact/contact_exact.h"
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 #include "oracle/referee.h"
 
 namespace assay::properties {

@@ -1,7 +1,7 @@
 // Which triangles of the mesh the ghosts touch (L11).
 #pragma once
 
-#include "detector/boundary/face_pair_test.h"
+#include "detector/boundary/face_pair.h"
 #include "detector/boundary/hole_tree.h"
 #include "detector/search/pair_search.h"
 

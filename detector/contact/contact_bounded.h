@@ -1,7 +1,7 @@
 // The elementary test in doubles with proved bounds alone: what they cannot tell is a contact.
 #pragma once
 
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 
 namespace assay::detector {
 

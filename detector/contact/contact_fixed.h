@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 
 namespace assay::detector {
 

@@ -2,7 +2,7 @@
 // promises nothing; it exists to be measured.
 #pragma once
 
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 
 namespace assay::detector {
 

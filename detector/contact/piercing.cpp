@@ -8,7 +8,7 @@
 // |difference|: (b-a) x (c-a) is one minor of differences: 8u Mp Mq (bernstein.h).
 #include "detector/contact/piercing.h"
 
-#include "detector/exact/orientation_filter.h"
+#include "detector/geometry/orientation_filter.h"
 
 namespace assay::detector {
 namespace {

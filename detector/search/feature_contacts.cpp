@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "detector/contact/contact_filter.h"
-#include "detector/stopwatch.h"
+#include "detector/search/stopwatch.h"
 
 namespace assay::detector {
 namespace {

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 #include "detector/mesh/topology.h"
 #include "detector/search/feature_pairs.h"
 

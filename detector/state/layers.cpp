@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "detector/state/winding.h"
+#include "detector/geometry/winding.h"
 
 namespace assay::detector {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "detector/arithmetic.h"
 #include "detector/boundary/surface.h"
+#include "detector/mesh/arithmetic.h"
 
 namespace assay::detector {
 

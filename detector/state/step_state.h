@@ -6,7 +6,7 @@
 
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
-#include "detector/view/view_choice.h"
+#include "detector/state/view_choice.h"
 
 namespace assay::detector {
 

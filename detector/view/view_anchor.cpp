@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "detector/state/winding.h"
+#include "detector/geometry/winding.h"
 #include "detector/view/view_search.h"
 
 namespace assay::detector {

@@ -1,7 +1,7 @@
 // The view test as a stage of the detector: signs over a step, and at an instant.
 #pragma once
 
-#include "detector/view/view_test.h"
+#include "detector/view/view_signs.h"
 
 namespace assay::detector {
 

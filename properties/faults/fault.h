@@ -1,7 +1,7 @@
 // Planted faults: detectors that are subtly wrong, each by one stage that replaces the right one.
 //
 // The harness must find every planted one; what it needs for that is its power. The detector knows
-// nothing of them: a fault derives from a stage of detector/stages.h and is handed to
+// nothing of them: a fault derives from a stage of detector/step/stages.h and is handed to
 // Detector::assemble.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "detector/options.h"
-#include "detector/stages.h"
+#include "detector/step/stages.h"
 
 namespace assay::properties {
 

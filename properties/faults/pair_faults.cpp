@@ -2,7 +2,7 @@
 // that stop too early (L7), boxes that are too small.
 #include <algorithm>
 
-#include "detector/state/winding.h"
+#include "detector/geometry/winding.h"
 #include "properties/faults/planting.h"
 
 namespace assay::properties {

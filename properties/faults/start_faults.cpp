@@ -1,9 +1,9 @@
 // Wrong beliefs about what is clean at the start of a step: by view (L5), by layers (L9).
 #include <algorithm>
 
+#include "detector/geometry/winding.h"
 #include "detector/search/feature_contacts.h"
 #include "detector/state/layers.h"
-#include "detector/state/winding.h"
 #include "properties/faults/planting.h"
 
 namespace assay::properties {

@@ -1,6 +1,6 @@
 // Wrong view tests from a line: every corner needs its own nearest point, at every time (L1), and
 // all triangles of a component one field of view rays (L10).
-#include "detector/state/winding.h"
+#include "detector/geometry/winding.h"
 #include "properties/faults/planting.h"
 #include "properties/faults/view_polynomials.h"
 

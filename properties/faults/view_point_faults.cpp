@@ -1,7 +1,7 @@
 // Wrong view tests from a point: f = (p0 - q).N is a cubic in t, and every short cut here looks at
 // less of it (L2).
 #include "detector/bernstein/bernstein.h"
-#include "detector/state/winding.h"
+#include "detector/geometry/winding.h"
 #include "properties/faults/planting.h"
 #include "properties/faults/view_polynomials.h"
 

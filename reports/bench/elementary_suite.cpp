@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 #include "properties/case_options.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/judged_step.h"

@@ -12,7 +12,7 @@
 #include "detector/contact/piercing.h"
 #include "detector/detector.h"
 #include "detector/exact/real_root.h"
-#include "detector/state/winding.h"
+#include "detector/geometry/winding.h"
 #include "detector/view/view_classifier.h"
 #include "tests/detector/points.h"
 

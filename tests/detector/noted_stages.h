@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "detector/stages.h"
+#include "detector/step/stages.h"
 
 namespace assay::detector::tests_of_steps {
 

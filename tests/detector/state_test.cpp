@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "detector/state/layers.h"
-#include "detector/state/release_rule.h"
+#include "detector/step/release_rule.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {

@@ -1,6 +1,6 @@
 // view-auto: what it looks from, when it does without views, and that this is a matter of cost
 // alone.
-#include "detector/view_auto.h"
+#include "detector/step/view_auto.h"
 
 #include <gtest/gtest.h>
 

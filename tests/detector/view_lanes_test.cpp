@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "detector/view/view_test.h"
+#include "detector/view/view_signs.h"
 #include "tests/detector/triangle_batches.h"
 
 namespace assay::detector {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "detector/view/view_anchor.h"
-#include "detector/view/view_test.h"
+#include "detector/view/view_signs.h"
 #include "tests/detector/points.h"
 #include "tests/detector/revolved.h"
 

@@ -1,9 +1,8 @@
-#include "detector/view/view_test.h"
-
 #include <gtest/gtest.h>
 
 #include "detector/view/view_exact.h"
 #include "detector/view/view_filter.h"
+#include "detector/view/view_signs.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {

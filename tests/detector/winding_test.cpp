@@ -1,4 +1,4 @@
-#include "detector/state/winding.h"
+#include "detector/geometry/winding.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <random>
 
-#include "detector/state/crossing_signs.h"
+#include "detector/geometry/crossing_signs.h"
 #include "tests/detector/points.h"
 #include "tests/detector/revolved.h"
 

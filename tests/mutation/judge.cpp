@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <set>
 
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 #include "tests/mutation/settings.h"
 
 namespace assay::mutation {

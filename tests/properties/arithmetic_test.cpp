@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "corpus/query_csv.h"
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 #include "detector/detector.h"
 #include "properties/case_check.h"
 #include "properties/query_generators.h"

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 #include "oracle/contact.h"
 #include "oracle/referee.h"
 #include "tests/oracle/query_kinds.h"

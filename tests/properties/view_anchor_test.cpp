@@ -9,7 +9,7 @@
 
 #include "corpus/scenes.h"
 #include "detector/detector.h"
-#include "detector/state/winding.h"
+#include "detector/geometry/winding.h"
 
 namespace assay::properties {
 namespace {

@@ -1,9 +1,10 @@
 // The detector's view signs, lanes and all, against the oracle's, for triangles without a mesh.
+#include "detector/view/view_signs.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "detector/view/view_test.h"
 #include "oracle/view_sign.h"
 #include "tests/detector/triangle_batches.h"
 

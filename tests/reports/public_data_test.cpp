@@ -6,7 +6,7 @@
 
 #include "corpus/query_csv.h"
 #include "detector/contact/contact_exact.h"
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 #include "oracle/contact.h"
 #include "tests/reports/program.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "detector/stages.h"
+#include "detector/step/stages.h"
 #include "reports/bench/stability_changes.h"
 #include "reports/bench/stability_family.h"
 #include "reports/bench/stability_suite.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "detector/boundary/surface.h"
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 
 namespace assay::detector {
 

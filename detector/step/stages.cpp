@@ -1,4 +1,4 @@
-#include "detector/stages.h"
+#include "detector/step/stages.h"
 
 #include "detector/traditional/traditional.h"
 

@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "detector/arithmetic.h"
+#include "detector/mesh/arithmetic.h"
 #include "detector/mesh/types.h"
 
 namespace assay::detector {

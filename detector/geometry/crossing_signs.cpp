@@ -7,7 +7,7 @@
 //
 // Where the filter cannot tell: exact arithmetic asks integers; bounded arithmetic leaves the sign
 // 0, which gives a direction up or the count altogether, never counts wrongly.
-#include "detector/state/crossing_signs.h"
+#include "detector/geometry/crossing_signs.h"
 
 #include <algorithm>
 #include <cmath>

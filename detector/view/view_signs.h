@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "detector/arithmetic.h"
+#include "detector/mesh/arithmetic.h"
 #include "detector/mesh/topology.h"
 #include "detector/view/view_filter.h"
 #include "detector/view/view_lanes.h"

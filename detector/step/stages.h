@@ -8,7 +8,7 @@
 
 #include "detector/boundary/boundary_handler.h"
 #include "detector/search/candidate_search.h"
-#include "detector/state/release_rule.h"
+#include "detector/step/release_rule.h"
 #include "detector/view/view_classifier.h"
 
 namespace assay::detector {

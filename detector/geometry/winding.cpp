@@ -11,14 +11,14 @@
 // than 2.1 u S and 2^-1074, and an origin's (2 u0 + u1 + u2) / 4 by less than 4 u S and 2^-1073
 // (two more sums and a quarter): a margin of 8 u S + 2^-1071 around the boxes rejects no triangle
 // that the line meets. What is not rejected is decided by crossing_signs.
-#include "detector/state/winding.h"
+#include "detector/geometry/winding.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "detector/exact/integer.h"
-#include "detector/state/crossing_signs.h"
+#include "detector/geometry/crossing_signs.h"
 
 namespace assay::detector {
 namespace {

@@ -1,10 +1,10 @@
-#include "detector/exact/orientation.h"
+#include "detector/geometry/orientation.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "detector/exact/integer.h"
-#include "detector/exact/orientation_filter.h"
+#include "detector/geometry/orientation_filter.h"
 
 namespace assay::detector {
 namespace {

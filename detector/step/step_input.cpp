@@ -1,4 +1,4 @@
-#include "detector/step_input.h"
+#include "detector/step/step_input.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 
 #include <span>
 
-#include "detector/step_work.h"
+#include "detector/step/step_work.h"
 
 namespace assay::detector {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "detector/search/triangle_type.h"
-#include "detector/step_work.h"
+#include "detector/step/step_work.h"
 
 namespace assay::detector {
 

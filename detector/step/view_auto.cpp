@@ -1,4 +1,4 @@
-#include "detector/view_auto.h"
+#include "detector/step/view_auto.h"
 
 #include <algorithm>
 

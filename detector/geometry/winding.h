@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "detector/arithmetic.h"
+#include "detector/mesh/arithmetic.h"
 #include "detector/mesh/topology.h"
 
 namespace assay::detector {

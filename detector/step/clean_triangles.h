@@ -1,7 +1,7 @@
 // Which triangles are clean where a step starts, and where it ends.
 #pragma once
 
-#include "detector/state/release_rule.h"
+#include "detector/step/release_rule.h"
 
 namespace assay::detector {
 

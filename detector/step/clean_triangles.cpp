@@ -1,4 +1,4 @@
-#include "detector/state/clean_triangles.h"
+#include "detector/step/clean_triangles.h"
 
 #include <algorithm>
 

@@ -29,14 +29,14 @@
 //     +   closure: (U,H) until H is stable                       PairRule (L7)
 //         free: Vv is released
 //     +     Vv is what is not known to be clean                  ReleaseRule (L8)
-#include "detector/step.h"
+#include "detector/step/step.h"
 
 #include <algorithm>
 
-#include "detector/state/clean_triangles.h"
-#include "detector/step_input.h"
-#include "detector/step_outcome.h"
-#include "detector/stopwatch.h"
+#include "detector/search/stopwatch.h"
+#include "detector/step/clean_triangles.h"
+#include "detector/step/step_input.h"
+#include "detector/step/step_outcome.h"
 
 namespace assay::detector {
 namespace {

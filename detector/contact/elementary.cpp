@@ -1,4 +1,4 @@
-#include "detector/contact/elementary_test.h"
+#include "detector/contact/elementary.h"
 
 #include "detector/contact/contact_bounded.h"
 #include "detector/contact/contact_exact.h"

@@ -7,9 +7,9 @@
 
 #include <memory>
 
-#include "detector/arithmetic.h"
 #include "detector/contact/four_points.h"
-#include "detector/exact/orientation.h"
+#include "detector/geometry/orientation.h"
+#include "detector/mesh/arithmetic.h"
 
 namespace assay::detector {
 

@@ -9,7 +9,7 @@
 // way to the same: where all of S is positive with winding number 1, S is embedded with one layer.
 #pragma once
 
-#include "detector/step_work.h"
+#include "detector/step/step_work.h"
 
 namespace assay::detector {
 

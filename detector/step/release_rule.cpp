@@ -1,12 +1,12 @@
-#include "detector/state/release_rule.h"
+#include "detector/step/release_rule.h"
 
 #include <algorithm>
 
+#include "detector/geometry/winding.h"
 #include "detector/search/feature_contacts.h"
 #include "detector/state/layers.h"
-#include "detector/state/static_touches.h"
-#include "detector/state/winding.h"
-#include "detector/view/view_test.h"
+#include "detector/step/static_touches.h"
+#include "detector/view/view_signs.h"
 
 namespace assay::detector {
 namespace {

@@ -1,4 +1,4 @@
-#include "detector/view/view_test.h"
+#include "detector/view/view_signs.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "detector/boundary/face_pair_test.h"
+#include "detector/boundary/face_pair.h"
 
 #include "detector/contact/contact_filter.h"
 

@@ -11,8 +11,8 @@
 
 #include <optional>
 
-#include "detector/step_work.h"
-#include "detector/view/view_choice.h"
+#include "detector/state/view_choice.h"
+#include "detector/step/step_work.h"
 
 namespace assay::detector {
 

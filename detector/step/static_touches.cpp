@@ -1,4 +1,4 @@
-#include "detector/state/static_touches.h"
+#include "detector/step/static_touches.h"
 
 #include "detector/boundary/hole_tree.h"
 

@@ -1,8 +1,8 @@
 // One step through the stages of the detector.
 #pragma once
 
-#include "detector/stages.h"
-#include "detector/view_auto.h"
+#include "detector/step/stages.h"
+#include "detector/step/view_auto.h"
 
 namespace assay::detector {
 
