@@ -7,7 +7,7 @@
 
 #include "corpus/case_names.h"
 #include "detector/options.h"
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 #include "properties/claims.h"
 
 namespace assay::properties {

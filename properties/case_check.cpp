@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "oracle/view_sign.h"
+#include "oracle/view/view_sign.h"
 #include "properties/worker/case_player.h"
 
 namespace assay::properties {

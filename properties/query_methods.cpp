@@ -4,7 +4,7 @@
 
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
-#include "oracle/referee.h"
+#include "oracle/referee/referee.h"
 
 namespace assay::properties {
 namespace {

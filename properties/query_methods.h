@@ -6,7 +6,7 @@
 #include <span>
 
 #include "detector/contact/four_points.h"
-#include "oracle/contact.h"
+#include "oracle/query/contact.h"
 
 namespace assay::properties {
 

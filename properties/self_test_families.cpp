@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "detector/detector.h"
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 #include "properties/agreement.h"
 #include "properties/random.h"
 #include "properties/rung_cases.h"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "detector/detector.h"
-#include "oracle/candidates.h"
-#include "oracle/view_sign.h"
-#include "oracle/winding.h"
+#include "oracle/instant/winding.h"
+#include "oracle/view/candidates.h"
+#include "oracle/view/view_sign.h"
 #include "properties/agreement.h"
 
 namespace assay::properties {

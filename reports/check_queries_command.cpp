@@ -9,7 +9,7 @@
 #include "corpus/query_csv.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
-#include "oracle/referee.h"
+#include "oracle/referee/referee.h"
 #include "properties/query_methods.h"
 #include "properties/words.h"
 #include "reports/bench/estimate.h"

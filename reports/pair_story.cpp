@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "oracle/candidates.h"
-#include "oracle/layers.h"
-#include "oracle/touched_by_ghosts.h"
+#include "oracle/instant/layers.h"
+#include "oracle/view/candidates.h"
+#include "oracle/view/touched_by_ghosts.h"
 #include "properties/agreement.h"
 #include "properties/numbering.h"
 #include "properties/worker/case_player.h"

@@ -6,7 +6,7 @@
 
 #include "corpus/case_file.h"
 #include "detector/options.h"
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 
 namespace assay::reports {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "oracle/second_opinion.h"
+#include "oracle/referee/second_opinion.h"
 
 namespace assay::reports {
 

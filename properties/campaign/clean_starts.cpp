@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "oracle/layers.h"
-#include "oracle/loops.h"
+#include "oracle/instant/layers.h"
+#include "oracle/mesh/loops.h"
 
 namespace assay::properties {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 
 namespace assay::properties {
 namespace {

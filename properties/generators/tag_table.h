@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "detector/mesh/step_types.h"
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 
 namespace assay::properties {
 

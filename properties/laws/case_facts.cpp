@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
-#include "oracle/touched_by_ghosts.h"
-#include "oracle/view_sign.h"
-#include "oracle/winding.h"
+#include "oracle/instant/winding.h"
+#include "oracle/view/touched_by_ghosts.h"
+#include "oracle/view/view_sign.h"
 
 namespace assay::properties {
 

@@ -10,9 +10,9 @@
 
 #include "corpus/case_file.h"
 #include "detector/detector.h"
-#include "oracle/candidates.h"
-#include "oracle/layers.h"
-#include "oracle/step.h"
+#include "oracle/instant/layers.h"
+#include "oracle/mesh/step.h"
+#include "oracle/view/candidates.h"
 #include "properties/laws/view_range.h"
 #include "properties/numbering.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "oracle/view_sign.h"
+#include "oracle/view/view_sign.h"
 #include "properties/laws/carried_state.h"
 #include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"

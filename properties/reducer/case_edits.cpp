@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "oracle/loops.h"
+#include "oracle/mesh/loops.h"
 #include "properties/reducer/renewed_ghosts.h"
 
 namespace assay::properties {

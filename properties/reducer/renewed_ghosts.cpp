@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "oracle/loops.h"
+#include "oracle/mesh/loops.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {

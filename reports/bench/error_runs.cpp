@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 #include "properties/agreement.h"
 #include "properties/worker/case_player.h"
 #include "reports/bench/interleave.h"

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 #include "properties/campaign/trial.h"
 #include "properties/generators/families.h"
 #include "properties/query_methods.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "oracle/view_sign.h"
+#include "oracle/view/view_sign.h"
 #include "properties/case_check.h"
 #include "properties/worker/case_player.h"
 #include "reports/bench/judged_step.h"

@@ -7,7 +7,7 @@
 
 #include "corpus/case_file.h"
 #include "detector/detector.h"
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 
 namespace assay::reports {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "corpus/scenes.h"
-#include "oracle/view_sign.h"
+#include "oracle/view/view_sign.h"
 #include "properties/case_options.h"
 #include "properties/random.h"
 #include "reports/bench/timed_step.h"

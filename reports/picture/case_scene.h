@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "detector/boundary/surface.h"
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 #include "properties/campaign/trial.h"
 #include "properties/worker/worker_process.h"
 

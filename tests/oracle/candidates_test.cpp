@@ -1,4 +1,4 @@
-#include "oracle/candidates.h"
+#include "oracle/view/candidates.h"
 
 #include <gtest/gtest.h>
 

@@ -3,11 +3,11 @@
 
 #include <cstdio>
 
-#include "oracle/algebraic_rung.h"
-#include "oracle/axis_rung.h"
-#include "oracle/contact.h"
-#include "oracle/interval_rung.h"
-#include "oracle/simple_zero.h"
+#include "oracle/query/algebraic_rung.h"
+#include "oracle/query/axis_rung.h"
+#include "oracle/query/contact.h"
+#include "oracle/query/interval_rung.h"
+#include "oracle/query/simple_zero.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

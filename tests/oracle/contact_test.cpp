@@ -1,5 +1,5 @@
 // Named queries: which answer, which first time, and which rung decides.
-#include "oracle/contact.h"
+#include "oracle/query/contact.h"
 
 #include <gtest/gtest.h>
 

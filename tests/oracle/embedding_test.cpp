@@ -1,4 +1,4 @@
-#include "oracle/embedding.h"
+#include "oracle/instant/embedding.h"
 
 #include <gtest/gtest.h>
 

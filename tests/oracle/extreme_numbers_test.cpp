@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "oracle/contact.h"
 #include "oracle/processor_state.h"
+#include "oracle/query/contact.h"
 #include "tests/oracle/random_points.h"
 
 #if defined(__SSE2__)

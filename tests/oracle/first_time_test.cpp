@@ -1,11 +1,11 @@
-#include "oracle/first_time.h"
+#include "oracle/query/first_time.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "oracle/contact.h"
+#include "oracle/query/contact.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

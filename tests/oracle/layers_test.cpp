@@ -1,11 +1,11 @@
-#include "oracle/layers.h"
+#include "oracle/instant/layers.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "oracle/instant_contacts.h"
-#include "oracle/loops.h"
+#include "oracle/instant/instant_contacts.h"
+#include "oracle/mesh/loops.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

@@ -1,4 +1,4 @@
-#include "oracle/loops.h"
+#include "oracle/mesh/loops.h"
 
 #include <gtest/gtest.h>
 

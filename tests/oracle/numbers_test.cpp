@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracle/algebraic_times.h"
-#include "oracle/box_tree.h"
-#include "oracle/integer_scale.h"
-#include "oracle/simple_zero.h"
-#include "oracle/time_enclosure.h"
+#include "oracle/mesh/box_tree.h"
+#include "oracle/query/algebraic_times.h"
+#include "oracle/query/integer_scale.h"
+#include "oracle/query/simple_zero.h"
+#include "oracle/query/time_enclosure.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "oracle/contact.h"
+#include "oracle/query/contact.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

@@ -1,5 +1,5 @@
 // The second referee: named cases, agreement with contact.h, and how much it leaves open.
-#include "oracle/referee.h"
+#include "oracle/referee/referee.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "oracle/contact.h"
-#include "oracle/existence.h"
-#include "oracle/separation.h"
+#include "oracle/query/contact.h"
+#include "oracle/referee/existence.h"
+#include "oracle/referee/separation.h"
 #include "tests/oracle/query_kinds.h"
 
 namespace assay::oracle {

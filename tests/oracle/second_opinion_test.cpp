@@ -1,5 +1,5 @@
 // The second opinion: no contradiction where the judgement is right, one where it is not.
-#include "oracle/second_opinion.h"
+#include "oracle/referee/second_opinion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Triangles at rest at rational times: what they share and what they have become.
-#include "oracle/static_check.h"
+#include "oracle/referee/static_check.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

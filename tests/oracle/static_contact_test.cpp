@@ -1,12 +1,12 @@
-#include "oracle/static_contact.h"
+#include "oracle/instant/static_contact.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "oracle/contact.h"
-#include "oracle/instant_contacts.h"
-#include "oracle/step.h"
+#include "oracle/instant/instant_contacts.h"
+#include "oracle/mesh/step.h"
+#include "oracle/query/contact.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

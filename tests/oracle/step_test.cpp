@@ -1,4 +1,4 @@
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 
 #include <gtest/gtest.h>
 

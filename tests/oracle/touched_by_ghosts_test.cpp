@@ -1,11 +1,11 @@
-#include "oracle/touched_by_ghosts.h"
+#include "oracle/view/touched_by_ghosts.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "oracle/loops.h"
-#include "oracle/step.h"
+#include "oracle/mesh/loops.h"
+#include "oracle/mesh/step.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

@@ -1,11 +1,11 @@
 // Exact view signs; L1 and L2 are the laws of view points and view lines.
-#include "oracle/view_sign.h"
+#include "oracle/view/view_sign.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "oracle/exact_view.h"
+#include "oracle/view/exact_view.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

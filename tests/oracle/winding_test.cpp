@@ -1,8 +1,8 @@
-#include "oracle/winding.h"
+#include "oracle/instant/winding.h"
 
 #include <gtest/gtest.h>
 
-#include "oracle/loops.h"
+#include "oracle/mesh/loops.h"
 #include "tests/oracle/random_points.h"
 #include "tests/oracle/small_meshes.h"
 

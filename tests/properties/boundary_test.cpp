@@ -6,9 +6,9 @@
 
 #include "corpus/case_file.h"
 #include "detector/detector.h"
-#include "oracle/layers.h"
-#include "oracle/loops.h"
-#include "oracle/touched_by_ghosts.h"
+#include "oracle/instant/layers.h"
+#include "oracle/mesh/loops.h"
+#include "oracle/view/touched_by_ghosts.h"
 #include "properties/small_steps.h"
 
 namespace assay::properties {

@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include "oracle/embedding.h"
-#include "oracle/layers.h"
-#include "oracle/loops.h"
+#include "oracle/instant/embedding.h"
+#include "oracle/instant/layers.h"
+#include "oracle/mesh/loops.h"
 #include "properties/faults/fault_run.h"
 #include "tests/properties/curated_context.h"
 

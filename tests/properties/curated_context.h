@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/case_file.h"
-#include "oracle/candidates.h"
-#include "oracle/contact.h"
-#include "oracle/mesh_features.h"
-#include "oracle/step.h"
-#include "oracle/touched_by_ghosts.h"
-#include "oracle/view_sign.h"
+#include "oracle/mesh/mesh_features.h"
+#include "oracle/mesh/step.h"
+#include "oracle/query/contact.h"
+#include "oracle/view/candidates.h"
+#include "oracle/view/touched_by_ghosts.h"
+#include "oracle/view/view_sign.h"
 
 namespace assay::properties::test {
 

@@ -9,11 +9,11 @@
 #include <limits>
 #include <string>
 
-#include "oracle/layers.h"
-#include "oracle/loops.h"
-#include "oracle/step.h"
-#include "oracle/touched_by_ghosts.h"
-#include "oracle/view_sign.h"
+#include "oracle/instant/layers.h"
+#include "oracle/mesh/loops.h"
+#include "oracle/mesh/step.h"
+#include "oracle/view/touched_by_ghosts.h"
+#include "oracle/view/view_sign.h"
 #include "properties/generators/families.h"
 #include "properties/generators/points.h"
 #include "properties/generators/tag_table.h"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "detector/mesh/mesh_checks.h"
-#include "oracle/loops.h"
+#include "oracle/mesh/loops.h"
 #include "properties/generators/families.h"
 #include "properties/generators/motions.h"
 

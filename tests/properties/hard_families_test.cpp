@@ -6,8 +6,8 @@
 
 #include <set>
 
-#include "oracle/step.h"
-#include "oracle/view_sign.h"
+#include "oracle/mesh/step.h"
+#include "oracle/view/view_sign.h"
 #include "properties/agreement.h"
 
 namespace assay::properties {

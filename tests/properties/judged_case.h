@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 #include "properties/generators/families.h"
 #include "properties/laws/case_facts.h"
 #include "properties/worker/case_player.h"

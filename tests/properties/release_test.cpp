@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "oracle/loops.h"
+#include "oracle/mesh/loops.h"
 #include "properties/laws/carried_state.h"
 #include "properties/random.h"
 #include "properties/small_steps.h"

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "oracle/step.h"
+#include "oracle/mesh/step.h"
 #include "properties/case_check.h"
 #include "properties/generators/families.h"
 #include "properties/generators/tag_table.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "corpus/case_file.h"
-#include "oracle/loops.h"
+#include "oracle/mesh/loops.h"
 
 namespace assay::properties::toys {
 

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "detector/detector.h"
-#include "oracle/view_sign.h"
+#include "oracle/view/view_sign.h"
 #include "properties/agreement.h"
 
 namespace assay::properties {

@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "detector/contact/elementary.h"
-#include "oracle/contact.h"
-#include "oracle/referee.h"
+#include "oracle/query/contact.h"
+#include "oracle/referee/referee.h"
 #include "tests/oracle/query_kinds.h"
 
 namespace assay::tests {

@@ -2,12 +2,12 @@
 
 #include <stdexcept>
 
-#include "oracle/candidates.h"
-#include "oracle/instant.h"
-#include "oracle/layers.h"
-#include "oracle/loops.h"
-#include "oracle/step.h"
-#include "oracle/touched_by_ghosts.h"
+#include "oracle/instant/instant.h"
+#include "oracle/instant/layers.h"
+#include "oracle/mesh/loops.h"
+#include "oracle/mesh/step.h"
+#include "oracle/view/candidates.h"
+#include "oracle/view/touched_by_ghosts.h"
 #include "tests/properties/toy_step.h"
 
 namespace assay::properties::toys {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "oracle/instant.h"
-#include "oracle/layers.h"
-#include "oracle/view_sign.h"
+#include "oracle/instant/instant.h"
+#include "oracle/instant/layers.h"
+#include "oracle/view/view_sign.h"
 #include "properties/agreement.h"
 
 namespace assay::properties::toys {

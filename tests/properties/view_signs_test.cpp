@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "oracle/view_sign.h"
+#include "oracle/view/view_sign.h"
 #include "tests/detector/triangle_batches.h"
 
 namespace assay::properties {

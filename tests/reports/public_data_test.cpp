@@ -7,7 +7,7 @@
 #include "corpus/query_csv.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
-#include "oracle/contact.h"
+#include "oracle/query/contact.h"
 #include "tests/reports/program.h"
 
 namespace assay::tests {

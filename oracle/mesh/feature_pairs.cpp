@@ -1,0 +1,85 @@
+#include "oracle/mesh/feature_pairs.h"
+
+#include <algorithm>
+
+namespace assay::oracle {
+
+namespace {
+
+constexpr std::size_t kChunk = 128;  // features a thread takes at once
+
+template <class BoxOf, class Accept>
+void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tree,
+                      const Workers& workers, const Accept& accept, const VisitFeatures& visit) {
+  StopGate never({});
+  StopGate& gate = workers.gate ? *workers.gate : never;
+  std::vector<std::vector<std::int32_t>> met(std::max(workers.jobs, 1));
+  for_each_chunk(items, kChunk, workers.jobs, gate,
+                 [&](std::size_t begin, std::size_t end, int worker) {
+                   for (std::size_t item = begin; item < end; ++item) {
+                     tree.meeting(box_of(item), met[worker]);
+                     for (const std::int32_t other : met[worker]) {
+                       if (gate.stopped()) return;
+                       if (accept(item, other)) visit(item, other, worker);
+                     }
+                   }
+                 });
+}
+
+}  // namespace
+
+FeatureIndex::FeatureIndex(const detector::TrianglesView& triangles, BoxOfVertices box_of)
+    : features_(mesh_features(triangles)), box_of_(std::move(box_of)) {}
+
+template <class Features>
+std::unique_ptr<BoxTree> FeatureIndex::tree_of(const Features& features) const {
+  std::vector<Box> boxes;
+  boxes.reserve(features.size());
+  for (const auto& f : features) boxes.push_back(box_of_(f));
+  return std::make_unique<BoxTree>(boxes);
+}
+
+const BoxTree& FeatureIndex::faces() const {
+  if (!faces_) faces_ = tree_of(features_.faces);
+  return *faces_;
+}
+
+const BoxTree& FeatureIndex::edges() const {
+  if (!edges_) edges_ = tree_of(features_.edges);
+  return *edges_;
+}
+
+void for_each_vertex_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
+                          const VisitFeatures& visit) {
+  const auto& vertices = a.features().vertices;
+  const auto& faces = b.features().faces;
+  for_each_meeting(
+      vertices.size(), [&](std::size_t i) { return a.box_of(std::array{vertices[i]}); }, b.faces(),
+      workers, [&](std::size_t i, std::int32_t f) { return !holds(faces[f], vertices[i]); }, visit);
+}
+
+void for_each_edge_edge(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
+                        const VisitFeatures& visit) {
+  const auto &of_a = a.features().edges, &of_b = b.features().edges;
+  const bool same = &a == &b;
+  for_each_meeting(
+      of_a.size(), [&](std::size_t i) { return a.box_of(of_a[i]); }, b.edges(), workers,
+      [&](std::size_t i, std::int32_t j) {
+        return !(same && i >= static_cast<std::size_t>(j)) && !share_vertex(of_a[i], of_b[j]);
+      },
+      visit);
+}
+
+void for_each_edge_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
+                        const VisitFeatures& visit) {
+  const auto& edges = a.features().edges;
+  const auto& faces = b.features().faces;
+  for_each_meeting(
+      edges.size(), [&](std::size_t i) { return a.box_of(edges[i]); }, b.faces(), workers,
+      [&](std::size_t i, std::int32_t f) {
+        return !holds(faces[f], edges[i][0]) && !holds(faces[f], edges[i][1]);
+      },
+      visit);
+}
+
+}  // namespace assay::oracle

@@ -1,0 +1,190 @@
+#include "oracle/mesh/step.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "oracle/mesh/box_tree.h"
+#include "oracle/mesh/mesh_features.h"
+#include "oracle/mesh/pair_store.h"
+#include "oracle/parallel_chunks.h"
+#include "oracle/processor_state.h"
+
+namespace assay::oracle {
+
+namespace {
+
+using detector::Feature;
+using detector::FeatureKind;
+
+constexpr std::size_t kChunk = 128;  // features a thread takes at once
+
+// What one thread has found. Candidates are judged as they are met and never stored.
+struct Worker {
+  PairStore pairs;
+  RungCounts rungs;
+  std::uint64_t candidates = 0;
+  std::vector<std::int32_t> met;
+};
+
+class StepJudge {
+ public:
+  StepJudge(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+            const detector::TrianglesView& triangles, const JudgeOptions& options)
+      : x_t0_(x_t0),
+        x_t1_(x_t1),
+        features_(mesh_features(triangles)),
+        jobs_(std::max(options.jobs, 1)),
+        gate_(options.stop),
+        workers_(jobs_) {}
+
+  StepJudgement run() {
+    judge_same_vertices();
+    judge_vertices_and_faces();
+    judge_edges();
+    judge_piercing();
+    return collect();
+  }
+
+ private:
+  using Judge = void (StepJudge::*)(std::size_t item, std::int32_t other, Worker& worker);
+
+  // Boxes over the step, or at t=0 alone when x_end is x_t0.
+  template <class Features>
+  std::vector<Box> boxes(const Features& features, const detector::PositionsView& x_end) const {
+    std::vector<Box> result;
+    result.reserve(features.size());
+    for (const auto& f : features) result.push_back(swept_box(x_t0_, x_end, f));
+    return result;
+  }
+
+  // Judges each item against every entry of the tree that its box meets.
+  template <class BoxOf>
+  void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tree, Judge judge) {
+    for_each_chunk(items, kChunk, jobs_, gate_, [&](std::size_t begin, std::size_t end, int w) {
+      Worker& worker = workers_[w];
+      for (std::size_t item = begin; item < end; ++item) {
+        tree.meeting(box_of(item), worker.met);
+        for (const std::int32_t other : worker.met) {
+          if (gate_.stopped()) return;
+          (this->*judge)(item, other, worker);
+        }
+      }
+    });
+  }
+
+  void judge_same_vertices() {
+    for (const auto& [a, b] : same_vertices_pairs(features_.faces)) {
+      const Face& f = features_.faces[a];
+      const Feature feature{FeatureKind::same_vertices, {f[0], f[1], f[2], -1, -1}};
+      workers_[0].pairs.add(a, b, {0, 0}, feature);
+    }
+  }
+
+  void judge_vertices_and_faces() {
+    if (gate_.stopped()) return;
+    const BoxTree faces(boxes(features_.faces, x_t1_));
+    auto box_of = [&](std::size_t i) {
+      return swept_box(x_t0_, x_t1_, std::array{features_.vertices[i]});
+    };
+    for_each_meeting(features_.vertices.size(), box_of, faces, &StepJudge::judge_vertex_face);
+  }
+
+  void judge_edges() {
+    if (gate_.stopped()) return;
+    const BoxTree edges(boxes(features_.edges, x_t1_));
+    auto box_of = [&](std::size_t i) { return swept_box(x_t0_, x_t1_, features_.edges[i]); };
+    for_each_meeting(features_.edges.size(), box_of, edges, &StepJudge::judge_edge_edge);
+  }
+
+  void judge_piercing() {
+    if (gate_.stopped()) return;
+    const BoxTree faces(boxes(features_.faces, x_t0_));
+    auto box_of = [&](std::size_t i) { return swept_box(x_t0_, x_t0_, features_.edges[i]); };
+    for_each_meeting(features_.edges.size(), box_of, faces, &StepJudge::judge_edge_face_at_start);
+  }
+
+  detector::MovingPoint path(std::int32_t vertex) const {
+    return detector::moving_point(x_t0_, x_t1_, vertex);
+  }
+
+  void judge_vertex_face(std::size_t item, std::int32_t face, Worker& worker) {
+    const std::int32_t v = features_.vertices[item];
+    const Face& f = features_.faces[face];
+    if (holds(f, v)) return;
+    ++worker.candidates;
+    const ContactAnswer answer = vertex_face_contact(
+        {path(v), {path(f[0]), path(f[1]), path(f[2])}}, detector::Want::first_time);
+    worker.rungs.add(answer.rung);
+    if (!answer.contact) return;
+    const Feature feature{FeatureKind::vertex_face, {v, f[0], f[1], f[2], -1}};
+    for (const std::int32_t t : features_.triangles_of_vertex.of(item)) {
+      worker.pairs.add(t, face, answer.first, feature);
+    }
+  }
+
+  void judge_edge_edge(std::size_t item, std::int32_t other, Worker& worker) {
+    const Edge &a = features_.edges[item], &b = features_.edges[other];
+    if (!(a < b) || share_vertex(a, b)) return;
+    ++worker.candidates;
+    const ContactAnswer answer = edge_edge_contact(
+        {{path(a[0]), path(a[1])}, {path(b[0]), path(b[1])}}, detector::Want::first_time);
+    worker.rungs.add(answer.rung);
+    if (!answer.contact) return;
+    const Feature feature{FeatureKind::edge_edge, {a[0], a[1], b[0], b[1], -1}};
+    for (const std::int32_t s : features_.triangles_of_edge.of(item)) {
+      for (const std::int32_t t : features_.triangles_of_edge.of(other)) {
+        worker.pairs.add(s, t, answer.first, feature);
+      }
+    }
+  }
+
+  void judge_edge_face_at_start(std::size_t item, std::int32_t face, Worker& worker) {
+    const Edge& e = features_.edges[item];
+    const Face& f = features_.faces[face];
+    if (holds(f, e[0]) || holds(f, e[1])) return;
+    auto at = [&](std::int32_t vertex) { return detector::point_of(x_t0_, vertex); };
+    if (!segment_pierces_triangle(at(e[0]), at(e[1]), {at(f[0]), at(f[1]), at(f[2])})) return;
+    const Feature feature{FeatureKind::piercing, {e[0], e[1], f[0], f[1], f[2]}};
+    for (const std::int32_t t : features_.triangles_of_edge.of(item)) {
+      worker.pairs.add(t, face, {0, 0}, feature);
+    }
+  }
+
+  StepJudgement collect() {
+    StepJudgement result;
+    for (std::size_t i = 0; i < workers_.size(); ++i) {
+      if (i > 0) workers_[0].pairs.merge(workers_[i].pairs);
+      result.rungs += workers_[i].rungs;
+      result.feature_candidates += workers_[i].candidates;
+    }
+    result.pairs = workers_[0].pairs.take();
+    if (gate_.was_stopped()) return result;
+    result.complete = true;
+    result.answer = result.pairs.empty() ? detector::Answer::free : detector::Answer::collision;
+    if (result.pairs.empty()) return result;
+    result.first = std::min_element(result.pairs.begin(), result.pairs.end(),
+                                    [](const auto& x, const auto& y) { return x.time < y.time; })
+                       ->time;
+    return result;
+  }
+
+  const detector::PositionsView& x_t0_;
+  const detector::PositionsView& x_t1_;
+  const MeshFeatures features_;
+  const int jobs_;
+  StopGate gate_;
+  std::vector<Worker> workers_;
+};
+
+}  // namespace
+
+StepJudgement judge_step(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+                         const detector::TrianglesView& triangles, const JudgeOptions& options) {
+  require_exact_processor_state();
+  assert(x_t0.rows() == x_t1.rows());
+  assert(triangles.size() == 0 ||
+         (triangles.minCoeff() >= 0 && triangles.maxCoeff() < x_t0.rows()));
+  return StepJudge(x_t0, x_t1, triangles, options).run();
+}
+
+}  // namespace assay::oracle

@@ -1,0 +1,62 @@
+#include "oracle/query/contact.h"
+
+#include "oracle/processor_state.h"
+#include "oracle/query/algebraic_rung.h"
+#include "oracle/query/axis_rung.h"
+#include "oracle/query/interval_rung.h"
+#include "oracle/query/simple_zero.h"
+
+namespace assay::oracle {
+
+namespace {
+
+ContactAnswer answer(const FourPoints& q, detector::Want want) {
+  require_exact_processor_state();
+  if (separated_by_axis(q)) return {false, {}, Rung::axis};
+
+  const IntervalVerdict quick = interval_verdict(q, want);
+  if (quick.verdict == Verdict::no_contact) return {false, {}, Rung::interval};
+  if (quick.verdict == Verdict::contact && want == detector::Want::yes_no) {
+    return {true, {}, Rung::interval};
+  }
+
+  ContactPolynomials polynomials(q);
+  if (quick.verdict == Verdict::contact) {
+    return {true, simple_zero_time(polynomials.coplanarity(), quick.s, quick.e), Rung::interval};
+  }
+  const AlgebraicVerdict full = algebraic_verdict(polynomials, want);
+  return {full.contact, full.first, Rung::algebraic};
+}
+
+}  // namespace
+
+void RungCounts::add(Rung rung) {
+  switch (rung) {
+    case Rung::axis:
+      ++axis;
+      return;
+    case Rung::interval:
+      ++interval;
+      return;
+    case Rung::algebraic:
+      ++algebraic;
+      return;
+  }
+}
+
+RungCounts& RungCounts::operator+=(const RungCounts& other) {
+  axis += other.axis;
+  interval += other.interval;
+  algebraic += other.algebraic;
+  return *this;
+}
+
+ContactAnswer vertex_face_contact(const detector::VertexFace& query, detector::Want want) {
+  return answer(four_points(query), want);
+}
+
+ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want want) {
+  return answer(four_points(query), want);
+}
+
+}  // namespace assay::oracle

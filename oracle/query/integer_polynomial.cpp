@@ -1,0 +1,92 @@
+#include "oracle/query/integer_polynomial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace assay::oracle {
+
+namespace {
+
+IntegerPolynomial trimmed(std::vector<Integer> c) {
+  while (!c.empty() && sgn(c.back()) == 0) c.pop_back();
+  return {std::move(c)};
+}
+
+}  // namespace
+
+IntegerPolynomial operator+(const IntegerPolynomial& a, const IntegerPolynomial& b) {
+  std::vector<Integer> c(std::max(a.c.size(), b.c.size()));
+  for (std::size_t i = 0; i < a.c.size(); ++i) c[i] = a.c[i];
+  for (std::size_t i = 0; i < b.c.size(); ++i) c[i] += b.c[i];
+  return trimmed(std::move(c));
+}
+
+IntegerPolynomial operator-(const IntegerPolynomial& a, const IntegerPolynomial& b) {
+  std::vector<Integer> c(std::max(a.c.size(), b.c.size()));
+  for (std::size_t i = 0; i < a.c.size(); ++i) c[i] = a.c[i];
+  for (std::size_t i = 0; i < b.c.size(); ++i) c[i] -= b.c[i];
+  return trimmed(std::move(c));
+}
+
+IntegerPolynomial operator-(const IntegerPolynomial& a) { return IntegerPolynomial{} - a; }
+
+IntegerPolynomial operator*(const IntegerPolynomial& a, const IntegerPolynomial& b) {
+  if (a.is_zero() || b.is_zero()) return {};
+  std::vector<Integer> c(a.c.size() + b.c.size() - 1);
+  for (std::size_t i = 0; i < a.c.size(); ++i) {
+    for (std::size_t j = 0; j < b.c.size(); ++j) {
+      mpz_addmul(c[i + j].get_mpz_t(), a.c[i].get_mpz_t(), b.c[j].get_mpz_t());
+    }
+  }
+  return trimmed(std::move(c));
+}
+
+IntegerPolynomial linear(const Integer& at_t0, const Integer& at_t1) {
+  return trimmed({at_t0, at_t1 - at_t0});
+}
+
+int sign_at(const IntegerPolynomial& p, double t) {
+  if (p.is_zero()) return 0;
+  if (t == 0) return sgn(p.c.front());
+  // t = m * 2^exponent with an odd integer m; Horner on 2^(-exponent * degree) p(t).
+  int exponent = 0;
+  const double mantissa = std::frexp(t, &exponent);
+  Integer m(std::ldexp(mantissa, std::numeric_limits<double>::digits));
+  exponent -= std::numeric_limits<double>::digits;
+  const auto zeros = mpz_scan1(m.get_mpz_t(), 0);
+  m >>= zeros;
+  exponent += static_cast<int>(zeros);
+
+  Integer value = p.c.back();
+  Integer term;
+  const auto step = static_cast<mp_bitcnt_t>(std::abs(exponent));
+  for (int i = p.degree() - 1, shift = 1; i >= 0; --i, ++shift) {
+    value *= m;
+    if (exponent >= 0) {
+      value <<= step;
+      value += p.c[i];
+    } else {
+      term = p.c[i] << (step * shift);
+      value += term;
+    }
+  }
+  return sgn(value);
+}
+
+bool surely_no_zero_in_unit(const IntegerPolynomial& p) {
+  if (p.is_zero()) return false;
+  // Scaled Bernstein coefficients over [0,1], b_k = sum over i <= k of binomial(n-i, k-i) c_i: the
+  // Taylor shift by 1 of the reversed polynomial, by running sums in place.
+  std::vector<Integer> b = p.c;
+  const int n = p.degree();
+  for (int round = 0; round < n; ++round) {
+    for (int k = 1; k <= n - round; ++k) b[k] += b[k - 1];
+  }
+  const int sign = sgn(b[0]);
+  return sign != 0 &&
+         std::all_of(b.begin(), b.end(), [&](const Integer& x) { return sgn(x) == sign; });
+}
+
+}  // namespace assay::oracle

@@ -1,0 +1,118 @@
+#include "oracle/referee/referee.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "oracle/processor_state.h"
+#include "oracle/referee/existence.h"
+#include "oracle/referee/separation.h"
+
+namespace assay::oracle {
+
+namespace {
+
+template <class Query>
+class Referee {
+ public:
+  Referee(const Query& query, const RefereeOptions& options)
+      : query_(query), options_(options), hull_(double_hull(query)) {}
+
+  RefereeVerdict run() {
+    const int deepest = std::clamp(options_.depth, 0, kMostDepth);
+    std::vector<std::int64_t> pieces = {0};  // piece k of depth d is [k/2^d, (k+1)/2^d]
+    std::uint64_t looked_at = 0;
+    // Breadth first: a contact is found while few pieces are left, whatever its time.
+    for (int depth = 0; depth <= deepest; ++depth) {
+      std::vector<std::int64_t> left;
+      for (const std::int64_t k : pieces) {
+        if (++looked_at > options_.max_boxes) return RefereeVerdict::open;
+        if (!separated(k, depth)) left.push_back(k);
+      }
+      if (left.empty()) return RefereeVerdict::no_contact;
+      if (contact_in_some(left, depth)) return RefereeVerdict::contact;
+      pieces.clear();
+      for (const std::int64_t k : left) {
+        pieces.push_back(2 * k);
+        pieces.push_back(2 * k + 1);
+      }
+    }
+    return RefereeVerdict::open;
+  }
+
+ private:
+  static constexpr int kMostDepth = 61;
+  static constexpr int kMostDepthOfDoubles = 53;  // the ends, and 1 minus them, are doubles
+  static constexpr std::size_t kWitnessesALevel = 4;
+
+  // Made when doubles do not suffice.
+  const IntegerHull& exact() {
+    if (!exact_) exact_ = integer_hull(query_);
+    return *exact_;
+  }
+
+  static double time(std::int64_t k, int depth) {
+    return std::ldexp(static_cast<double>(k), -depth);
+  }
+
+  bool separated(std::int64_t k, int depth) {
+    if (depth <= kMostDepthOfDoubles) {
+      const Separation quick = separated_in_double(hull_, time(k, depth), time(k + 1, depth));
+      if (quick != Separation::near) return quick == Separation::separated;
+    }
+    return separated_in_integers(exact(), k, depth);
+  }
+
+  bool contact_in_some(const std::vector<std::int64_t>& left, int depth) {
+    if (depth == 0 && contact_at({1, 1})) return true;
+    const std::size_t tries = std::min(left.size(), kWitnessesALevel);
+    for (std::size_t i = 0; i < tries; ++i) {
+      const std::int64_t k = left[i * left.size() / tries];
+      if (contact_at(simplest_fraction(k, depth))) return true;
+      if (crossing(guess_crossing(hull_, time(k, depth), time(k + 1, depth)))) return true;
+    }
+    return false;
+  }
+
+  bool contact_at(const Fraction& time) {
+    if (std::find(tried_.begin(), tried_.end(), time) != tried_.end()) return false;
+    tried_.push_back(time);
+    return contains_origin(exact().at(time.p, time.q));
+  }
+
+  bool crossing(const std::optional<Crossing>& guess) {
+    if (!guess) return false;
+    // From many pieces the same place is found.
+    constexpr double kSame = 0x1p-40;
+    for (const Crossing& c : refused_) {
+      if (c.base == guess->base && std::fabs(c.t - guess->t) < kSame &&
+          std::fabs(c.u - guess->u) < kSame && std::fabs(c.v - guess->v) < kSame) {
+        return false;
+      }
+    }
+    refused_.push_back(*guess);
+    return crossing_in_a_box(exact(), *guess);
+  }
+
+  const Query& query_;
+  const RefereeOptions options_;
+  const DoubleHull hull_;
+  std::optional<IntegerHull> exact_;
+  std::vector<Fraction> tried_;
+  std::vector<Crossing> refused_;
+};
+
+}  // namespace
+
+RefereeVerdict referee(const detector::VertexFace& query, const RefereeOptions& options) {
+  require_exact_processor_state();
+  return Referee(query, options).run();
+}
+
+RefereeVerdict referee(const detector::EdgeEdge& query, const RefereeOptions& options) {
+  require_exact_processor_state();
+  return Referee(query, options).run();
+}
+
+}  // namespace assay::oracle

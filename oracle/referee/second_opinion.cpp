@@ -1,0 +1,245 @@
+#include "oracle/referee/second_opinion.h"
+
+#include <algorithm>
+#include <cassert>
+#include <initializer_list>
+#include <tuple>
+
+#include "oracle/mesh/box_tree.h"
+#include "oracle/mesh/mesh_features.h"
+#include "oracle/parallel_chunks.h"
+#include "oracle/processor_state.h"
+
+namespace assay::oracle {
+
+namespace {
+
+using detector::Feature;
+using detector::FeatureKind;
+using detector::TrianglePair;
+
+constexpr std::size_t kChunk = 64;
+
+// Equal for equal indices in equal order, otherwise as good as random (splitmix64's mixing).
+double hash_to_unit(std::initializer_list<std::int32_t> indices) {
+  std::uint64_t h = indices.size();
+  for (const std::int32_t index : indices) {
+    h += 0x9e3779b97f4a7c15U + static_cast<std::uint64_t>(static_cast<std::uint32_t>(index));
+    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9U;
+    h = (h ^ (h >> 27)) * 0x94d049bb133111ebU;
+    h ^= h >> 31;
+  }
+  return static_cast<double>(h >> 11) * 0x1p-53;
+}
+
+auto order_of(const Contradiction& c) {
+  const double time = std::holds_alternative<double>(c.time)
+                          ? std::get<double>(c.time)
+                          : static_cast<double>(std::get<RationalTime>(c.time).numerator) /
+                                static_cast<double>(std::get<RationalTime>(c.time).denominator);
+  return std::tuple(c.kind, c.feature.kind, c.feature.vertices, c.pair, time);
+}
+
+struct Worker {
+  SecondOpinion found;
+  std::vector<std::int32_t> met;
+};
+
+class Second {
+ public:
+  Second(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+         const detector::TrianglesView& triangles, const StepJudgement& judgement,
+         const SecondOpinionOptions& options)
+      : x_t0_(x_t0),
+        x_t1_(x_t1),
+        triangles_(triangles),
+        judgement_(judgement),
+        options_(options),
+        features_(mesh_features(triangles)),
+        gate_(options.stop),
+        workers_(std::max(options.jobs, 1)) {}
+
+  SecondOpinion run() {
+    if (!gate_.stopped()) {
+      const BoxTree faces(boxes(features_.faces));
+      for_each_meeting(features_.vertices.size(), faces, &Second::ask_vertex_face, [&](auto i) {
+        return swept_box(x_t0_, x_t1_, std::array{features_.vertices[i]});
+      });
+      if (judgement_.complete) {
+        for_each_meeting(features_.faces.size(), faces, &Second::check_pair,
+                         [&](auto i) { return swept_box(x_t0_, x_t1_, features_.faces[i]); });
+      }
+    }
+    if (!gate_.stopped()) {
+      const BoxTree edges(boxes(features_.edges));
+      for_each_meeting(features_.edges.size(), edges, &Second::ask_edge_edge,
+                       [&](auto i) { return swept_box(x_t0_, x_t1_, features_.edges[i]); });
+    }
+    return collect();
+  }
+
+ private:
+  using Ask = void (Second::*)(std::size_t item, std::int32_t other, Worker& worker) const;
+
+  template <class Features>
+  std::vector<Box> boxes(const Features& features) const {
+    std::vector<Box> result;
+    result.reserve(features.size());
+    for (const auto& f : features) result.push_back(swept_box(x_t0_, x_t1_, f));
+    return result;
+  }
+
+  template <class BoxOf>
+  void for_each_meeting(std::size_t items, const BoxTree& tree, Ask ask, const BoxOf& box_of) {
+    const int jobs = static_cast<int>(workers_.size());
+    for_each_chunk(items, kChunk, jobs, gate_, [&](std::size_t begin, std::size_t end, int w) {
+      Worker& worker = workers_[static_cast<std::size_t>(w)];
+      for (std::size_t item = begin; item < end; ++item) {
+        tree.meeting(box_of(item), worker.met);
+        for (const std::int32_t other : worker.met) {
+          if (gate_.stopped()) return;
+          (this->*ask)(item, other, worker);
+        }
+      }
+    });
+  }
+
+  bool chosen(std::initializer_list<std::int32_t> indices) const {
+    return hash_to_unit(indices) < options_.share;
+  }
+
+  detector::MovingPoint path(std::int32_t vertex) const {
+    return detector::moving_point(x_t0_, x_t1_, vertex);
+  }
+
+  void ask_vertex_face(std::size_t item, std::int32_t face, Worker& worker) const {
+    const std::int32_t v = features_.vertices[item];
+    const Face& f = features_.faces[static_cast<std::size_t>(face)];
+    if (holds(f, v) || !chosen({v, f[0], f[1], f[2]})) return;
+    const detector::VertexFace query = {path(v), {path(f[0]), path(f[1]), path(f[2])}};
+    const Feature feature{FeatureKind::vertex_face, {v, f[0], f[1], f[2], -1}};
+    const bool judged = vertex_face_contact(query, detector::Want::yes_no).contact;
+    if (!compare_query(feature, judged, referee(query, options_.referee), worker.found)) return;
+    for (const std::int32_t t : features_.triangles_of_vertex.of(item)) {
+      demand_pair(feature, t, face, worker.found);
+    }
+  }
+
+  void ask_edge_edge(std::size_t item, std::int32_t other, Worker& worker) const {
+    const Edge &a = features_.edges[item], &b = features_.edges[static_cast<std::size_t>(other)];
+    if (!(a < b) || share_vertex(a, b) || !chosen({a[0], a[1], b[0], b[1]})) return;
+    const detector::EdgeEdge query = {{path(a[0]), path(a[1])}, {path(b[0]), path(b[1])}};
+    const Feature feature{FeatureKind::edge_edge, {a[0], a[1], b[0], b[1], -1}};
+    const bool judged = edge_edge_contact(query, detector::Want::yes_no).contact;
+    if (!compare_query(feature, judged, referee(query, options_.referee), worker.found)) return;
+    for (const std::int32_t s : features_.triangles_of_edge.of(item)) {
+      for (const std::int32_t t : features_.triangles_of_edge.of(static_cast<std::size_t>(other))) {
+        demand_pair(feature, s, t, worker.found);
+      }
+    }
+  }
+
+  // Counts and compares; true when the referee has proved a contact.
+  static bool compare_query(const Feature& feature, bool judged, RefereeVerdict verdict,
+                            SecondOpinion& found) {
+    ++found.queries;
+    if (verdict == RefereeVerdict::open) {
+      ++found.open;
+      return false;
+    }
+    const bool contact = verdict == RefereeVerdict::contact;
+    ++(contact ? found.contact : found.no_contact);
+    if (contact != judged) {
+      found.contradictions.push_back(
+          {ContradictionKind::query, feature, {-1, -1}, {}, judged, contact});
+    }
+    return contact;
+  }
+
+  const detector::PairContact* judged_pair(TrianglePair pair) const {
+    const auto at = std::lower_bound(judgement_.pairs.begin(), judgement_.pairs.end(), pair,
+                                     [](const auto& contact, auto p) { return contact.pair < p; });
+    return at != judgement_.pairs.end() && at->pair == pair ? &*at : nullptr;
+  }
+
+  void demand_pair(const Feature& feature, std::int32_t s, std::int32_t t,
+                   SecondOpinion& found) const {
+    const TrianglePair pair{std::min(s, t), std::max(s, t)};
+    if (!judgement_.complete || judged_pair(pair)) return;
+    found.contradictions.push_back(
+        {ContradictionKind::missing_pair, feature, pair, {}, false, true});
+  }
+
+  void check_pair(std::size_t item, std::int32_t other, Worker& worker) const {
+    const TrianglePair pair{static_cast<std::int32_t>(item), other};
+    if (!(pair.a < pair.b) || !chosen({pair.a, pair.b})) return;
+    const detector::PairContact* judged = judged_pair(pair);
+    for (const RationalTime& time : {RationalTime{0, 1}, {1, 3}, {1, 2}, {1, 1}}) {
+      check_pair_at(pair, judged, time, worker.found);
+    }
+    if (judged && judged->time.lo == judged->time.hi) {
+      check_pair_at(pair, judged, judged->time.hi, worker.found);
+    }
+  }
+
+  void check_pair_at(TrianglePair pair, const detector::PairContact* judged, const StaticTime& time,
+                     SecondOpinion& found) const {
+    ++found.static_checks;
+    const bool met = triangles_meet(x_t0_, x_t1_, triangles_, pair, time);
+    auto report = [&](ContradictionKind kind, bool by_judgement) {
+      found.contradictions.push_back({kind, {}, pair, time, by_judgement, met});
+    };
+    if (!judged) {
+      if (met) report(ContradictionKind::static_pair, false);
+      return;
+    }
+    const detector::TimeEnclosure& first = judged->time;
+    const bool is_double = first.lo == first.hi;
+    const int side = compare(time, first.lo);  // the first time is lo, or above it
+    if (met && (side < 0 || (side == 0 && !is_double))) {
+      report(ContradictionKind::static_late, false);
+    }
+    if (!met && side == 0 && is_double) report(ContradictionKind::static_apart, true);
+  }
+
+  SecondOpinion collect() {
+    SecondOpinion all;
+    for (const Worker& worker : workers_) {
+      const SecondOpinion& part = worker.found;
+      all.queries += part.queries;
+      all.contact += part.contact;
+      all.no_contact += part.no_contact;
+      all.open += part.open;
+      all.static_checks += part.static_checks;
+      all.contradictions.insert(all.contradictions.end(), part.contradictions.begin(),
+                                part.contradictions.end());
+    }
+    std::sort(all.contradictions.begin(), all.contradictions.end(),
+              [](const auto& x, const auto& y) { return order_of(x) < order_of(y); });
+    all.complete = !gate_.was_stopped();
+    return all;
+  }
+
+  const detector::PositionsView& x_t0_;
+  const detector::PositionsView& x_t1_;
+  const detector::TrianglesView& triangles_;
+  const StepJudgement& judgement_;
+  const SecondOpinionOptions& options_;
+  const MeshFeatures features_;
+  StopGate gate_;
+  std::vector<Worker> workers_;
+};
+
+}  // namespace
+
+SecondOpinion second_opinion(const detector::PositionsView& x_t0,
+                             const detector::PositionsView& x_t1,
+                             const detector::TrianglesView& triangles,
+                             const StepJudgement& judgement, const SecondOpinionOptions& options) {
+  require_exact_processor_state();
+  assert(x_t0.rows() == x_t1.rows());
+  assert(options.share > 0 && options.share <= 1);
+  return Second(x_t0, x_t1, triangles, judgement, options).run();
+}
+
+}  // namespace assay::oracle

@@ -1,0 +1,57 @@
+// Checks a step's judgement by two other methods, on a share of its questions.
+//
+// Feature queries whose swept boxes meet go to the referee (referee.h), whose verdict is compared
+// with contact.h and with the pair set; triangle pairs whose swept boxes meet are tested at rest
+// (static_check.h) at t = 0, 1/3, 1/2, 1, and at the pair's first time where that is a double. The
+// share is chosen by a hash of the mesh indices: the same for every run, number of jobs and order.
+// A contradiction means that one of the methods is wrong, and no verdict of the run can be trusted.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "oracle/mesh/step.h"
+#include "oracle/referee/referee.h"
+#include "oracle/referee/static_check.h"
+
+namespace assay::oracle {
+
+struct SecondOpinionOptions {
+  double share = 1;             // of queries and of triangle pairs, in (0,1]
+  int jobs = 1;                 // threads; the result does not depend on it
+  detector::StopFunction stop;  // asked from one thread at a time
+  RefereeOptions referee;
+};
+
+enum class ContradictionKind : std::uint8_t {
+  query,         // referee and contact.h answer one query differently
+  missing_pair,  // the referee proves a feature contact, the pair set lacks a triangle pair of it
+  static_pair,   // the triangles meet at `time`, the pair set lacks them
+  static_late,   // they meet at `time`, the pair set has a later first time
+  static_apart,  // they do not meet at `time`, which is their first time in the pair set
+};
+
+struct Contradiction {
+  ContradictionKind kind = ContradictionKind::query;
+  detector::Feature feature;            // of query and missing_pair
+  detector::TrianglePair pair{-1, -1};  // of all kinds but query
+  StaticTime time;                      // of the static kinds
+  bool judged = false, second = false;  // contact, as judged and by the second method
+};
+
+struct SecondOpinion {
+  bool complete = false;      // false: stopped; what was compared until then counts
+  std::uint64_t queries = 0;  // of which:
+  std::uint64_t contact = 0, no_contact = 0, open = 0;
+  std::uint64_t static_checks = 0;
+  std::vector<Contradiction> contradictions;  // in a fixed order
+};
+
+// REQUIRES what judge_step requires, and its judgement of this step. A judgement that was stopped
+// is compared by queries alone: its pair set and times are not final.
+SecondOpinion second_opinion(const detector::PositionsView& x_t0,
+                             const detector::PositionsView& x_t1,
+                             const detector::TrianglesView& triangles,
+                             const StepJudgement& judgement, const SecondOpinionOptions& options);
+
+}  // namespace assay::oracle

@@ -1,0 +1,183 @@
+#include "oracle/referee/static_check.h"
+
+#include <CGAL/Gmpq.h>
+#include <CGAL/Intersections_3/Point_3_Segment_3.h>
+#include <CGAL/Intersections_3/Point_3_Triangle_3.h>
+#include <CGAL/Intersections_3/Segment_3_Segment_3.h>
+#include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
+#include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "oracle/processor_state.h"
+
+namespace assay::oracle {
+
+namespace {
+
+using Rational = CGAL::Gmpq;
+using Kernel = CGAL::Simple_cartesian<Rational>;
+using Point = Kernel::Point_3;
+using Segment = Kernel::Segment_3;
+using Triangle = Kernel::Triangle_3;
+using Vertices = std::vector<std::int32_t>;  // distinct, ascending
+
+// What is left of a face: never degenerate, as do_intersect requires.
+using Shape = std::variant<Point, Segment, Triangle>;
+
+Rational value_of(const StaticTime& time) {
+  if (const auto* fraction = std::get_if<RationalTime>(&time)) {
+    assert(fraction->denominator > 0);
+    return Rational(static_cast<long>(fraction->numerator)) /
+           Rational(static_cast<long>(fraction->denominator));
+  }
+  return Rational(std::get<double>(time));
+}
+
+bool meet(const Point& a, const Point& b) { return a == b; }
+bool meet(const Point& a, const Segment& b) { return b.has_on(a); }
+bool meet(const Segment& a, const Point& b) { return a.has_on(b); }
+template <class A, class B>
+bool meet(const A& a, const B& b) {
+  return CGAL::do_intersect(a, b);
+}
+
+// The hull of points on one line: from the least to the greatest.
+Shape hull_on_a_line(const std::vector<Point>& points) {
+  const auto [least, greatest] = std::minmax_element(points.begin(), points.end());
+  if (*least == *greatest) return *least;
+  return Segment(*least, *greatest);
+}
+
+Shape hull(const std::vector<Point>& points) {
+  if (points.size() == 3 && !CGAL::collinear(points[0], points[1], points[2])) {
+    return Triangle(points[0], points[1], points[2]);
+  }
+  return hull_on_a_line(points);
+}
+
+// Positions as intervals of doubles: a quick, certain "apart" for most pairs, and nothing else.
+//
+// Bound, u = 2^-53: the time as a double is wrong by at most 3 u (numerator, denominator,
+// quotient), 1 - t by one more rounding, so the weights by 4 u and 3 u; two products and a sum add
+// 3 u more. In all below 11 u M, M the larger end of the coordinate; 16 u M, plus what underflow
+// may add.
+class QuickPositions {
+ public:
+  QuickPositions(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+                 const StaticTime& time)
+      : x_t0_(x_t0), x_t1_(x_t1) {
+    if (const auto* fraction = std::get_if<RationalTime>(&time)) {
+      t_ = static_cast<double>(fraction->numerator) / static_cast<double>(fraction->denominator);
+    } else {
+      t_ = std::get<double>(time);
+    }
+  }
+
+  bool surely_apart(const Vertices& a, const Vertices& b) const {
+    for (int k = 0; k < 3; ++k) {
+      const auto [a_least, a_greatest] = range(a, k);
+      const auto [b_least, b_greatest] = range(b, k);
+      if (a_greatest < b_least || b_greatest < a_least) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::pair<double, double> range(const Vertices& vertices, int k) const {
+    constexpr double kTooLarge = 0x1p1000;  // sums might overflow
+    double least = HUGE_VAL, greatest = -HUGE_VAL;
+    for (const std::int32_t v : vertices) {
+      const double begin = x_t0_(v, k), end = x_t1_(v, k);
+      const double size = std::max(std::fabs(begin), std::fabs(end));
+      if (size > kTooLarge) return {-HUGE_VAL, HUGE_VAL};
+      const double middle = begin * (1 - t_) + end * t_;
+      const double error = 16 * 0x1p-53 * size + 0x1p-1060;
+      least = std::min(least, middle - 2 * error);  // twice, for the rounding of the difference
+      greatest = std::max(greatest, middle + 2 * error);
+    }
+    return {least, greatest};
+  }
+
+  const detector::PositionsView& x_t0_;
+  const detector::PositionsView& x_t1_;
+  double t_ = 0;
+};
+
+Vertices vertices_of(const detector::TrianglesView& triangles, std::int32_t t) {
+  Vertices v = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};
+  std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+  return v;
+}
+
+bool same_corners(const detector::TrianglesView& triangles, detector::TrianglePair pair) {
+  const std::array<std::int32_t, 3> b = {triangles(pair.b, 0), triangles(pair.b, 1),
+                                         triangles(pair.b, 2)};
+  const std::array<std::int32_t, 3> a = {triangles(pair.a, 0), triangles(pair.a, 1),
+                                         triangles(pair.a, 2)};
+  return std::is_permutation(a.begin(), a.end(), b.begin());
+}
+
+Vertices without(const Vertices& from, const Vertices& taken) {
+  Vertices rest;
+  std::set_difference(from.begin(), from.end(), taken.begin(), taken.end(),
+                      std::back_inserter(rest));
+  return rest;
+}
+
+}  // namespace
+
+int compare(const StaticTime& time, double t) {
+  const Rational difference = value_of(time) - Rational(t);
+  return static_cast<int>(CGAL::sign(difference));
+}
+
+bool triangles_meet(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+                    const detector::TrianglesView& triangles, detector::TrianglePair pair,
+                    const StaticTime& time) {
+  require_exact_processor_state();
+  const Rational t = value_of(time);
+  auto position = [&](std::int32_t v) {
+    auto coordinate = [&](int k) {
+      const Rational begin(x_t0(v, k)), end(x_t1(v, k));
+      return Rational(begin + t * (end - begin));
+    };
+    return Point(coordinate(0), coordinate(1), coordinate(2));
+  };
+  auto shape = [&](const Vertices& vertices) {
+    std::vector<Point> points;
+    for (const std::int32_t v : vertices) points.push_back(position(v));
+    return hull(points);
+  };
+  const QuickPositions quick(x_t0, x_t1, time);
+  if (t == 0 && same_corners(triangles, pair)) return true;
+  const Vertices a = vertices_of(triangles, pair.a), b = vertices_of(triangles, pair.b);
+  Vertices common;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+
+  // Two faces without a common vertex: each common vertex goes to one of them at most. The largest
+  // such pairs give every common vertex to one or the other, and hold all smaller ones.
+  for (unsigned choice = 0; choice < (1U << common.size()); ++choice) {
+    Vertices to_a, to_b;
+    for (unsigned i = 0; i < common.size(); ++i) {
+      ((choice >> i & 1U) ? to_a : to_b).push_back(common[i]);
+    }
+    const Vertices face_a = without(a, to_b), face_b = without(b, to_a);
+    if (face_a.empty() || face_b.empty()) continue;
+    if (quick.surely_apart(face_a, face_b)) continue;
+    const bool met = std::visit([](const auto& f, const auto& g) { return meet(f, g); },
+                                shape(face_a), shape(face_b));
+    if (met) return true;
+  }
+  return false;
+}
+
+}  // namespace assay::oracle
