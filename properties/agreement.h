@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/case_names.h"
+#include "corpus/cases/case_names.h"
 #include "detector/options.h"
 #include "oracle/mesh/step.h"
 #include "properties/claims.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "detector/options.h"
 
 namespace assay::properties {

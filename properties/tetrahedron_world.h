@@ -16,7 +16,7 @@
 #include <span>
 #include <string>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "properties/tetrahedron_motions.h"
 
 namespace assay::properties {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "corpus/mesh_reader.h"
+#include "corpus/formats/mesh_reader.h"
 
 namespace assay::reports {
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "corpus/mesh_writer.h"
-#include "corpus/scenes.h"
+#include "corpus/formats/mesh_writer.h"
+#include "corpus/scenes/scenes.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "corpus/mesh_reader.h"
+#include "corpus/formats/mesh_reader.h"
 
 namespace assay::corpus {
 

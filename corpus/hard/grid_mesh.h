@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "corpus/hard/variation.h"
 
 namespace assay::corpus {

@@ -11,7 +11,7 @@
 #include <span>
 #include <string_view>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "corpus/hard/variation.h"
 
 namespace assay::corpus {

@@ -2,7 +2,7 @@
 // reaches through the hole: one connected, unclosed surface (its only boundary is the hole's rim).
 #pragma once
 
-#include "corpus/mesh_reader.h"
+#include "corpus/formats/mesh_reader.h"
 
 namespace assay::corpus {
 

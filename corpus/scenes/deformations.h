@@ -3,7 +3,7 @@
 // s in [0,1] is the scene's own time. `Extent` scales a field to the mesh that it is applied to.
 #pragma once
 
-#include "corpus/mesh_reader.h"
+#include "corpus/formats/mesh_reader.h"
 
 namespace assay::corpus {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "corpus/mesh_reader.h"
+#include "corpus/formats/mesh_reader.h"
 
 namespace assay::corpus {
 

@@ -2,7 +2,7 @@
 // number that it can have. Closed shapes are cycles with outward normals.
 #pragma once
 
-#include "corpus/mesh_reader.h"
+#include "corpus/formats/mesh_reader.h"
 
 namespace assay::corpus {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "properties/campaign/trial.h"
 
 namespace assay::properties {

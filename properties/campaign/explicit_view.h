@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "detector/options.h"
 #include "properties/campaign/trial.h"
 #include "properties/reducer/reducer.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "properties/agreement.h"
 #include "properties/faults/fault.h"
 #include "properties/run_verdict.h"

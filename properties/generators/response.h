@@ -1,7 +1,7 @@
 // The caller's answer to a collision, made part of a case: try, shorten, try again, commit.
 #pragma once
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 
 namespace assay::properties {
 

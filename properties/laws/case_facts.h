@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "detector/detector.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/step.h"

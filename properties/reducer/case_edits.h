@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 
 namespace assay::properties {
 

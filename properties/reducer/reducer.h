@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 
 namespace assay::properties {
 

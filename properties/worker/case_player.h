@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "detector/detector.h"
 
 namespace assay::properties {

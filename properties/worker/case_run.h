@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "detector/options.h"
 
 namespace assay::properties {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "properties/case_check.h"
 #include "reports/bench/bootstrap.h"
 #include "reports/bench/break_even.h"

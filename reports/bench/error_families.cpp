@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "corpus/hard/hard_families.h"
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
 #include "properties/campaign/clean_starts.h"
 #include "properties/generators/families.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "corpus/case_file.h"
-#include "corpus/mesh_reader.h"
+#include "corpus/cases/case_file.h"
+#include "corpus/formats/mesh_reader.h"
 #include "detector/options.h"
 #include "reports/bench/suites.h"
 

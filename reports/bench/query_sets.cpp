@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "corpus/query_csv.h"
+#include "corpus/queries/query_csv.h"
 #include "detector/search/feature_key.h"
 #include "detector/search/pair_search.h"
 #include "properties/numbering.h"

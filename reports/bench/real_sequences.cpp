@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 
 namespace assay::reports {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/suites.h"
 

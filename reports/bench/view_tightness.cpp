@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "oracle/view/view_sign.h"
 #include "properties/case_options.h"
 #include "properties/random.h"

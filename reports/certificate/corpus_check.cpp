@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "corpus/digest.h"
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "properties/case_check.h"
 #include "properties/worker/worker_process.h"
 

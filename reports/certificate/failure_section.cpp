@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "corpus/digest.h"
 #include "properties/campaign/run_folder.h"
 #include "properties/reducer/mesh_size.h"

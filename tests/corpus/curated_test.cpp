@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "corpus/file_bytes.h"
 #include "tests/corpus/scratch.h"
 

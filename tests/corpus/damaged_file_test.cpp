@@ -1,11 +1,11 @@
 // Cuts and flips: whatever the bytes, a reader answers; it never crashes and never asks for memory
 // that the file's size does not warrant. Worth running under sanitizers.
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
+#include "corpus/formats/mesh_writer.h"
 #include "corpus/formats/obj_reader.h"
 #include "corpus/formats/off_reader.h"
 #include "corpus/formats/ply_reader.h"
-#include "corpus/mesh_writer.h"
-#include "corpus/query_csv.h"
+#include "corpus/queries/query_csv.h"
 #include "tests/corpus/scratch.h"
 
 namespace assay::corpus {

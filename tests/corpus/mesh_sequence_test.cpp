@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "corpus/mesh_writer.h"
+#include "corpus/formats/mesh_writer.h"
 #include "tests/corpus/scratch.h"
 
 namespace assay::corpus {

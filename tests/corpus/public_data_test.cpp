@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "corpus/mesh_reader.h"
-#include "corpus/query_csv.h"
+#include "corpus/formats/mesh_reader.h"
+#include "corpus/queries/query_csv.h"
 
 namespace assay::corpus {
 namespace {

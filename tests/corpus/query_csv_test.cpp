@@ -1,4 +1,4 @@
-#include "corpus/query_csv.h"
+#include "corpus/queries/query_csv.h"
 
 #include "tests/corpus/scratch.h"
 

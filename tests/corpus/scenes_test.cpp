@@ -1,4 +1,4 @@
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "corpus/mesh_reader.h"
+#include "corpus/formats/mesh_reader.h"
 #include "corpus/problem.h"
 
 namespace assay::corpus {

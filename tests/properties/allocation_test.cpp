@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "detector/contact/contact_bounded.h"
 #include "detector/contact/contact_filter.h"
 #include "detector/contact/contact_fixed.h"

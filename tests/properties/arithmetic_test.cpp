@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "corpus/query_csv.h"
+#include "corpus/queries/query_csv.h"
 #include "detector/contact/elementary.h"
 #include "detector/detector.h"
 #include "properties/case_check.h"

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "detector/detector.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "properties/case_check.h"
 
 namespace assay::properties {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "oracle/mesh/mesh_features.h"
 #include "oracle/mesh/step.h"
 #include "oracle/query/contact.h"

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <map>
 
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
 #include "properties/agreement.h"
 #include "properties/case_check.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "detector/plugin/assay_builtin_detector.h"
 
 namespace assay::properties {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "properties/small_steps.h"
 
 namespace assay::properties::test {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "oracle/mesh/loops.h"
 
 namespace assay::properties::toys {

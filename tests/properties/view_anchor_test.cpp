@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
 #include "detector/geometry/winding.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "corpus/scenes.h"
+#include "corpus/scenes/scenes.h"
 #include "reports/bench/break_even.h"
 #include "reports/bench/contact_step.h"
 #include "reports/bench/interleave.h"

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/query_csv.h"
+#include "corpus/queries/query_csv.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
 #include "oracle/query/contact.h"

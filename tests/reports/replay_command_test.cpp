@@ -1,7 +1,7 @@
 // `assay replay`: by id, by file, with --why and --export.
 #include <gtest/gtest.h>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "properties/campaign/clean_starts.h"
 #include "properties/generators/families.h"
 #include "tests/reports/tiny_campaign.h"

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "tests/reports/tiny_campaign.h"

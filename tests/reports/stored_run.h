@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "properties/campaign/binding.h"
 #include "properties/campaign/evidence.h"
 #include "properties/campaign/findings.h"

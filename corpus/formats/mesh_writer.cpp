@@ -1,4 +1,4 @@
-#include "corpus/mesh_writer.h"
+#include "corpus/formats/mesh_writer.h"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 #include <new>
 #include <utility>
 
-#include "corpus/case_file.h"
-#include "corpus/case_items.h"
-#include "corpus/case_names.h"
+#include "corpus/cases/case_file.h"
+#include "corpus/cases/case_items.h"
+#include "corpus/cases/case_names.h"
 #include "corpus/json_fields.h"
 
 namespace assay::corpus {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "corpus/case_file.h"
-#include "corpus/case_names.h"
+#include "corpus/cases/case_file.h"
+#include "corpus/cases/case_names.h"
 #include "corpus/json_text.h"
 
 namespace assay::corpus {

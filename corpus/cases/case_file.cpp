@@ -1,4 +1,4 @@
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 
 #include <algorithm>
 #include <boost/outcome/try.hpp>

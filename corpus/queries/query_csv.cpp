@@ -1,4 +1,4 @@
-#include "corpus/query_csv.h"
+#include "corpus/queries/query_csv.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "corpus/file_bytes.h"
+#include "corpus/queries/truth_json.h"
 #include "corpus/rational.h"
-#include "corpus/truth_json.h"
 
 namespace assay::corpus {
 namespace {

@@ -1,5 +1,5 @@
 // The steps of a case. Apart from its reading and writing, so that who runs cases needs no files.
-#include "corpus/case_file.h"
+#include "corpus/cases/case_file.h"
 
 namespace assay::corpus {
 

@@ -1,10 +1,10 @@
-#include "corpus/case_items.h"
+#include "corpus/cases/case_items.h"
 
 #include <fmt/format.h>
 
 #include <cstddef>
 
-#include "corpus/case_names.h"
+#include "corpus/cases/case_names.h"
 
 namespace assay::corpus {
 namespace {

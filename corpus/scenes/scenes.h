@@ -9,7 +9,7 @@
 #include <span>
 #include <string_view>
 
-#include "corpus/mesh_reader.h"
+#include "corpus/formats/mesh_reader.h"
 #include "corpus/problem.h"
 
 namespace assay::corpus {

@@ -1,4 +1,4 @@
-#include "corpus/truth_json.h"
+#include "corpus/queries/truth_json.h"
 
 #include <fmt/format.h>
 

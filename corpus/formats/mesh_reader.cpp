@@ -1,4 +1,4 @@
-#include "corpus/mesh_reader.h"
+#include "corpus/formats/mesh_reader.h"
 
 #include <fmt/format.h>
 
