@@ -3,10 +3,10 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "properties/campaign/binding.h"
-#include "properties/campaign/findings.h"
-#include "properties/campaign/phases.h"
-#include "properties/campaign/power_proof.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/phases/phases.h"
+#include "properties/campaign/stored/binding.h"
+#include "properties/campaign/stored/power_proof.h"
 #include "properties/worker/worker_process.h"
 #include "reports/detector_choice.h"
 #include "reports/exit_code.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "properties/campaign/request.h"
-#include "properties/campaign/store.h"
+#include "properties/campaign/stored/store.h"
 
 namespace assay::reports {
 

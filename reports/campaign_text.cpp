@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "properties/campaign/bounds.h"
-#include "properties/campaign/count_names.h"
+#include "properties/campaign/gates/bounds.h"
+#include "properties/campaign/stored/count_names.h"
 #include "reports/exit_code.h"
 
 namespace assay::reports {

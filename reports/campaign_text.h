@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "properties/campaign/gates.h"
+#include "properties/campaign/gates/gates.h"
 
 namespace assay::reports {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "corpus/atomic_file.h"
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 #include "properties/worker/given_view.h"
 #include "reports/joined.h"
 

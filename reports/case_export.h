@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/trial.h"
+#include "properties/campaign/phases/trial.h"
 
 namespace assay::reports {
 

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "corpus/digest.h"
-#include "properties/campaign/binding.h"
-#include "properties/campaign/run_folder.h"
+#include "properties/campaign/stored/binding.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign_terminal.h"
 #include "reports/campaign_text.h"
 #include "reports/certificate/corpus_check.h"

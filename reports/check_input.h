@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 
 namespace assay::reports {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 #include "reports/exit_code.h"
 #include "reports/step_text.h"
 

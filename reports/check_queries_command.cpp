@@ -10,7 +10,7 @@
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
 #include "oracle/referee/referee.h"
-#include "properties/query_methods.h"
+#include "properties/queries/query_methods.h"
 #include "properties/words.h"
 #include "reports/bench/estimate.h"
 #include "reports/commands.h"

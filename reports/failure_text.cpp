@@ -6,7 +6,7 @@
 #include <set>
 
 #include "corpus/atomic_file.h"
-#include "properties/campaign/run_folder.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "properties/reducer/mesh_size.h"
 #include "reports/picture/scene_maker.h"
 #include "reports/shell_word.h"

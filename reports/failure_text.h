@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "properties/campaign/store.h"
+#include "properties/campaign/stored/store.h"
 
 namespace assay::reports {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 
 namespace assay::reports {
 

@@ -1,7 +1,7 @@
 // `assay list`: laws, planted faults, campaigns, and the failures of a run.
 #include <fmt/format.h>
 
-#include "properties/campaign/findings.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "reports/commands.h"

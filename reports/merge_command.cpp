@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "properties/campaign/merge.h"
-#include "properties/campaign/run_folder.h"
+#include "properties/campaign/stored/merge.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign_text.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"

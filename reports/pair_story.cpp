@@ -7,7 +7,7 @@
 #include "oracle/instant/layers.h"
 #include "oracle/view/candidates.h"
 #include "oracle/view/touched_by_ghosts.h"
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 #include "properties/numbering.h"
 #include "properties/worker/case_player.h"
 #include "reports/step_text.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "properties/claims.h"
+#include "properties/judging/claims.h"
 
 namespace assay::reports {
 

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <string_view>
 
-#include "properties/campaign/case_tally.h"
-#include "properties/campaign/clean_starts.h"
+#include "properties/campaign/phases/case_tally.h"
+#include "properties/campaign/phases/clean_starts.h"
 #include "properties/campaign/request.h"
-#include "properties/case_check.h"
 #include "properties/generators/families.h"
+#include "properties/judging/case_check.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/worker_process.h"
 #include "reports/case_export.h"

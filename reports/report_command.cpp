@@ -1,7 +1,7 @@
 // `assay report`: runs as one HTML page that works offline.
 #include <fmt/format.h>
 
-#include "properties/campaign/run_folder.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/verify.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"

@@ -1,8 +1,8 @@
 // `assay run`: a campaign in one shard, and what it comes to.
 #include <fmt/format.h>
 
-#include "properties/campaign/binding.h"
-#include "properties/campaign/run_folder.h"
+#include "properties/campaign/stored/binding.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign_terminal.h"
 #include "reports/campaign_text.h"
 #include "reports/certificate/statement.h"

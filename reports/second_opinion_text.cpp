@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 #include "properties/words.h"
 
 namespace assay::reports {

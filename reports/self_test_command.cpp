@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "properties/self_test.h"
+#include "properties/queries/self_test_run.h"
 #include "reports/commands.h"
 #include "reports/exit_code.h"
 #include "reports/progress.h"

@@ -1,9 +1,9 @@
 // `assay shrink`: the smallest case that fails as this one does.
 #include <fmt/format.h>
 
-#include "properties/campaign/case_tally.h"
-#include "properties/campaign/shrink.h"
-#include "properties/case_check.h"
+#include "properties/campaign/phases/case_tally.h"
+#include "properties/campaign/phases/shrink.h"
+#include "properties/judging/case_check.h"
 #include "properties/reducer/mesh_size.h"
 #include "reports/commands.h"
 #include "reports/complaint.h"

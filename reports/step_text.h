@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 
 namespace assay::reports {
 

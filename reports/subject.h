@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <variant>
 
-#include "properties/run_verdict.h"
+#include "properties/judging/run_verdict.h"
 #include "reports/check_input.h"
 #include "reports/commands.h"
 #include "reports/limits.h"

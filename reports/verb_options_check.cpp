@@ -1,7 +1,7 @@
 // Options of `check`, `check-queries`, `self-test` and `certify`.
 #include <array>
 
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 #include "properties/words.h"
 #include "reports/joined.h"
 #include "reports/option_words.h"

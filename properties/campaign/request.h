@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "properties/campaign/evidence.h"
+#include "properties/campaign/phases/trial.h"
 #include "properties/campaign/plan.h"
-#include "properties/campaign/trial.h"
+#include "properties/campaign/stored/evidence.h"
 
 namespace assay::properties {
 

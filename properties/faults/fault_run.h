@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "properties/agreement.h"
 #include "properties/faults/fault.h"
-#include "properties/run_verdict.h"
+#include "properties/judging/agreement.h"
+#include "properties/judging/run_verdict.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "properties/generators/aims.h"
-#include "properties/generators/broken_shapes.h"
-#include "properties/generators/closed_shapes.h"
 #include "properties/generators/menus.h"
 #include "properties/generators/motions.h"
 #include "properties/generators/near_misses.h"
-#include "properties/generators/open_shapes.h"
 #include "properties/generators/positive_motion.h"
 #include "properties/generators/primitives.h"
 #include "properties/generators/response.h"
+#include "properties/generators/shapes/broken_shapes.h"
+#include "properties/generators/shapes/closed_shapes.h"
+#include "properties/generators/shapes/open_shapes.h"
 
 namespace assay::properties {
 namespace {

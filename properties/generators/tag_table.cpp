@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "properties/claims.h"
+#include "properties/judging/claims.h"
 #include "properties/numbering.h"
 
 namespace assay::properties {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "properties/laws/carried_state.h"
+#include "properties/laws/facts/carried_state.h"
 #include "properties/laws/law_groups.h"
 #include "properties/laws/metamorphic/change_law.h"
 #include "properties/laws/step_law.h"

@@ -1,8 +1,8 @@
 // L12: never free on a guess.
 #include <fmt/format.h>
 
-#include "properties/laws/bad_input.h"
-#include "properties/laws/doubtful_surface.h"
+#include "properties/laws/facts/bad_input.h"
+#include "properties/laws/facts/doubtful_surface.h"
 #include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "properties/laws/case_facts.h"
+#include "properties/laws/facts/case_facts.h"
 #include "properties/random.h"
 
 namespace assay::properties {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 #include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"
 

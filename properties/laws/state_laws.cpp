@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "oracle/view/view_sign.h"
-#include "properties/laws/carried_state.h"
+#include "properties/laws/facts/carried_state.h"
 #include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "properties/laws/case_facts.h"
+#include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law.h"
 
 namespace assay::properties {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "properties/laws/exact_view_values.h"
+#include "properties/laws/facts/exact_view_values.h"
 #include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"
 #include "properties/random.h"

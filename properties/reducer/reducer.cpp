@@ -1,6 +1,6 @@
 #include "properties/reducer/reducer.h"
 
-#include "properties/reducer/passes.h"
+#include "properties/reducer/passes/passes.h"
 #include "properties/reducer/search.h"
 
 namespace assay::properties {

@@ -5,7 +5,7 @@
 #include <boost/outcome/policy/terminate.hpp>
 #include <string>
 
-#include "properties/claims.h"
+#include "properties/judging/claims.h"
 
 namespace assay::properties {
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "properties/case_options.h"
+#include "properties/judging/case_options.h"
 #include "reports/bench/claims_parts.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/timed_step.h"

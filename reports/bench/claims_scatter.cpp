@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "corpus/scenes/scenes.h"
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 #include "reports/bench/bootstrap.h"
 #include "reports/bench/break_even.h"
 #include "reports/bench/claims_parts.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "detector/contact/elementary.h"
-#include "properties/case_options.h"
+#include "properties/judging/case_options.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/judged_step.h"
 #include "reports/bench/query_sets.h"

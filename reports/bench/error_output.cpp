@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 #include "reports/joined.h"
 
 namespace assay::reports {

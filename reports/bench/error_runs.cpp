@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "oracle/mesh/step.h"
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 #include "properties/worker/case_player.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/timed_step.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "properties/campaign/statistics.h"
+#include "properties/campaign/gates/statistics.h"
 #include "reports/bench/bootstrap.h"
 
 namespace assay::reports {

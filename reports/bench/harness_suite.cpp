@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "oracle/mesh/step.h"
-#include "properties/campaign/trial.h"
+#include "properties/campaign/phases/trial.h"
 #include "properties/generators/families.h"
-#include "properties/query_methods.h"
+#include "properties/queries/query_methods.h"
 #include "properties/worker/case_run.h"
 #include "reports/bench/bootstrap.h"
 #include "reports/bench/interleave.h"

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 
 namespace assay::reports {
 

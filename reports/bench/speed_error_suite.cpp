@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 #include "reports/bench/error_output.h"
 #include "reports/bench/error_runs.h"
 #include "reports/joined.h"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "oracle/view/view_sign.h"
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 #include "properties/worker/case_player.h"
 #include "reports/bench/judged_step.h"
 

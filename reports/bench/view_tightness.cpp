@@ -5,7 +5,7 @@
 
 #include "corpus/scenes/scenes.h"
 #include "oracle/view/view_sign.h"
-#include "properties/case_options.h"
+#include "properties/judging/case_options.h"
 #include "properties/random.h"
 #include "reports/bench/timed_step.h"
 #include "reports/bench/view_parts.h"

@@ -4,7 +4,7 @@
 
 #include "corpus/digest.h"
 #include "corpus/scenes/scenes.h"
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::reports {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "properties/campaign/evidence.h"
 #include "properties/campaign/request.h"
+#include "properties/campaign/stored/evidence.h"
 
 namespace assay::reports {
 

@@ -3,9 +3,9 @@
 #include <chrono>
 #include <map>
 
-#include "properties/campaign/phases.h"
-#include "properties/campaign/run_folder.h"
-#include "properties/campaign/shrink.h"
+#include "properties/campaign/phases/phases.h"
+#include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "reports/plain_progress.h"
 
 namespace assay::reports {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "properties/campaign/request.h"
-#include "properties/campaign/store.h"
+#include "properties/campaign/stored/store.h"
 
 namespace assay::reports {
 

@@ -2,7 +2,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "corpus/digest.h"
-#include "properties/campaign/run_folder.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "properties/reducer/mesh_size.h"
 #include "reports/certificate/sections.h"
 #include "reports/failure_text.h"

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "properties/campaign/evidence.h"
+#include "properties/campaign/stored/evidence.h"
 
 namespace assay::reports {
 

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "properties/campaign/statistics.h"
+#include "properties/campaign/gates/statistics.h"
 
 namespace assay::reports {
 namespace {

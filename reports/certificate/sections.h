@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/gates.h"
+#include "properties/campaign/gates/gates.h"
 
 namespace assay::reports {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "corpus/digest.h"
-#include "properties/campaign/run_folder.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/sections.h"
 #include "reports/shell_word.h"
 

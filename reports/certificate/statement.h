@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "properties/campaign/gates.h"
+#include "properties/campaign/gates/gates.h"
 
 namespace assay::reports {
 

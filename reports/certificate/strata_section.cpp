@@ -1,6 +1,6 @@
-#include "properties/campaign/bounds.h"
-#include "properties/campaign/count_names.h"
-#include "properties/campaign/statistics.h"
+#include "properties/campaign/gates/bounds.h"
+#include "properties/campaign/gates/statistics.h"
+#include "properties/campaign/stored/count_names.h"
 #include "reports/certificate/sections.h"
 
 namespace assay::reports {

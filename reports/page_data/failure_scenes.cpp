@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "properties/campaign/run_folder.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "reports/failure_text.h"
 #include "reports/page_data/scene_json.h"
 #include "reports/picture/mesh_svg.h"

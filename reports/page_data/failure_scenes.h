@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/findings.h"
+#include "properties/campaign/gates/findings.h"
 
 namespace assay::reports {
 

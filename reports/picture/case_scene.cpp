@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "detector/mesh/mesh_checks.h"
-#include "properties/run_verdict.h"
+#include "properties/judging/run_verdict.h"
 
 namespace assay::reports {
 

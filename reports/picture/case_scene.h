@@ -7,7 +7,7 @@
 
 #include "detector/boundary/surface.h"
 #include "oracle/mesh/step.h"
-#include "properties/campaign/trial.h"
+#include "properties/campaign/phases/trial.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::reports {

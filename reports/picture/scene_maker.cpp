@@ -1,6 +1,6 @@
 #include "reports/picture/scene_maker.h"
 
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 #include "reports/detector_choice.h"
 #include "reports/json_output.h"
 #include "reports/picture/mesh_svg.h"

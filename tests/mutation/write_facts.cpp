@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <map>
 
-#include "properties/campaign/clean_starts.h"
+#include "properties/campaign/phases/clean_starts.h"
 #include "properties/generators/families.h"
-#include "properties/laws/carried_state.h"
-#include "properties/query_generators.h"
-#include "properties/small_steps.h"
+#include "properties/laws/facts/carried_state.h"
+#include "properties/queries/query_generators.h"
+#include "properties/worlds/small_steps.h"
 #include "tests/mutation/settings.h"
 
 namespace assay::mutation {

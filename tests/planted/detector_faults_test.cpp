@@ -9,7 +9,7 @@
 #include <set>
 
 #include "properties/faults/fault_run.h"
-#include "properties/small_steps.h"
+#include "properties/worlds/small_steps.h"
 
 namespace assay::properties {
 

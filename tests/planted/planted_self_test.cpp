@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "properties/self_test.h"
+#include "properties/queries/self_test_run.h"
 #include "reports/exit_code.h"
 
 int main(int argc, char** argv) {

@@ -1,5 +1,5 @@
 // The diff must find what is wrong: each kind of difference is planted once.
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include "corpus/queries/query_csv.h"
 #include "detector/contact/elementary.h"
 #include "detector/detector.h"
-#include "properties/case_check.h"
-#include "properties/query_generators.h"
-#include "properties/small_steps.h"
+#include "properties/judging/case_check.h"
+#include "properties/queries/query_generators.h"
+#include "properties/worlds/small_steps.h"
 
 namespace assay::properties {
 namespace {

@@ -1,11 +1,11 @@
 // What a run rests on: its binding, its canary, and laws that were met too seldom.
-#include "properties/campaign/binding.h"
+#include "properties/campaign/stored/binding.h"
 
 #include <gtest/gtest.h>
 
-#include "properties/campaign/canary.h"
-#include "properties/campaign/count_names.h"
-#include "properties/campaign/trials.h"
+#include "properties/campaign/phases/canary.h"
+#include "properties/campaign/phases/trials.h"
+#include "properties/campaign/stored/count_names.h"
 #include "properties/laws/law.h"
 #include "tests/properties/campaign_request.h"
 #include "tests/properties/small_case.h"

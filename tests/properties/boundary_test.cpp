@@ -9,7 +9,7 @@
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
 #include "oracle/view/touched_by_ghosts.h"
-#include "properties/small_steps.h"
+#include "properties/worlds/small_steps.h"
 
 namespace assay::properties {
 namespace {

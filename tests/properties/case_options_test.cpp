@@ -1,10 +1,10 @@
 // The detector's options as a case states them.
-#include "properties/case_options.h"
+#include "properties/judging/case_options.h"
 
 #include <gtest/gtest.h>
 
 #include "corpus/scenes/scenes.h"
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 
 namespace assay::properties {
 namespace {

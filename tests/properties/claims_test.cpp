@@ -1,13 +1,13 @@
 // A detector is judged by what it claims: each claim is broken once, alone, and a claim that is not
 // made is never broken.
-#include "properties/claims.h"
+#include "properties/judging/claims.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 
 namespace assay::properties {
 namespace {

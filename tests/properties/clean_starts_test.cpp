@@ -1,10 +1,10 @@
-#include "properties/campaign/clean_starts.h"
+#include "properties/campaign/phases/clean_starts.h"
 
 #include <gtest/gtest.h>
 
-#include "properties/campaign/shrink.h"
-#include "properties/case_check.h"
+#include "properties/campaign/phases/shrink.h"
 #include "properties/generators/families.h"
+#include "properties/judging/case_check.h"
 #include "tests/properties/campaign_request.h"
 #include "tests/reports/program.h"
 

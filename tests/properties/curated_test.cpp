@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 
 namespace assay::properties {
 namespace {

@@ -12,7 +12,7 @@
 #include <map>
 #include <thread>
 
-#include "properties/run_verdict.h"
+#include "properties/judging/run_verdict.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/children.h"
 #include "tests/properties/small_case.h"

@@ -1,5 +1,5 @@
 // Every kind of evidence survives its row, and what no run stores is refused.
-#include "properties/campaign/evidence.h"
+#include "properties/campaign/stored/evidence.h"
 
 #include <gtest/gtest.h>
 

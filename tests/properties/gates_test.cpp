@@ -1,5 +1,5 @@
 // Each gate fails for each of its reasons, and the first one that fails names the verdict.
-#include "properties/campaign/gates.h"
+#include "properties/campaign/gates/gates.h"
 
 #include <gtest/gtest.h>
 

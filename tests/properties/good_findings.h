@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "properties/campaign/count_names.h"
-#include "properties/campaign/gates.h"
+#include "properties/campaign/gates/gates.h"
+#include "properties/campaign/stored/count_names.h"
 
 namespace assay::properties::test {
 

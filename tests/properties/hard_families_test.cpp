@@ -8,7 +8,7 @@
 
 #include "oracle/mesh/step.h"
 #include "oracle/view/view_sign.h"
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 
 namespace assay::properties {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "oracle/mesh/step.h"
 #include "properties/generators/families.h"
-#include "properties/laws/case_facts.h"
+#include "properties/laws/facts/case_facts.h"
 #include "properties/worker/case_player.h"
 
 namespace assay::properties::test {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <map>
 
-#include "properties/laws/exact_view_values.h"
+#include "properties/laws/facts/exact_view_values.h"
 #include "properties/laws/law.h"
 #include "tests/properties/judged_case.h"
 

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 #include "properties/laws/law_table.h"
 #include "tests/properties/law_property.h"
 

@@ -10,8 +10,8 @@
 
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
-#include "properties/agreement.h"
-#include "properties/case_check.h"
+#include "properties/judging/agreement.h"
+#include "properties/judging/case_check.h"
 
 namespace assay::properties {
 namespace {

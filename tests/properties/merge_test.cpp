@@ -1,13 +1,13 @@
 // Merging stores: associative, repeatable, and refused where two stores contradict each other.
-#include "properties/campaign/merge.h"
+#include "properties/campaign/stored/merge.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
 
-#include "properties/campaign/binding.h"
-#include "properties/campaign/store.h"
+#include "properties/campaign/stored/binding.h"
+#include "properties/campaign/stored/store.h"
 #include "tests/reports/program.h"
 
 namespace assay::properties {

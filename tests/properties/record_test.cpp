@@ -4,10 +4,10 @@
 #include <map>
 #include <vector>
 
-#include "properties/campaign/canary.h"
-#include "properties/campaign/case_tally.h"
-#include "properties/campaign/count_names.h"
-#include "properties/campaign/trials.h"
+#include "properties/campaign/phases/canary.h"
+#include "properties/campaign/phases/case_tally.h"
+#include "properties/campaign/phases/trials.h"
+#include "properties/campaign/stored/count_names.h"
 
 namespace assay::properties {
 namespace {

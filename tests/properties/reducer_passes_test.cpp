@@ -9,7 +9,7 @@
 #include "corpus/scenes/shapes.h"
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/numbers.h"
-#include "properties/reducer/passes.h"
+#include "properties/reducer/passes/passes.h"
 #include "tests/properties/small_cases.h"
 
 namespace assay::properties {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "properties/campaign/fault_hunt.h"
+#include "properties/campaign/phases/fault_hunt.h"
 #include "properties/reducer/mesh_size.h"
 #include "tests/properties/inflate.h"
 #include "tests/properties/toy_faults.h"

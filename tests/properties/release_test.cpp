@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include "oracle/mesh/loops.h"
-#include "properties/laws/carried_state.h"
+#include "properties/laws/facts/carried_state.h"
 #include "properties/random.h"
-#include "properties/small_steps.h"
+#include "properties/worlds/small_steps.h"
 #include "tests/properties/judged_case.h"
 
 namespace assay::properties::test {

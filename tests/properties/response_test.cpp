@@ -7,9 +7,9 @@
 #include <string>
 
 #include "oracle/mesh/step.h"
-#include "properties/case_check.h"
 #include "properties/generators/families.h"
 #include "properties/generators/tag_table.h"
+#include "properties/judging/case_check.h"
 
 namespace assay::properties {
 namespace {

@@ -1,13 +1,12 @@
 // The parts of the self-test: small worlds are complete, cases can be made alone, exact conditions
 // of the constructed families hold, results do not depend on the number of threads.
-#include "properties/self_test.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "properties/small_worlds.h"
+#include "properties/queries/self_test_run.h"
+#include "properties/queries/small_worlds.h"
 
 namespace assay::properties {
 namespace {

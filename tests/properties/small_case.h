@@ -4,7 +4,7 @@
 #include <string>
 
 #include "corpus/cases/case_file.h"
-#include "properties/small_steps.h"
+#include "properties/worlds/small_steps.h"
 
 namespace assay::properties::test {
 

@@ -1,6 +1,6 @@
 // Random small steps with small-integer coordinates: the detector with every culling against the
 // oracle, pairs and times compared bit by bit, and view signs against the oracle's.
-#include "properties/small_steps.h"
+#include "properties/worlds/small_steps.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "detector/detector.h"
 #include "oracle/view/view_sign.h"
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 
 namespace assay::properties {
 namespace {

@@ -1,6 +1,6 @@
 // The bound of Clopper and Pearson against sums of the binomial distribution, closed forms, and
 // values in print.
-#include "properties/campaign/statistics.h"
+#include "properties/campaign/gates/statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The store of a campaign: what is kept, across kills and damage, and whose it is.
-#include "properties/campaign/store.h"
+#include "properties/campaign/stored/store.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

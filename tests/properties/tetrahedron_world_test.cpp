@@ -1,5 +1,5 @@
 // Small worlds of tetrahedra: the classes cover every motion, and all of them hold.
-#include "properties/tetrahedron_world.h"
+#include "properties/worlds/tetrahedron_world.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 #include <string_view>
 
-#include "properties/case_check.h"
-#include "properties/tetrahedron_check.h"
+#include "properties/judging/case_check.h"
+#include "properties/worlds/tetrahedron_check.h"
 
 namespace assay::properties {
 namespace {

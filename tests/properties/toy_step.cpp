@@ -5,7 +5,7 @@
 #include "oracle/instant/instant.h"
 #include "oracle/instant/layers.h"
 #include "oracle/view/view_sign.h"
-#include "properties/agreement.h"
+#include "properties/judging/agreement.h"
 
 namespace assay::properties::toys {
 

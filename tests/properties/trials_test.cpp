@@ -1,6 +1,6 @@
 // The trials of a campaign: the same for any jobs and shards, resumed, made again by their id;
 // their failures are kept, replayed and shrunk.
-#include "properties/campaign/trials.h"
+#include "properties/campaign/phases/trials.h"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <set>
 #include <sstream>
 
-#include "properties/campaign/canary.h"
-#include "properties/campaign/case_tally.h"
-#include "properties/campaign/count_names.h"
-#include "properties/campaign/shrink.h"
-#include "properties/case_check.h"
+#include "properties/campaign/phases/canary.h"
+#include "properties/campaign/phases/case_tally.h"
+#include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/stored/count_names.h"
 #include "properties/generators/families.h"
+#include "properties/judging/case_check.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/campaign_request.h"
 #include "tests/reports/program.h"

@@ -1,8 +1,8 @@
 // Verdicts on hand-made runs of a case.
 #include <gtest/gtest.h>
 
-#include "properties/campaign/trials.h"
-#include "properties/case_check.h"
+#include "properties/campaign/phases/trials.h"
+#include "properties/judging/case_check.h"
 #include "tests/properties/small_case.h"
 
 namespace assay::properties {

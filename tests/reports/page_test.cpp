@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "properties/campaign/merge.h"
+#include "properties/campaign/stored/merge.h"
 #include "properties/faults/fault.h"
 #include "reports/page_data/failure_scenes.h"
 #include "reports/page_data/page_file.h"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/run_folder.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {

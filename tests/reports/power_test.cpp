@@ -1,7 +1,7 @@
 // `--power DIR`: the proof that planted faults are found, taken from another run of this build.
 #include <gtest/gtest.h>
 
-#include "properties/campaign/findings.h"
+#include "properties/campaign/gates/findings.h"
 #include "tests/reports/power_fixture.h"
 
 namespace assay::tests {

@@ -6,11 +6,11 @@
 #include <algorithm>
 
 #include "corpus/cases/case_file.h"
-#include "properties/campaign/binding.h"
-#include "properties/campaign/evidence.h"
-#include "properties/campaign/findings.h"
-#include "properties/campaign/run_folder.h"
-#include "properties/campaign/store.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/stored/binding.h"
+#include "properties/campaign/stored/evidence.h"
+#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/stored/store.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::tests {

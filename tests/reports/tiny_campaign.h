@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/store.h"
+#include "properties/campaign/stored/store.h"
 #include "tests/reports/program.h"
 
 namespace assay::tests {

@@ -5,7 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/run_folder.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign_text.h"
 #include "reports/certificate/junit.h"
 #include "reports/certificate/statement.h"

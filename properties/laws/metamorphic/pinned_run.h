@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "properties/laws/case_facts.h"
+#include "properties/laws/facts/case_facts.h"
 
 namespace assay::properties {
 

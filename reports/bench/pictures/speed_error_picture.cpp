@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "properties/case_check.h"
+#include "properties/judging/case_check.h"
 #include "reports/bench/pictures/gnuplot.h"
 #include "reports/bench/pictures/pictures.h"
 

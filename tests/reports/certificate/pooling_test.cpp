@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "properties/campaign/statistics.h"
+#include "properties/campaign/gates/statistics.h"
 
 namespace assay::reports {
 namespace {

@@ -1,0 +1,306 @@
+#include "properties/campaign/gates/findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "corpus/digest.h"
+#include "properties/campaign/stored/run_folder.h"
+
+namespace assay::properties {
+namespace {
+
+constexpr const char* library_note = "library";
+
+// A configuration is near its limit from a third of it on.
+constexpr double near_share = 1. / 3;
+
+// A chain: the digest so far and the next row make the next digest.
+class RowsDigest {
+ public:
+  void add(const std::string& row) { digest_ = corpus::sha256_of(digest_ + row); }
+  const std::string& value() const { return digest_; }
+
+ private:
+  std::string digest_ = corpus::sha256_of("");
+};
+
+std::string row_of(const TrialRecord& r) {
+  return fmt::format("{} {} {} {} {} {} {} {} {} {}", r.id, r.family, r.index, r.outcomes,
+                     r.triangles, r.steps, r.collisions, r.pairs, counts_text(r.counts), r.mesh);
+}
+
+bool is_before(const StoredFailure& a, const StoredFailure& b) {
+  const auto key = [](const StoredFailure& f) {
+    return std::tuple(f.signature, f.smallest.empty(), f.smallest.size(), f.id, f.configuration);
+  };
+  return key(a) < key(b);
+}
+
+// Of "I/N"; nothing for other words.
+std::optional<Shard> shard_of(const std::string& text) {
+  const auto slash = text.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  return Shard{std::stoull(text.substr(0, slash)), std::stoull(text.substr(slash + 1))};
+}
+
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& folder) { found_.folder = folder; }
+
+  RunFindings read_folder() {
+    std::string problem;
+    auto files = stored_shards(found_.folder, problem);
+    if (!problem.empty()) throw StoreProblem(problem);
+    const auto merged = merged_file(found_.folder), checks = checks_file(found_.folder);
+    if (std::find(files.begin(), files.end(), merged) != files.end()) {
+      refuse_newer_shards(files, merged);
+      files = {merged};
+    }
+    std::error_code ignored;
+    if (std::filesystem::exists(checks, ignored)) files.push_back(checks);
+    std::sort(files.begin(), files.end());
+    return read(files);
+  }
+
+  RunFindings read(const std::vector<std::filesystem::path>& files) {
+    for (const auto& file : files) add(file);
+    std::sort(evidence_.begin(), evidence_.end(), [](const Evidence& a, const Evidence& b) {
+      return std::tie(a.kind, a.name, a.shard) < std::tie(b.kind, b.name, b.shard);
+    });
+    for (const auto& row : evidence_) found_.evidence.take(row);
+    if (found_.evidence.power.size() > 1)
+      throw StoreProblem(
+          fmt::format("{}: its shards took their proofs of planted faults from "
+                      "different runs",
+                      found_.folder.string()));
+    if (found_.evidence.paths) found_.library = found_.evidence.paths->detector;
+    std::sort(found_.failures.begin(), found_.failures.end(), is_before);
+    found_.rows = rows_.value();
+    find_missing();
+    return std::move(found_);
+  }
+
+  RunFindings read_alone(const std::filesystem::path& file) {
+    auto found = read({file});
+    if (found.shards.size() == 1 && found.shard_count > 1) found.alone = found.shards[0];
+    return found;
+  }
+
+ private:
+  // A merged store goes before the shards that it was made of.
+  static void refuse_newer_shards(const std::vector<std::filesystem::path>& files,
+                                  const std::filesystem::path& merged) {
+    std::string problem;
+    const auto whole = Store::read(merged, problem);
+    for (const auto& file : files) {
+      const auto shard = file == merged ? std::nullopt : Store::read(file, problem);
+      if (!whole || !shard) continue;  // told where it is read
+      shard->for_each_trial([&](const TrialRecord& r) {
+        if (!whole->has_trial(r.id))
+          throw StoreProblem(fmt::format("{}: holds {}, which {} does not: merge again",
+                                         file.string(), r.id, merged.filename().string()));
+      });
+    }
+  }
+
+  void add(const std::filesystem::path& file) {
+    std::string problem;
+    const auto store = Store::read(file, problem);
+    if (!store) throw StoreProblem(problem);
+    const auto binding = read_binding(store->binding(), file);
+    if (binding_.empty()) {
+      binding_ = store->binding();
+      found_.run = binding;
+      found_.tally.near_from_us =
+          static_cast<std::uint64_t>(1e6 * near_share * std::min(binding.plan.case_seconds, 1e9));
+    }
+    const auto difference = difference_of(binding_, store->binding());
+    if (!difference.empty())
+      throw StoreProblem(fmt::format("{}: holds stores of different runs: {}",
+                                     found_.folder.string(), difference));
+    const auto digest = corpus::sha256_of_file(file);
+    if (!digest) throw StoreProblem(digest.error().message);
+    found_.files.push_back({file.filename().string(), digest.value()});
+    if (const auto library = store->note(library_note)) found_.library = *library;
+    take_rows(*store, file, binding.shard);
+  }
+
+  void take_rows(const Store& store, const std::filesystem::path& file, const std::string& name) {
+    const auto shard = shard_of(name);
+    if (shard) {
+      const bool is_first = found_.shards.empty();
+      const bool is_there =
+          std::any_of(found_.shards.begin(), found_.shards.end(),
+                      [&](const Shard& other) { return other.index == shard->index; });
+      if (is_there || (!is_first && shard->count != found_.shard_count))
+        throw StoreProblem(
+            fmt::format("{}: shard {} does not stand beside the others: it is there "
+                        "already, or of another number of shards",
+                        file.string(), name));
+      found_.shards.push_back(*shard);
+      found_.shard_count = shard->count;
+    } else if (name == merged_shard) {
+      found_.shards.push_back({1, 1});
+    }
+    const auto& plan = found_.run.plan;
+    store.for_each_trial([&](const TrialRecord& r) {
+      const auto family =
+          std::find_if(plan.strata.begin(), plan.strata.end(),
+                       [&](const StratumPlan& stratum) { return stratum.family == r.family; });
+      const bool is_planned = family != plan.strata.end() && r.index < family->cases &&
+                              r.id == trial_id(plan, found_.run.seed, r.family, r.index);
+      const bool is_of_shard = shard ? shard->holds(r.index) : name == merged_shard;
+      if (!is_planned || !is_of_shard)
+        throw StoreProblem(fmt::format("{}: {} is no trial of this shard", file.string(), r.id));
+      found_.tally.add(r);
+      rows_.add(row_of(r));
+    });
+    for (const auto& [signature, met] : store.signatures()) {
+      found_.met[signature] += met;
+      rows_.add(fmt::format("{} {}", signature, met));
+    }
+    for (auto& failure : store.failures()) {
+      rows_.add(fmt::format("{} {} {} {} {} {}", failure.id, failure.configuration,
+                            failure.signature, failure.what, failure.mesh, failure.flaky));
+      found_.failures.push_back(std::move(failure));
+    }
+    for (auto& row : store.evidence()) {
+      if (!may_differ(row))
+        rows_.add(
+            fmt::format("{} {} {} {} {}", row.kind, row.name, row.shard, row.progress, row.facts));
+      if (!is_taken_already(row, file)) evidence_.push_back(std::move(row));
+    }
+  }
+
+  // Proofs that were taken over stand in every shard's store, the same in each. Throws where two
+  // differ: neither could be believed.
+  bool is_taken_already(const Evidence& row, const std::filesystem::path& file) const {
+    if (row.shard != power_shard) return false;
+    const auto known = std::find_if(evidence_.begin(), evidence_.end(), [&](const auto& other) {
+      return other.shard == power_shard && other.kind == row.kind && other.name == row.name;
+    });
+    if (known == evidence_.end()) return false;
+    if (known->facts != row.facts)
+      throw StoreProblem(fmt::format("{}: evidence {} {} differs from that of another store",
+                                     file.string(), row.kind, row.name));
+    return true;
+  }
+
+  void find_missing() {
+    for (std::uint64_t i = 1; i <= found_.shard_count; ++i) {
+      const auto is_there = [&](const Shard& shard) { return shard.index == i; };
+      if (std::none_of(found_.shards.begin(), found_.shards.end(), is_there))
+        found_.missing.push_back({i, found_.shard_count});
+    }
+  }
+
+  RunFindings found_;
+  std::string binding_;
+  std::vector<Evidence> evidence_;
+  RowsDigest rows_;
+};
+
+template <class Read>
+std::optional<RunFindings> told(const std::filesystem::path& name, std::string& problem,
+                                const Read& read) {
+  try {
+    return read();
+  } catch (const StoreProblem& failure) {
+    problem = failure.what();
+  } catch (const std::exception& failure) {
+    // Numbers inside of a store that somebody changed.
+    problem = fmt::format("{}: not what a run stores: {}", name.string(), failure.what());
+  }
+  return std::nullopt;
+}
+
+std::uint64_t count_planted(const std::vector<FaultProof>& faults, bool only_found) {
+  return static_cast<std::uint64_t>(
+      std::count_if(faults.begin(), faults.end(), [&](const FaultProof& proof) {
+        return proof.status == FaultStatus::planted && (!only_found || proof.found());
+      }));
+}
+
+}  // namespace
+
+std::uint64_t RunFindings::planned(const StratumPlan& stratum) const {
+  return planned_cases(stratum, alone.value_or(Shard{}));
+}
+
+std::uint64_t RunFindings::planned() const {
+  return planned_trial_count(run.plan, alone.value_or(Shard{}));
+}
+
+const StratumTally& RunFindings::tally_of(const StratumPlan& stratum) const {
+  static const StratumTally none;
+  const auto found = tally.strata.find(stratum.family);
+  return found == tally.strata.end() ? none : found->second;
+}
+
+std::vector<const StoredFailure*> RunFindings::kinds() const {
+  std::vector<const StoredFailure*> list;
+  for (const auto& failure : failures) {
+    if (list.empty() || list.back()->signature != failure.signature)
+      list.push_back(example_of(failure.signature));
+  }
+  return list;
+}
+
+std::uint64_t RunFindings::met_count(const StoredFailure& failure) const {
+  const auto found = met.find(failure.signature);
+  return found == met.end() ? 0 : found->second;
+}
+
+bool RunFindings::is_waived(const std::string& signature) const {
+  return std::any_of(evidence.waivers.begin(), evidence.waivers.end(), [&](const auto& waiver) {
+    return waiver.signature == signature && !waiver.expired;
+  });
+}
+
+const StoredFailure* RunFindings::example_of(const std::string& signature) const {
+  const StoredFailure* shown = nullptr;
+  for (const auto& failure : failures) {
+    if (failure.signature != signature) continue;
+    if (!failure.id.starts_with(corpus_in_id)) return &failure;
+    if (!shown) shown = &failure;
+  }
+  return shown;
+}
+
+StratumTally::Outcomes RunFindings::outcomes_of(const StratumPlan& stratum,
+                                                std::size_t configuration) const {
+  const auto& all = tally_of(stratum).by_configuration;
+  return configuration < all.size() ? all[configuration] : StratumTally::Outcomes{};
+}
+
+bool RunFindings::laws_are_judged() const {
+  return run.detector.built_in && run.plan.laws_every > 0 && !alone && planned() > 0 &&
+         tally.trials() == planned();
+}
+
+bool RunFindings::has_more_to_do() const {
+  const auto& faults = evidence.faults;
+  return tally.trials() < planned() ||
+         std::any_of(faults.begin(), faults.end(),
+                     [&](const auto& proof) { return !proof.is_whole(run.plan); });
+}
+
+std::uint64_t RunFindings::planted() const { return count_planted(evidence.faults, false); }
+std::uint64_t RunFindings::found() const { return count_planted(evidence.faults, true); }
+
+std::optional<RunFindings> read_one_store(const std::filesystem::path& file, std::string& problem) {
+  return told(file, problem, [&] { return Reader(file.parent_path()).read_alone(file); });
+}
+
+std::optional<RunFindings> read_findings(const std::filesystem::path& folder,
+                                         std::string& problem) {
+  return told(folder, problem, [&] { return Reader(folder).read_folder(); });
+}
+
+void note_library(Store& store, const CampaignRequest& request) {
+  if (request.plugin) store.set_note(library_note, request.plugin->string());
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,225 @@
+#include "properties/campaign/gates/gate_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "properties/campaign/gates/bounds.h"
+#include "properties/campaign/stored/count_names.h"
+
+namespace assay::properties {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+// A waiver belongs to a certificate; nothing else leaves a failure aside.
+bool is_waived(const RunFindings& f, const Asked& asked, const std::string& signature) {
+  return asked.certificate && f.is_waived(signature);
+}
+
+void check_power(const RunFindings& f, Lines& lines) {
+  for (const auto& canary : f.evidence.canaries) {
+    if (!canary.found_after)
+      lines.push_back(fmt::format("shard {} did not find its canary", canary.shard));
+  }
+  Lines hidden;
+  for (const auto& proof : f.evidence.faults) {
+    if (proof.status == FaultStatus::planted && !proof.found() && !proof.time_over)
+      hidden.push_back(fmt::format("planted fault {} was not found", proof.fault));
+    if (proof.status == FaultStatus::equivalent && proof.found())
+      lines.push_back(fmt::format("{}, registered as equivalent, was found", proof.fault));
+  }
+  const auto planted = static_cast<double>(f.planted());
+  if (planted - static_cast<double>(hidden.size()) < f.run.plan.policy.power * planted)
+    lines.insert(lines.end(), hidden.begin(), hidden.end());
+}
+
+// Every defect of a trial was stored as a failure.
+void check_tallies(const RunFindings& f, Lines& lines) {
+  std::uint64_t defects = 0, met = 0;
+  for (const auto& [family, stratum] : f.tally.strata) {
+    for (const auto& outcomes : stratum.by_configuration) defects += outcomes.defects;
+  }
+  for (const auto& [signature, count] : f.met)
+    met += signature.starts_with(law_in_signature) ? 0 : count;
+  if (defects != met)
+    lines.push_back(fmt::format("{} defects in the trials, {} failures are stored", defects, met));
+}
+
+void check_faults(const RunFindings& f, Lines& lines) {
+  const auto& plan = f.run.plan;
+  if (plan.fault_cases == 0) return;
+  const auto& build = f.run.digests;
+  for (const auto& source : f.evidence.power) {
+    if (source.program != build.program || source.worker != build.worker ||
+        source.generator != build.generator)
+      lines.push_back("the planted faults were proved by another build");
+  }
+  if (!f.alone && f.planted() != f.run.planted_faults)
+    lines.push_back(
+        fmt::format("{} of {} planted faults were tried", f.planted(), f.run.planted_faults));
+  for (const auto& proof : f.evidence.faults) {
+    if (!proof.is_whole(plan))
+      lines.push_back(fmt::format("the time was over before {} had all of its cases", proof.fault));
+  }
+}
+
+void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
+  for (const auto& stratum : f.run.plan.strata) {
+    const auto& tally = f.tally_of(stratum);
+    const auto planned = f.planned(stratum);
+    if (tally.trials != planned) {
+      lines.push_back(fmt::format("{}: {} of {} trials", stratum.family, tally.trials, planned));
+    } else if (asked.certificate && planned > 0 && tally.discards == planned) {
+      lines.push_back(
+          fmt::format("{}: the contract takes none of its {} cases", stratum.family, planned));
+    }
+  }
+  if (asked.certificate && f.planned() == 0) lines.push_back("the campaign plans no trial");
+  // Of all shards together: one of them may have stood on a machine that was short of memory.
+  constexpr std::uint64_t most_disturbed = 100;  // one trial in so many
+  const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
+  if (!f.alone && most_disturbed * disturbed > trials)
+    lines.push_back(
+        fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
+}
+
+}  // namespace
+
+GateFindings check_harness(const RunFindings& f, const Asked& asked) {
+  GateFindings found;
+  auto& lines = found.against;
+  for (const auto& problem : f.evidence.problems) {
+    if (!problem.what.empty()) lines.push_back(problem.what);
+  }
+  check_power(f, lines);
+  if (f.laws_are_judged()) {
+    for (auto& line : starved_laws(f.tally.counts, f.run.plan.law_premises))
+      lines.push_back(std::move(line));
+  }
+  check_tallies(f, lines);
+  std::uint64_t contradictions = 0;
+  for (const auto& row : f.evidence.self_test) contradictions += row.contradictions;
+  if (asked.certificate && contradictions > 0)
+    lines.push_back(fmt::format("the self-test met {} contradictions", contradictions));
+  if (f.evidence.canaries.empty()) found.not_judged = "no canary was met";
+  return found;
+}
+
+GateFindings check_corpus(const RunFindings& f, const Asked& asked) {
+  GateFindings found;
+  for (const auto& row : f.evidence.corpus) {
+    for (const auto& failed : row.failed) {
+      if (!is_waived(f, asked, failed.signature))
+        found.against.push_back(
+            fmt::format("{} ({}): {}", failed.id, row.configuration, failed.what));
+    }
+  }
+  for (const auto& waiver : f.evidence.waivers) {
+    if (waiver.expired)
+      found.against.push_back(
+          fmt::format("the waiver of \"{}\" expired on {}", waiver.signature, waiver.expires));
+  }
+  if (f.evidence.corpus.empty()) found.not_judged = "the corpus was not run";
+  return found;
+}
+
+GateFindings check_claims(const RunFindings& f, const Asked& asked) {
+  GateFindings found;
+  // What trials met counts, be a mesh of it stored or not; a stored failure of a trial counts, be
+  // it counted or not. What the corpus alone shows is that gate's.
+  std::set<std::string> signatures;
+  for (const auto& [signature, count] : f.met) signatures.insert(signature);
+  for (const auto& failure : f.failures) {
+    if (!failure.id.starts_with(corpus_in_id)) signatures.insert(failure.signature);
+  }
+  for (const auto& signature : signatures) {
+    if (is_waived(f, asked, signature)) continue;
+    const auto* shown = f.example_of(signature);
+    const auto met = f.met.find(signature);
+    found.against.push_back(
+        fmt::format("{}, met {} times; {}", signature, met == f.met.end() ? 0 : met->second,
+                    shown ? shown->id + " (" + shown->configuration + ")" : "no mesh is stored"));
+  }
+  for (const auto& world : f.evidence.worlds) {
+    if (world.counterexample)
+      found.against.push_back(fmt::format("{}: {}", world.world, *world.counterexample));
+  }
+  if (f.tally.judged() == 0) found.not_judged = "no trial was judged";
+  return found;
+}
+
+GateFindings check_complete(const RunFindings& f, const Asked& asked) {
+  GateFindings found;
+  auto& lines = found.against;
+  if (!f.alone) {
+    for (const auto& shard : f.missing)
+      lines.push_back(fmt::format("shard {} is absent", text_of(shard)));
+  }
+  check_trials(f, asked, lines);
+  if (f.evidence.canaries.empty()) lines.push_back("no canary was met");
+  check_faults(f, lines);
+  if (!asked.certificate) return found;
+  if (f.evidence.corpus.empty()) lines.push_back("the corpus was not run");
+  for (const auto& row : f.evidence.corpus) {
+    for (const auto& open : row.open)
+      lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));
+  }
+  const auto& self_test = f.evidence.self_test;
+  const bool was_cut = std::any_of(self_test.begin(), self_test.end(),
+                                   [](const auto& row) { return !row.complete; });
+  if (f.run.plan.policy.self_test_queries > 0 && (self_test.empty() || was_cut))
+    lines.push_back("the self-test was not run to its end");
+  return found;
+}
+
+GateFindings check_bounds(const RunFindings& f, const Asked&) {
+  GateFindings found;
+  bool judged = false;
+  for (const auto& stratum : f.run.plan.strata) {
+    const bool is_wanted = stratum.wanted_bound > 0;
+    if (is_wanted && f.alone) continue;
+    judged = true;
+    for (std::size_t c = 0; c < f.run.detector.configurations.size(); ++c) {
+      const auto outcomes = f.outcomes_of(stratum, c);
+      const std::string where =
+          fmt::format("{}, {}", stratum.family, f.run.detector.configurations[c].name);
+      const double bound = bound_of(outcomes, f.run);
+      if (!is_wanted && outcomes.open() > 0) {
+        found.against.push_back(fmt::format("{}: {} without a verdict", where, outcomes.open()));
+      } else if (is_wanted && bound > stratum.wanted_bound) {
+        found.against.push_back(
+            fmt::format("{}: bound {:.2e}, {:.0e} is wanted", where, bound, stratum.wanted_bound));
+      }
+    }
+  }
+  if (!judged)
+    found.not_judged =
+        f.alone ? "bounds are wanted of all shards together" : "the campaign has no trials";
+  return found;
+}
+
+// The figures themselves stand among the times: these lines are the same from run to run.
+GateFindings check_speed(const RunFindings& f, const Asked&) {
+  GateFindings found;
+  const auto& limits = f.run.plan.policy.speed_limits;
+  if (!f.run.detector.built_in) {
+    found.not_judged = "limits are set for the built-in detector alone";
+  } else if (limits.empty()) {
+    found.not_judged = "the campaign sets no limit";
+  } else {
+    for (const auto& [what, limit] : limits) {
+      const auto& figures = f.evidence.speed;
+      const auto figure = std::find_if(figures.begin(), figures.end(),
+                                       [&](const SpeedFigure& one) { return one.what == what; });
+      if (figure == figures.end()) {
+        found.against.push_back(fmt::format("{} was not measured", what));
+      } else if (figure->median > limit) {
+        found.against.push_back(fmt::format("{} is above its limit of {}", what, limit));
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace assay::properties

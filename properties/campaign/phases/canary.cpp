@@ -1,0 +1,36 @@
+#include "properties/campaign/phases/canary.h"
+
+#include <fmt/format.h>
+
+#include "properties/faults/fault.h"
+#include "properties/generators/families.h"
+#include "properties/worker/worker_process.h"
+
+namespace assay::properties {
+
+Canary meet_canary(const CampaignRequest& request) {
+  // One that many cases show: a run in which it hides is a run that sees nothing.
+  constexpr std::string_view canary = "pair/zero-zero-dropped";
+  constexpr std::uint64_t most_cases = 400;
+  Canary result{std::string(canary), text_of(request.shard), {}};
+  const Fault* fault = find_fault(canary);
+  if (!fault) return result;
+  const DetectorUnderTest detector = built_in_detector();
+  const Configuration configuration{"canary", fault->options, result.fault};
+  WorkerProcess worker(request.worker, std::nullopt, {request.plan.case_seconds, 0});
+  const auto known = families();
+  for (std::uint64_t i = 0; i < most_cases; ++i) {
+    const Family& family = known[i % known.size()];
+    const auto made = make_case(
+        family, fmt::format("{}:{}.canary:{}:{}", request.plan.name, request.seed, family.name, i));
+    const auto run = worker.run(made.c, {&configuration, 1});
+    const auto verdict = judge_trial(made.c, judge_case(made.c), run[0], configuration, detector);
+    // A worker that dies is no sign that anything was seen.
+    if (run[0].end != RunEnd::completed || verdict.outcome != Outcome::defect) continue;
+    result.found_after = i + 1;
+    return result;
+  }
+  return result;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,33 @@
+// What a campaign counts of a case besides its verdict: tags, set pairs of contacts, laws.
+#pragma once
+
+#include <span>
+
+#include "properties/campaign/stored/record.h"
+#include "properties/generators/generated_case.h"
+#include "properties/laws/law.h"
+#include "properties/reducer/reducer.h"
+#include "properties/worker/case_run.h"
+
+namespace assay::properties {
+
+// A law that a case breaks.
+struct BrokenLaw {
+  std::string law, configuration, what;
+};
+
+struct CaseTally {
+  // By the names of count_names.h: its tags, contacts by the sets that the view-point sees, laws.
+  Counts counts;
+  std::vector<BrokenLaw> broken;
+};
+
+// With laws, each configuration that has view sets and asks for all pairs goes through them.
+CaseTally tally_case(const GeneratedCase& made, std::span<const Configuration> configurations,
+                     std::span<const CaseRun> runs, std::span<const oracle::StepJudgement> truth,
+                     bool with_laws);
+
+// The reducer's judge for a law, in a configuration of the built-in detector.
+Judge judge_of_law(const Law& law, const Configuration& configuration);
+
+}  // namespace assay::properties

@@ -1,0 +1,22 @@
+// Cases to which Start::clean may be put: what the caller vouches for is then true.
+#pragma once
+
+#include <vector>
+
+#include "corpus/cases/case_file.h"
+#include "properties/campaign/phases/trial.h"
+
+namespace assay::properties {
+
+// Whether the oracle calls every triangle clean (THEORY: L9) wherever a step of the case is a new
+// start. Closed meshes alone: of others the answer depends on where the detector puts its apexes.
+bool starts_clean(const corpus::Case& c);
+
+// Whether trial `index` of a family vouches for the start of its case: to the built-in detector, in
+// every second one of the trials that may.
+bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index);
+
+// The same configurations with the start vouched for instead of verified.
+std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations);
+
+}  // namespace assay::properties

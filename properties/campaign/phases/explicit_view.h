@@ -1,0 +1,21 @@
+// Makes the detector's own choice of a view primitive part of the case.
+#pragma once
+
+#include <optional>
+
+#include "corpus/cases/case_file.h"
+#include "detector/options.h"
+#include "properties/campaign/phases/trial.h"
+#include "properties/reducer/reducer.h"
+
+namespace assay::properties {
+
+// The same case with the primitive of its first component stated; nothing when the culling has no
+// views, the case states one already, or the mesh is refused.
+std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
+                                               const detector::Options& options);
+
+// What the reducer keeps of a failure.
+Finding finding_of(const Failure& failure);
+
+}  // namespace assay::properties

@@ -1,0 +1,191 @@
+#include "properties/campaign/phases/fault_hunt.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <thread>
+
+#include "properties/campaign/phases/explicit_view.h"
+#include "properties/faults/fault_run.h"
+#include "properties/generators/families.h"
+#include "properties/reducer/mesh_size.h"
+
+namespace assay::properties {
+
+std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& c,
+                                        const std::vector<oracle::StepJudgement>& truth) {
+  const Configuration configuration{std::string(fault.name), fault.options};
+  CaseRun run;
+  run.steps = run_case(c, fault);
+  if (run.steps.empty()) return std::nullopt;  // refused: such a case shows nothing
+  CaseRun again = run;
+  if (fault.is_disturbed) {
+    run = without_marking_counts(std::move(run.steps));
+    again = without_marking_counts(run_disturbed(c, fault.options, fault.stages));
+  }
+  auto verdict = judge_trial(c, truth, run, configuration, built_in_detector(), &again);
+  if (verdict.failure) verdict.failure->stage = fault.stage;
+  return verdict.failure;
+}
+
+Judge judge_of_fault(const Fault& fault) {
+  return [&fault](const corpus::Case& c) -> std::optional<Finding> {
+    const auto failure = failure_of_fault(fault, c, judge_case(c));
+    if (!failure) return std::nullopt;
+    return finding_of(*failure);
+  };
+}
+
+namespace {
+
+class Hunt {
+ public:
+  Hunt(const FaultHunt& hunt, RunDeadline deadline, const OnHunt& progress)
+      : hunt_(hunt), deadline_(deadline), progress_(progress) {
+    std::uint64_t place = 0;
+    for (const auto& fault : faults()) {
+      if (!hunt.shard.holds(place++)) continue;
+      FaultResult result{&fault, {}, {}};
+      auto& proof = result.proof;
+      proof.fault = fault.name;
+      proof.shard = text_of(hunt.shard);
+      proof.law = fault.law;
+      proof.status = fault.status;
+      proof.cases = hunt.cases;
+      proof.known_vertices = static_cast<std::uint64_t>(fault.smallest_vertices);
+      results_.push_back(std::move(result));
+    }
+  }
+
+  std::vector<FaultResult> run() {
+    if (!hunt_.curated.empty()) try_curated();
+    for (int s = 1; s <= hunt_.seeds && !is_cut_; ++s) run_seed(s);
+    for (auto& result : results_) result.proof.time_over = is_cut_;
+    return std::move(results_);
+  }
+
+ private:
+  static constexpr std::uint64_t chunk = 64;  // cases judged between two looks at what is found
+
+  bool over() const { return std::chrono::steady_clock::now() >= deadline_; }
+
+  void try_curated() {
+    for (auto& result : results_) {
+      if (result.fault->curated.empty()) continue;
+      const auto c =
+          corpus::read_case(hunt_.curated / (std::string(result.fault->curated) + ".json"));
+      if (!c) continue;
+      result.proof.curated =
+          failure_of_fault(*result.fault, c.value(), judge_case(c.value())).has_value();
+    }
+  }
+
+  // The cases of a seed, families in turn.
+  GeneratedCase case_of(int seed, std::uint64_t place) const {
+    const auto known = families();
+    const Family& family = known[place % known.size()];
+    return make_case(family, fmt::format("{}:{}.f{}:{}:{}", hunt_.campaign, hunt_.seed, seed,
+                                         family.name, place / known.size()));
+  }
+
+  void run_seed(int seed) {
+    std::vector<std::optional<std::uint64_t>> found(results_.size());
+    for (std::uint64_t begin = 0; begin < hunt_.cases && !is_cut_; begin += chunk) {
+      const std::uint64_t end = std::min(hunt_.cases, begin + chunk);
+      run_chunk(seed, begin, end, found);
+      HuntProgress state{seed, hunt_.seeds, end, hunt_.cases, 0, 0};
+      for (std::size_t f = 0; f < found.size(); ++f) {
+        if (results_[f].fault->status != FaultStatus::planted) continue;
+        ++state.planted;
+        state.hidden += found[f] ? 0 : 1;
+      }
+      if (progress_) progress_(state);
+      // Equivalent and open ones must have had their share of cases too.
+      if (state.hidden == 0 && end >= hunt_.cases / 4) break;
+    }
+    for (std::size_t f = 0; f < results_.size(); ++f) {
+      results_[f].proof.needed.push_back(found[f] ? std::optional(*found[f] + 1) : std::nullopt);
+      if (found[f] && !results_[f].shown_by) results_[f].shown_by = case_of(seed, *found[f]).c;
+    }
+  }
+
+  void run_chunk(int seed, std::uint64_t begin, std::uint64_t end,
+                 std::vector<std::optional<std::uint64_t>>& found) {
+    std::vector<std::uint64_t> first(found.size(), end);
+    std::mutex mutex;
+    std::uint64_t next = begin;
+    const auto work = [&] {
+      while (true) {
+        std::uint64_t place = 0;
+        {
+          const std::lock_guard lock(mutex);
+          is_cut_ = is_cut_ || (next < end && over());
+          if (next >= end || is_cut_) return;
+          place = next++;
+        }
+        const auto made = case_of(seed, place);
+        const auto truth = judge_case(made.c);
+        for (std::size_t f = 0; f < found.size(); ++f) {
+          if (found[f] || !failure_of_fault(*results_[f].fault, made.c, truth)) continue;
+          const std::lock_guard lock(mutex);
+          first[f] = std::min(first[f], place);
+        }
+      }
+    };
+    std::vector<std::thread> threads;
+    for (int j = 0; j < hunt_.jobs; ++j) threads.emplace_back(work);
+    for (auto& thread : threads) thread.join();
+    for (std::size_t f = 0; f < found.size(); ++f) {
+      if (!found[f] && first[f] < end) found[f] = first[f];
+    }
+  }
+
+  const FaultHunt& hunt_;
+  const RunDeadline deadline_;
+  const OnHunt& progress_;
+  bool is_cut_ = false;  // by the deadline, before all cases were judged
+  std::vector<FaultResult> results_;
+};
+
+}  // namespace
+
+std::vector<FaultResult> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
+                                     const OnHunt& progress) {
+  return Hunt(hunt, deadline, progress).run();
+}
+
+void shrink_faults(std::vector<FaultResult>& results, const ReduceLimits& limits, int jobs,
+                   RunDeadline deadline, const std::function<void(const std::string&)>& progress) {
+  std::mutex mutex;
+  std::size_t next = 0;
+  const auto counts_of = [](const corpus::Case& c) {
+    const auto size = size_of(c);
+    return MeshCounts{size.triangles, size.vertices, size.steps};
+  };
+  const auto work = [&] {
+    while (true) {
+      FaultResult* result = nullptr;
+      {
+        const std::lock_guard lock(mutex);
+        if (next >= results.size() || std::chrono::steady_clock::now() >= deadline) return;
+        result = &results[next++];
+      }
+      if (!result->shown_by) continue;
+      const auto options = result->fault->options;
+      const auto reduction =
+          reduce(*result->shown_by, judge_of_fault(*result->fault), limits, {},
+                 [&options](const corpus::Case& c) { return with_explicit_view(c, options); });
+      result->proof.shrunk = {counts_of(*result->shown_by), counts_of(reduction.smallest),
+                              reduction.calls};
+      if (!progress) continue;
+      const std::lock_guard lock(mutex);
+      progress(result->proof.fault);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int j = 0; j < jobs; ++j) threads.emplace_back(work);
+  for (auto& thread : threads) thread.join();
+}
+
+}  // namespace assay::properties

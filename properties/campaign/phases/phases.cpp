@@ -1,0 +1,139 @@
+#include "properties/campaign/phases/phases.h"
+
+#include <algorithm>
+
+#include "properties/campaign/phases/canary.h"
+#include "properties/campaign/phases/shrink.h"
+#include "properties/worlds/tetrahedron_world.h"
+
+namespace assay::properties {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Shares of the plan's time that are over when a phase must be. Shrinking, after the trials, has
+// its own share.
+constexpr double trials_share = 0.5, faults_share = 0.9;
+
+// Of one failure, or of one planted fault.
+constexpr ReduceLimits shrinking_of_one{60, 1'000'000};
+
+class CampaignRun {
+ public:
+  CampaignRun(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
+              CampaignObserver& observer)
+      : request_(request), corpus_(corpus), store_(store), observer_(observer) {}
+
+  void run() {
+    const Canary canary = meet_canary(request_);
+    store_.set(to_row(canary));
+    observer_.on_canary(canary);
+    observer_.on_phase("trials");
+    judge_trials();
+    observer_.on_phase("shrinking");
+    shrink();
+    observer_.on_failures_shrunk();
+    if (request_.power) {
+      take_power();
+    } else if (request_.plan.fault_cases > 0) {
+      observer_.on_phase("faults");
+      hunt();
+    }
+    if (request_.plan.tetrahedron_seconds > 0) {
+      observer_.on_phase("tetrahedron");
+      explore_worlds();
+    }
+  }
+
+ private:
+  RunDeadline after(double share) const { return deadline_after(begin_, request_.plan, share); }
+
+  static RunDeadline earlier(RunDeadline deadline, double seconds_from_now) {
+    return std::min(deadline, deadline_in(Clock::now(), seconds_from_now));
+  }
+
+  void judge_trials() {
+    const bool others = request_.plan.fault_cases > 0 || request_.plan.tetrahedron_seconds > 0;
+    const auto end = run_trials(request_, store_, after(others ? trials_share : 1),
+                                [&](const TrialProgress& state) { observer_.on_trial(state); });
+    if (!end.store_problem.empty()) throw StoreProblem(end.store_problem);
+    store_.set(
+        to_row(HarnessProblem{text_of(request_.shard), end.harness_problem, store_.trial_count()}));
+    observer_.on_trials(end);
+  }
+
+  void shrink() {
+    shrink_failures(request_, store_, shrinking_of_one,
+                    earlier(after(1), shrinking_seconds(request_.plan)),
+                    [&](const std::string& signature) { observer_.on_shrinking(signature); });
+  }
+
+  // What an earlier call of this run found out.
+  EvidenceFacts stored() const {
+    EvidenceFacts facts;
+    for (const auto& row : store_.evidence()) facts.take(row);
+    return facts;
+  }
+
+  // Proofs made in the one way do not stand beside those of an earlier call, made in the other.
+  void take_power() {
+    if (stored().power.empty()) drop(store_, DroppedKind::fault);
+    store_.set(to_row(request_.power->source));
+    for (const auto& proof : request_.power->faults) store_.set(to_row(proof));
+  }
+
+  void hunt() {
+    const auto& plan = request_.plan;
+    const auto before = stored();
+    if (!before.power.empty()) {
+      drop(store_, DroppedKind::fault);
+    } else if (!before.faults.empty() &&
+               std::all_of(before.faults.begin(), before.faults.end(),
+                           [&](const FaultProof& proof) { return proof.is_whole(plan); })) {
+      return;
+    }
+    const FaultHunt hunt{plan.name,     request_.seed, plan.fault_seeds, plan.fault_cases,
+                         request_.jobs, corpus_,       request_.shard};
+    auto results =
+        hunt_faults(hunt, after(faults_share), [&](const auto& p) { observer_.on_hunt(p); });
+    if (plan.shrink_faults)
+      shrink_faults(results, shrinking_of_one, request_.jobs, after(1),
+                    [&](const std::string& fault) { observer_.on_fault_shrunk(fault); });
+    for (const auto& result : results) store_.set(to_row(result.proof));
+  }
+
+  void explore_worlds() {
+    const auto end = earlier(after(1), request_.plan.tetrahedron_seconds);
+    std::uint64_t place = 0;
+    for (const auto& world : tetrahedron_worlds()) {
+      if (!request_.shard.holds(place++)) continue;
+      const double left = std::chrono::duration<double>(end - Clock::now()).count();
+      if (left <= 0) break;
+      observer_.on_world(world.name);
+      const auto result = prove(world, {request_.jobs, left, {}});
+      store_.set(to_row(World{world.name, text_of(request_.shard), result.classes, result.motions,
+                              result.all, result.collisions, result.complete,
+                              result.counterexample ? std::optional(result.what) : std::nullopt}));
+    }
+  }
+
+  const CampaignRequest& request_;
+  const std::filesystem::path& corpus_;
+  Store& store_;
+  CampaignObserver& observer_;
+  const RunDeadline begin_ = Clock::now();
+};
+
+}  // namespace
+
+void run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
+                  CampaignObserver& observer) {
+  CampaignRun(request, corpus, store, observer).run();
+}
+
+double shrinking_seconds(const CampaignPlan& plan) {
+  constexpr double without_limit = 120;
+  return plan.seconds == 0 ? without_limit : plan.shrink_share * plan.seconds;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,47 @@
+// A campaign from its canary to its worlds: each phase leaves what it finds out in the store, and
+// an observer is told of it. What the campaign comes to is read back from the store (findings.h)
+// and judged (gates.h).
+#pragma once
+
+#include <string>
+
+#include "properties/campaign/phases/fault_hunt.h"
+#include "properties/campaign/phases/trials.h"
+#include "properties/campaign/request.h"
+#include "properties/campaign/stored/evidence.h"
+
+namespace assay::properties {
+
+// Told of what a campaign does, in the order of its phases. Each function may be called from
+// another thread than the caller's, but by one thread at a time.
+class CampaignObserver {
+ public:
+  virtual ~CampaignObserver() = default;
+  // Before the canary is met nothing is told. "trials", "shrinking", "faults", "tetrahedron": what
+  // begins now.
+  virtual void on_phase(const char* /*phase*/) {}
+  virtual void on_canary(const Canary&) {}
+  virtual void on_trial(const TrialProgress&) {}
+  virtual void on_trials(const TrialsEnd&) {}
+  virtual void on_shrinking(const std::string& /*signature*/) {}
+  // Trials and their failures are all stored now; faults and worlds are still to come.
+  virtual void on_failures_shrunk() {}
+  virtual void on_hunt(const HuntProgress&) {}
+  virtual void on_fault_shrunk(const std::string& /*fault*/) {}
+  virtual void on_world(const std::string& /*world*/) {}
+};
+
+// Does what the store does not hold yet: the trials, the shrinking of what failed, the planted
+// faults (or the request's proof of them). The canary and the worlds of tetrahedra are done again;
+// of a world what came farther stays. Faults and worlds are
+// shared out among shards by their place in the list. corpus: folder of the curated cases.
+//
+// What is stored stays, whatever happens. Throws StoreProblem where the store cannot be written.
+void run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
+                  CampaignObserver& observer);
+
+// Seconds of the clock that shrinking failures may take: the plan's share of its own limit, or two
+// minutes where it has none.
+double shrinking_seconds(const CampaignPlan& plan);
+
+}  // namespace assay::properties

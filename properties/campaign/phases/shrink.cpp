@@ -1,0 +1,116 @@
+#include "properties/campaign/phases/shrink.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "properties/campaign/phases/case_tally.h"
+#include "properties/campaign/phases/clean_starts.h"
+
+namespace assay::properties {
+
+Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
+                        WorkerProcess& worker) {
+  return [&](const corpus::Case& c) -> std::optional<Finding> {
+    const auto seen = contracted(c, detector.contract);
+    if (!seen) return std::nullopt;
+    // What the caller vouches for wrongly is no fault of the detector.
+    const bool vouched = configuration.options.start == detector::Start::clean;
+    if (detector.built_in && vouched && !starts_clean(c)) return std::nullopt;
+    const auto run = worker.run(c, {&configuration, 1});
+    if (run[0].end == RunEnd::not_run) throw std::runtime_error(run[0].what);
+    const auto verdict = judge_trial(*seen, judge_case(*seen), run[0], configuration, detector);
+    if (!verdict.failure) return std::nullopt;
+    return finding_of(*verdict.failure);
+  };
+}
+
+Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& detector,
+                      const Configuration& configuration, WorkerProcess& worker,
+                      const ReduceLimits& limits, const OnBetter& on_better) {
+  MakeViewExplicit make_explicit;
+  if (detector.built_in) {
+    make_explicit = [&](const corpus::Case& c) {
+      return with_explicit_view(c, configuration.options);
+    };
+  }
+  return reduce(failing, judge_of_detector(detector, configuration, worker), limits, on_better,
+                make_explicit);
+}
+
+namespace {
+
+// Of a failure whose shrinking had all the time that it may have.
+std::string done_note(const StoredFailure& failure) {
+  return fmt::format("shrunk {} {}", failure.id, failure.configuration);
+}
+
+// Without the law that broke in it.
+std::string configuration_name(const StoredFailure& failure) {
+  return failure.configuration.substr(0, failure.configuration.find(law_in_configuration));
+}
+
+// As they were put to this case.
+std::vector<Configuration> configurations_of(const corpus::Case& failing,
+                                             const DetectorUnderTest& detector) {
+  const auto start = failing.options.find("start");
+  const bool vouched =
+      detector.built_in && start != failing.options.end() && start->second == "clean";
+  return vouched ? with_clean_start(detector.configurations) : detector.configurations;
+}
+
+// A failure that was shrunk in part goes before the others of its signature.
+void order_for_shrinking(std::vector<StoredFailure>& failures) {
+  std::stable_partition(failures.begin(), failures.end(),
+                        [](const StoredFailure& f) { return !f.smallest.empty(); });
+}
+
+}  // namespace
+
+void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
+                     RunDeadline deadline,
+                     const std::function<void(const std::string&)>& progress) {
+  auto failures = store.failures();
+  order_for_shrinking(failures);
+  std::set<std::string> met;
+  WorkerProcess worker(request.worker, request.plugin, {request.plan.case_seconds, 0});
+  for (auto& failure : failures) {
+    const std::chrono::duration<double> left = deadline - std::chrono::steady_clock::now();
+    if (left.count() <= 0) return;
+    if (failure.flaky || !met.insert(failure.signature).second || store.note(done_note(failure)))
+      continue;
+    const auto& begin = failure.smallest.empty() ? failure.mesh : failure.smallest;
+    const auto failing = corpus::parse_case(begin, failure.id);
+    if (!failing) continue;
+    const auto configurations = configurations_of(failing.value(), request.detector);
+    const auto configuration =
+        std::find_if(configurations.begin(), configurations.end(),
+                     [&](const Configuration& c) { return c.name == configuration_name(failure); });
+    if (configuration == configurations.end()) continue;
+    if (progress) progress(failure.signature);
+    const ReduceLimits bounded{std::min(limits.seconds, left.count()), limits.calls};
+    const OnBetter keep = [&](const corpus::Case& better) {
+      failure.smallest = corpus::case_text(better);
+      store.set_smallest(failure);
+    };
+    const Law* law = failure.signature.starts_with(law_in_signature)
+                         ? law_named(failure.signature.substr(law_in_signature.size()))
+                         : nullptr;
+    const Reduction reduction =
+        law ? reduce(failing.value(), judge_of_law(*law, *configuration), bounded, keep)
+            : shrink_case(failing.value(), request.detector, *configuration, worker, bounded, keep);
+    if (failure.smallest.empty()) {
+      // Nothing smaller was found: the mesh itself.
+      failure.smallest = failure.mesh;
+      store.set_smallest(failure);
+    }
+    const bool had_its_time = bounded.seconds >= limits.seconds;
+    const bool shows_no_more = reduction.finding.signature.empty();
+    if (reduction.fixed_point || had_its_time || shows_no_more)
+      store.set_note(done_note(failure), "done");
+  }
+}
+
+}  // namespace assay::properties

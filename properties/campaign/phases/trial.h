@@ -1,0 +1,57 @@
+// One trial: a case through a detector's configurations, judged by the oracle once.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "properties/judging/run_verdict.h"
+
+namespace assay::properties {
+
+// A detector, its claims, and the configurations in which it is certified.
+struct DetectorUnderTest {
+  std::string name;
+  bool built_in = true;
+  Claims claims;  // of a plug-in; the built-in claims by its configuration's options
+  Contract contract;
+  std::vector<Configuration> configurations;
+
+  Claims claims_in(const Configuration& configuration) const;
+};
+
+// Every culling built so far with pairs all, and the view cullings with pairs first and in bounded
+// arithmetic.
+DetectorUnderTest built_in_detector();
+
+// A defect, as far as it tells one defect from another.
+struct Failure {
+  Claim claim = Claim::total;
+  std::size_t step = 0;                        // of the script
+  std::optional<detector::TrianglePair> pair;  // the first that is wrong
+  std::string configuration;
+  std::string stage;    // that lost it
+  std::string feature;  // of the pair
+  std::string what;     // one line for people
+
+  // claim, kind of difference, stage, feature: what a shrunk case must keep.
+  std::string signature() const;
+  std::string kind;  // "missing", "spurious", "late", "early", "answer", "crash", ...
+};
+
+struct Verdict {
+  Outcome outcome = Outcome::holds;
+  std::optional<Failure> failure;   // of a defect: the first step that shows one
+  std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
+};
+
+// truth: of the same case, contracted (run_verdict.h). again: a second run, if there was one. The
+// built-in detector's times in exact arithmetic must be the oracle's in every bit; a plug-in is
+// judged by its claims.
+Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
+                    const CaseRun& run, const Configuration& configuration,
+                    const DetectorUnderTest& detector, const CaseRun* again = nullptr);
+
+}  // namespace assay::properties

@@ -1,0 +1,287 @@
+#include "properties/campaign/phases/trials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <thread>
+
+#include "properties/campaign/phases/case_tally.h"
+#include "properties/campaign/phases/clean_starts.h"
+#include "properties/campaign/stored/count_names.h"
+#include "properties/generators/families.h"
+#include "properties/judging/case_check.h"
+#include "properties/random.h"
+#include "properties/worker/worker_process.h"
+
+namespace assay::properties {
+
+corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
+                          const DetectorUnderTest& detector, const Failure& failure) {
+  corpus::Case out = c;
+  out.about = fmt::format("{}; {}", failure.signature(), failure.what);
+  out.source =
+      fmt::format("campaign case {}, detector {}, {}", c.id, detector.name, configuration.name);
+  std::replace(out.id.begin(), out.id.end(), ':', '-');
+  if (detector.built_in) out.options = options_text(configuration.options);
+  return out;
+}
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::uint64_t microseconds_since(Clock::time_point begin) {
+  return static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin).count());
+}
+
+// Of triangles and frames, bit by bit: two cases of one hash count as one.
+std::uint64_t mesh_hash(const corpus::Case& c) {
+  const auto bytes = [](const auto& matrix) {
+    return std::string_view(reinterpret_cast<const char*>(matrix.data()),
+                            sizeof(*matrix.data()) * static_cast<std::size_t>(matrix.size()));
+  };
+  std::uint64_t hash = Random::hash(bytes(c.triangles));
+  // Each link of the chain is a bijection of what came before, mixed by a multiplication.
+  for (const auto& frame : c.frames) {
+    hash = (hash ^ Random::hash(bytes(frame))) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
+struct PlannedTrial {
+  const Family* family;
+  std::uint64_t index;
+};
+
+// Families in turn, so that a run that ends early has judged all of them.
+std::vector<PlannedTrial> planned_trials(const CampaignPlan& plan, const Shard& shard) {
+  std::vector<PlannedTrial> list;
+  std::uint64_t most = 0;
+  for (const auto& stratum : plan.strata) most = std::max(most, stratum.cases);
+  for (std::uint64_t i = 0; i < most; ++i) {
+    for (const auto& stratum : plan.strata) {
+      if (i >= stratum.cases || !shard.holds(i)) continue;
+      const auto known = families();
+      const auto family = std::find_if(known.begin(), known.end(),
+                                       [&](const Family& f) { return f.name == stratum.family; });
+      list.push_back({&*family, i});
+    }
+  }
+  return list;
+}
+
+class Trials {
+ public:
+  Trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
+         const std::function<void(const TrialProgress&)>& progress)
+      : request_(request),
+        store_(store),
+        deadline_(deadline),
+        progress_(progress),
+        planned_(planned_trials(request.plan, request.shard)),
+        met_(store.signatures()) {}
+
+  TrialsEnd run() {
+    const auto begin = Clock::now();
+    std::vector<std::thread> threads;
+    for (int j = 0; j < request_.jobs; ++j) threads.emplace_back([this] { work(); });
+    for (auto& thread : threads) thread.join();
+    end_.complete = state_.done == planned_.size();
+    end_.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    return end_;
+  }
+
+ private:
+  // Every 16th trial is run twice, for the claim `deterministic`.
+  static constexpr std::uint64_t repeat_every = 16;
+  static constexpr std::uint64_t meshes_kept = 3;  // of a signature
+
+  void work() {
+    WorkerProcess worker(request_.worker, request_.plugin, {request_.plan.case_seconds, 0});
+    while (const PlannedTrial* trial = next_trial()) {
+      try {
+        judge(*trial, worker);
+      } catch (const StoreProblem& problem) {
+        const std::lock_guard lock(mutex_);
+        end_.store_problem = problem.what();
+      } catch (const std::exception& failure) {
+        const std::lock_guard lock(mutex_);
+        end_.harness_problem = failure.what();
+      }
+    }
+  }
+
+  const PlannedTrial* next_trial() {
+    const std::lock_guard lock(mutex_);
+    while (next_ < planned_.size() && end_.harness_problem.empty() && end_.store_problem.empty() &&
+           Clock::now() < deadline_) {
+      const PlannedTrial& trial = planned_[next_++];
+      if (!store_.has_trial(id_of(trial))) return &trial;
+      ++state_.done;
+      ++state_.stored;
+    }
+    return nullptr;
+  }
+
+  std::string id_of(const PlannedTrial& trial) const {
+    return trial_id(request_.plan, request_.seed, std::string(trial.family->name), trial.index);
+  }
+
+  // A trial in the making: its case, what the oracle and the detector say of it, what it showed.
+  struct Trial {
+    GeneratedCase made;
+    std::vector<Configuration> configurations;
+    std::vector<oracle::StepJudgement> truth;
+    std::vector<CaseRun> runs;
+    TrialRecord record;
+    std::vector<StoredFailure> failures;
+  };
+
+  void judge(const PlannedTrial& planned, WorkerProcess& worker) {
+    Trial trial = make(planned);
+    const auto seen = contracted(trial.made.c, request_.detector.contract);
+    if (!seen) return keep(trial);  // no case for this detector: its numbers do not hold it
+    auto begin = Clock::now();
+    trial.truth = judge_case(*seen);
+    trial.record.oracle_us = microseconds_since(begin);
+    begin = Clock::now();
+    trial.runs = run(trial, trial.configurations, worker);
+    trial.record.detector_us = microseconds_since(begin);
+    std::vector<CaseRun> again;
+    if (planned.index % repeat_every == 0) again = run(trial, trial.configurations, worker);
+    for (std::size_t i = 0; i < trial.runs.size(); ++i)
+      judge_configuration(trial, *seen, i, again.empty() ? nullptr : &again[i], worker);
+    count(trial, planned);
+    keep(trial);
+  }
+
+  Trial make(const PlannedTrial& planned) const {
+    Trial trial;
+    trial.made = make_case(*planned.family, id_of(planned));
+    const bool vouched = is_vouched_for(request_.detector, trial.made.c, planned.index);
+    trial.configurations = vouched ? with_clean_start(request_.detector.configurations)
+                                   : request_.detector.configurations;
+    auto& record = trial.record;
+    if (request_.detector.built_in)
+      ++record.counts[tag_count(vouched ? "start:clean" : "start:verified")];
+    record.id = trial.made.c.id;
+    record.family = planned.family->name;
+    record.index = planned.index;
+    record.mesh = mesh_hash(trial.made.c);
+    return trial;
+  }
+
+  // Notes what disturbed the runs and how long they took. Throws where there is no worker.
+  static std::vector<CaseRun> run(Trial& trial, std::span<const Configuration> configurations,
+                                  WorkerProcess& worker) {
+    auto runs = worker.run(trial.made.c, configurations);
+    for (const auto& one : runs) {
+      if (one.end == RunEnd::not_run) throw std::runtime_error(one.what);
+      trial.record.disturbed += one.disturbances;
+      if (one.end == RunEnd::hung) continue;
+      trial.record.slowest_us = std::max(trial.record.slowest_us,
+                                         static_cast<std::uint64_t>(1e6 * one.processor_seconds));
+    }
+    return runs;
+  }
+
+  void judge_configuration(Trial& trial, const corpus::Case& seen, std::size_t i,
+                           const CaseRun* again, WorkerProcess& worker) const {
+    const auto& configuration = trial.configurations[i];
+    const Verdict verdict =
+        judge_trial(seen, trial.truth, trial.runs[i], configuration, request_.detector, again);
+    trial.record.outcomes += letter_of(verdict.outcome);
+    if (verdict.left_out_misses > 0)
+      trial.record.counts[left_out_misses_name] += verdict.left_out_misses;
+    if (!verdict.failure) return;
+    // A failure is run twice before it is reported; a difference is itself a failure.
+    const bool flaky = !same_answers(trial.runs[i], run(trial, {&configuration, 1}, worker)[0]);
+    const auto failing =
+        failing_case(trial.made.c, configuration, request_.detector, *verdict.failure);
+    trial.failures.push_back({trial.record.id, configuration.name,
+                              verdict.failure->signature() + (flaky ? " (flaky)" : ""),
+                              verdict.failure->what, corpus::case_text(failing), "", flaky});
+  }
+
+  void count(Trial& trial, const PlannedTrial& planned) const {
+    auto& record = trial.record;
+    record.triangles = static_cast<std::uint64_t>(trial.made.c.triangles.rows());
+    for (const auto& step : trial.truth) {
+      ++record.steps;
+      record.collisions += step.pairs.empty() ? 0 : 1;
+      record.pairs += step.pairs.size();
+    }
+    if (!request_.detector.built_in) return;
+    const bool with_laws =
+        request_.plan.laws_every > 0 && planned.index % request_.plan.laws_every == 0;
+    const CaseTally tally =
+        tally_case(trial.made, trial.configurations, trial.runs, trial.truth, with_laws);
+    add(record.counts, tally.counts);
+    for (const auto& broken : tally.broken)
+      trial.failures.push_back(broken_law(trial.made.c, broken, trial.configurations));
+  }
+
+  static StoredFailure broken_law(const corpus::Case& c, const BrokenLaw& broken,
+                                  std::span<const Configuration> configurations) {
+    corpus::Case failing = c;
+    failing.about = fmt::format("breaks {}; {}", broken.law, broken.what);
+    failing.source = fmt::format("campaign case {}, {}", c.id, broken.configuration);
+    for (const auto& configuration : configurations) {
+      if (configuration.name == broken.configuration)
+        failing.options = options_text(configuration.options);
+    }
+    // The id stays: laws that choose at random, or look at some of the cases, go by it.
+    // The store's key is case and configuration: a case may break a law and a claim.
+    return {c.id,
+            fmt::format("{}{}{}", broken.configuration, law_in_configuration, broken.law),
+            fmt::format("{}{}", law_in_signature, broken.law),
+            broken.what,
+            corpus::case_text(failing),
+            "",
+            false};
+  }
+
+  void keep(const Trial& trial) {
+    const std::lock_guard lock(mutex_);
+    std::vector<StoredFailure> kept;
+    std::vector<MetFailure> met;
+    for (const auto& failure : trial.failures) {
+      met.push_back({failure.configuration, failure.signature});
+      if (met_[failure.signature]++ < meshes_kept) kept.push_back(failure);
+    }
+    // At once: a run that is killed counts nothing twice when it goes on.
+    store_.add(trial.record, kept, met);
+    ++end_.trials;
+    ++state_.done;
+    state_.planned = planned_.size();
+    const auto& record = trial.record;
+    state_.defects += record.has(Outcome::defect) ? 1 : 0;
+    const bool is_open = record.has(Outcome::undecided) || record.has(Outcome::error);
+    state_.undecided += is_open ? 1 : 0;
+    state_.disturbed += record.disturbed > 0 ? 1 : 0;
+    if (progress_) progress_(state_);
+  }
+
+  const CampaignRequest& request_;
+  Store& store_;
+  const RunDeadline deadline_;
+  const std::function<void(const TrialProgress&)>& progress_;
+  const std::vector<PlannedTrial> planned_;
+  std::mutex mutex_;
+  std::size_t next_ = 0;
+  TrialProgress state_;
+  TrialsEnd end_;
+  Counts met_;
+};
+
+}  // namespace
+
+TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
+                     const std::function<void(const TrialProgress&)>& progress) {
+  return Trials(request, store, deadline, progress).run();
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,197 @@
+#include "properties/campaign/stored/evidence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "properties/campaign/stored/json_optional.h"
+
+namespace assay::properties {
+
+// The keys of the facts, once for both directions: the names of the members. What a row's name or
+// shard says is no fact.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Canary, found_after)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HarnessProblem, what)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshCounts, triangles, vertices, steps)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShrunkFault, before, after, calls)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaultProof, law, status, curated, needed, cases, time_over,
+                                   known_vertices, shrunk)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PowerSource, campaign, detector, seed, program, worker,
+                                   generator, rows)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(World, classes, motions, all, collisions, complete,
+                                   counterexample)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Paths, out, detector)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputDigests, corpus, waivers)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StoredWaiver, reason, link, expires, expired)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow::Failed, id, signature, what)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow, input, configuration, cases, left_out, steps,
+                                   collisions, pairs, defects, failed, open)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SelfTestRow, queries, contacts, contradictions, open, complete)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SpeedFigure, median, lo, hi, samples)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Issued, at, seconds)
+
+void to_json(nlohmann::json& j, FaultStatus status) { j = name_of(status); }
+void from_json(const nlohmann::json& j, FaultStatus& status) {
+  for (const auto one : {FaultStatus::planted, FaultStatus::open, FaultStatus::equivalent}) {
+    if (j == name_of(one)) return void(status = one);
+  }
+  throw StoreProblem("no status of a fault: " + j.dump());
+}
+
+namespace {
+
+using Json = nlohmann::json;
+
+// The kinds of rows.
+constexpr const char* canary_kind = "canary";
+constexpr const char* problem_kind = "problem";
+constexpr const char* fault_kind = "fault";
+constexpr const char* power_kind = "power";
+constexpr const char* world_kind = "world";
+constexpr const char* asked_kind = "asked";
+constexpr const char* subject_kind = "subject";
+constexpr const char* digest_kind = "digest";
+constexpr const char* waiver_kind = "waiver";
+constexpr const char* corpus_kind = "corpus";
+constexpr const char* self_test_kind = "self-test";
+constexpr const char* times_kind = "times";
+
+// The names of rows whose kind has few of them.
+constexpr const char* trials_name = "trials";
+constexpr const char* versions_name = "versions";
+constexpr const char* paths_name = "paths";
+constexpr const char* inputs_name = "inputs";
+constexpr const char* issued_name = "issued";
+
+template <class T>
+Evidence row(const char* kind, const std::string& name, const std::string& shard, const T& facts,
+             std::uint64_t progress = 1) {
+  return {kind, name, shard, progress, Json(facts).dump()};
+}
+
+// `facts` with what the row's facts say.
+template <class T>
+T told(const Evidence& row, T facts = {}) {
+  Json::parse(row.facts).get_to(facts);
+  return facts;
+}
+
+}  // namespace
+
+bool FaultProof::found() const {
+  return curated ||
+         std::any_of(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
+}
+
+bool FaultProof::is_whole(const CampaignPlan& plan) const {
+  return !time_over && cases >= plan.fault_cases &&
+         needed.size() >= static_cast<std::size_t>(plan.fault_seeds);
+}
+
+std::optional<std::uint64_t> FaultProof::median() const {
+  if (needed.empty()) return std::nullopt;
+  auto sorted = needed;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto& a, const auto& b) { return a && (!b || *a < *b); });
+  return sorted[(sorted.size() - 1) / 2];
+}
+
+Evidence to_row(const Canary& x) { return row(canary_kind, x.fault, x.shard, x); }
+Evidence to_row(const HarnessProblem& x) {
+  // A later word goes before an earlier one, and of two at one time that of a problem: it is over
+  // when a further trial is stored without one.
+  return row(problem_kind, trials_name, x.shard, x, 2 * x.trials + (x.what.empty() ? 0 : 1));
+}
+Evidence to_row(const FaultProof& x) {
+  // A hunt that had its time is farther than any that was ended by it.
+  const auto all = static_cast<std::uint64_t>(x.needed.size()) + 1;
+  const auto found = static_cast<std::uint64_t>(
+      std::count_if(x.needed.begin(), x.needed.end(), [](const auto& n) { return n.has_value(); }));
+  return row(fault_kind, x.fault, x.shard, x, x.time_over ? found : all);
+}
+Evidence to_row(const PowerSource& x) { return row(power_kind, x.campaign, power_shard, x); }
+Evidence to_row(const World& x) {
+  // A counterexample is farther than any number of classes that hold.
+  constexpr std::uint64_t farthest = std::numeric_limits<std::int64_t>::max();
+  return row(world_kind, x.world, x.shard, x, x.counterexample ? farthest : x.classes);
+}
+Evidence to_row(const Asked& x) { return row(asked_kind, "gates", checks_shard, x); }
+Evidence to_row(const Versions& x) { return row(subject_kind, versions_name, checks_shard, x); }
+Evidence to_row(const Paths& x) { return row(subject_kind, paths_name, checks_shard, x); }
+Evidence to_row(const InputDigests& x) { return row(digest_kind, inputs_name, checks_shard, x); }
+Evidence to_row(const StoredWaiver& x) { return row(waiver_kind, x.signature, checks_shard, x); }
+Evidence to_row(const CorpusRow& x) {
+  return row(corpus_kind, x.input + ", " + x.configuration, checks_shard, x);
+}
+Evidence to_row(const SelfTestRow& x) { return row(self_test_kind, x.family, checks_shard, x); }
+Evidence to_row(const SpeedFigure& x) { return row(times_kind, x.what, checks_shard, x); }
+Evidence to_row(const Issued& x) { return row(times_kind, issued_name, checks_shard, x); }
+
+void EvidenceFacts::take(const Evidence& r) try {
+  if (r.kind == canary_kind) {
+    canaries.push_back(told<Canary>(r, {r.name, r.shard, {}}));
+  } else if (r.kind == problem_kind) {
+    problems.push_back(told<HarnessProblem>(r, {r.shard, "", r.progress / 2}));
+  } else if (r.kind == fault_kind) {
+    faults.push_back(told<FaultProof>(r));
+    faults.back().fault = r.name;
+    faults.back().shard = r.shard;
+  } else if (r.kind == power_kind) {
+    power.push_back(told<PowerSource>(r));
+  } else if (r.kind == world_kind) {
+    worlds.push_back(told<World>(r));
+    worlds.back().world = r.name;
+    worlds.back().shard = r.shard;
+  } else if (r.kind == asked_kind) {
+    asked = told<Asked>(r);
+  } else if (r.kind == subject_kind && r.name == versions_name) {
+    versions = told<Versions>(r);
+  } else if (r.kind == subject_kind && r.name == paths_name) {
+    paths = told<Paths>(r);
+  } else if (r.kind == digest_kind) {
+    inputs = told<InputDigests>(r);
+  } else if (r.kind == waiver_kind) {
+    waivers.push_back(told<StoredWaiver>(r));
+    waivers.back().signature = r.name;
+  } else if (r.kind == corpus_kind) {
+    corpus.push_back(told<CorpusRow>(r));
+  } else if (r.kind == self_test_kind) {
+    self_test.push_back(told<SelfTestRow>(r));
+    self_test.back().family = r.name;
+  } else if (r.kind == times_kind && r.name == issued_name) {
+    issued = told<Issued>(r);
+  } else if (r.kind == times_kind) {
+    speed.push_back(told<SpeedFigure>(r));
+    speed.back().what = r.name;
+  } else {
+    throw StoreProblem(fmt::format("no run stores evidence {} {}", r.kind, r.name));
+  }
+} catch (const nlohmann::json::exception& wrong) {
+  throw StoreProblem(fmt::format("evidence {} {}: {}", r.kind, r.name, wrong.what()));
+}
+
+void drop(Store& store, DroppedKind kind) {
+  switch (kind) {
+    case DroppedKind::fault:
+      store.drop_evidence(power_kind);
+      return store.drop_evidence(fault_kind);
+    case DroppedKind::waiver:
+      return store.drop_evidence(waiver_kind);
+    case DroppedKind::corpus:
+      return store.drop_evidence(corpus_kind);
+    case DroppedKind::self_test:
+      return store.drop_evidence(self_test_kind);
+    case DroppedKind::times:
+      return store.drop_evidence(times_kind);
+  }
+}
+
+bool may_differ(const Evidence& row) {
+  const bool is_path = row.kind == subject_kind && row.name == paths_name;
+  return row.kind == times_kind || row.kind == world_kind || is_path;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,75 @@
+// What a campaign keeps of each trial, and sums of it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "properties/judging/agreement.h"
+
+namespace assay::properties {
+
+// Named counts: laws, tags, blocks of set pairs (count_names.h).
+using Counts = std::map<std::string, std::uint64_t, std::less<>>;
+
+void add(Counts& sum, const Counts& more);
+// "name=3;other=1", names free of ';'; and back.
+std::string counts_text(const Counts& counts);
+Counts parse_counts(std::string_view text);
+
+struct TrialRecord {
+  std::string id;  // campaign:seed:family:index
+  std::string family;
+  std::uint64_t index = 0;
+  std::string outcomes;  // one letter a configuration: H(olds) D(efect) U(ndecided) E(rror)
+  std::uint64_t triangles = 0, steps = 0, collisions = 0, pairs = 0;
+  std::uint64_t oracle_us = 0, detector_us = 0;
+  Counts counts;
+  std::uint64_t mesh = 0;  // hash of the case's triangles and frames: equal cases, equal hashes
+  // How often a worker was killed from outside while it ran this trial, which was then run again.
+  std::uint64_t disturbed = 0;
+  // The most processor time that a configuration took which ended before its limit.
+  std::uint64_t slowest_us = 0;
+  bool has(Outcome outcome) const;  // in some configuration
+};
+
+char letter_of(Outcome outcome);
+
+// Sums over the trials of one family.
+struct StratumTally {
+  std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
+  std::uint64_t oracle_us = 0, detector_us = 0;
+  std::uint64_t with_defect = 0, open = 0;  // trials: in some configuration
+  std::uint64_t disturbed = 0;     // trials that somebody killed from outside, and that ran again
+  std::uint64_t discards = 0;      // cases beyond the numbers that the detector's contract takes
+  std::set<std::uint64_t> meshes;  // hashes of the cases: their number is that of distinct cases
+  struct Outcomes {
+    std::uint64_t holds = 0, defects = 0, undecided = 0, errors = 0;
+    std::uint64_t trials() const { return holds + defects + undecided + errors; }
+    std::uint64_t open() const { return undecided + errors; }
+    friend bool operator==(const Outcomes&, const Outcomes&) = default;
+  };
+  std::vector<Outcomes> by_configuration;
+  std::map<int, std::uint64_t> sizes;     // cases by floor(log2(triangles))
+  std::map<int, std::uint64_t> contacts;  // cases by floor(log2(pairs)), -1: none
+  void add(const TrialRecord& record);
+};
+
+struct Tally {
+  // Processor time of a configuration from which on a trial is near its limit.
+  std::uint64_t near_from_us = ~std::uint64_t{0};
+  std::map<std::string, StratumTally, std::less<>> strata;  // by family
+  Counts counts;
+  std::vector<TrialRecord> near;  // in the order in which they were added; without their counts
+  std::uint64_t disturbances = 0;
+  void add(const TrialRecord& record);
+  // Sums over the strata, in trials: all; those of a case that the contract takes; those with a
+  // defect, or without a verdict, in some configuration; those that were disturbed.
+  std::uint64_t trials() const, judged() const, with_defect() const, open() const,
+      disturbed() const;
+};
+
+}  // namespace assay::properties

@@ -1,0 +1,39 @@
+// The files of a run's folder, by their names.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "properties/campaign/request.h"
+#include "properties/campaign/stored/store.h"
+
+namespace assay::properties {
+
+// OUT/shard-1-of-4.sqlite
+std::filesystem::path store_file(const std::filesystem::path& out, const Shard& shard);
+// OUT/merged.sqlite
+inline std::filesystem::path merged_file(const std::filesystem::path& out) {
+  return out / "merged.sqlite";
+}
+// OUT/checks.sqlite: what `assay certify` finds out by itself.
+inline std::filesystem::path checks_file(const std::filesystem::path& out) {
+  return out / "checks.sqlite";
+}
+// OUT/campaign.json, OUT/certificate.json
+inline std::filesystem::path campaign_file(const std::filesystem::path& out) {
+  return out / "campaign.json";
+}
+inline std::filesystem::path certificate_file(const std::filesystem::path& out) {
+  return out / "certificate.json";
+}
+
+// The stores of trials in a folder, by name: of shards, and a merged one. One line in `problem`
+// where there are none.
+std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& folder,
+                                                 std::string& problem);
+
+// Below OUT, the same in every run that finds it: failures/tiny-1-broken-3-bvh-smallest.json.
+std::filesystem::path failure_file(const StoredFailure& failure, bool smallest);
+
+}  // namespace assay::properties

@@ -1,0 +1,100 @@
+// The trials and failures of one shard, in one file: SQLite, safe under a kill at any moment.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "properties/campaign/stored/record.h"
+#include "properties/campaign/stored/sqlite.h"
+
+namespace assay::properties {
+
+// Of the text that binds a store to a run (binding.h). A store of another schema is refused.
+inline constexpr const char* store_schema = "assay-store/2";
+
+// A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
+struct StoredFailure {
+  std::string id;  // of the trial
+  std::string configuration, signature, what;
+  std::string mesh;
+  std::string smallest;  // empty: not shrunk
+  bool flaky = false;    // two runs of it differ: a failure of its own
+};
+
+// Of a broken law the signature is "law L3_...", and `configuration` is "view-point, law L3_...",
+// for a case may break a law and a claim.
+inline constexpr std::string_view law_in_signature = "law ", law_in_configuration = ", law ";
+
+// The id of a failure that the shipped corpus shows is this and the name of its case. No trial's id
+// begins so: the name of a campaign has no '/'.
+inline constexpr std::string_view corpus_in_id = "corpus/";
+
+// That a trial showed something in a configuration: kept of every failure, its mesh of a few.
+struct MetFailure {
+  std::string configuration, signature;  // as of StoredFailure
+};
+
+// What a run found out besides its trials: the canary, planted faults, worlds, ...
+struct Evidence {
+  std::string kind, name;
+  std::string shard;           // "1/4": who found it out
+  std::uint64_t progress = 0;  // how far it came; of two by the same shard the farther one counts
+  std::string facts;           // a JSON object, without times where the kind does not say so
+};
+
+class Store {
+ public:
+  // Opens or makes the file. `binding` says what the trials are of (plan, seed, shard, detector):
+  // a file that was made for another one is refused, and so is a damaged one, and one that another
+  // process has open in this way. Nothing, and `problem` set, on failure.
+  static std::optional<Store> open(const std::filesystem::path& file, const std::string& binding,
+                                   std::string& problem);
+  // An existing file, whatever it was made for; it is not written to.
+  static std::optional<Store> read(const std::filesystem::path& file, std::string& problem);
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+  ~Store();
+
+  std::string binding() const;
+
+  // Each is whole on disk when it returns, or throws StoreProblem. Not for several threads at once.
+  void add(const TrialRecord& record);
+  // A trial with what it showed, all of it or nothing: the failures kept, and all that were met.
+  void add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
+           const std::vector<MetFailure>& met);
+  void add(const StoredFailure& failure);
+  // Takes away the failures of other signatures.
+  void keep_failures(const std::set<std::string>& signatures);
+  void set_smallest(const StoredFailure& failure);  // by id and configuration
+  void set_note(const std::string& key, const std::string& value);
+  // In place of what the same shard found out before, unless that came farther.
+  void set(const Evidence& evidence);
+  void drop_evidence(const std::string& kind);
+  // From now on the file stands alone: nothing beside it belongs to it, and reading it leaves its
+  // bytes as they are.
+  void seal();
+
+  bool has_trial(const std::string& id) const;
+  std::uint64_t trial_count() const;
+  std::optional<std::string> note(const std::string& key) const;
+  void for_each_trial(const std::function<void(const TrialRecord&)>& visit) const;
+  std::vector<StoredFailure> failures() const;  // by signature, then id
+  // How many failures of each signature were met, kept or not.
+  Counts signatures() const;
+  std::vector<Evidence> evidence() const;  // by kind, name, shard
+
+  // The tables of a store; a file that has them already is left as it is.
+  static const char* tables();
+
+ private:
+  struct Parts;
+  explicit Store(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace assay::properties

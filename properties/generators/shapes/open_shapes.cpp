@@ -1,0 +1,147 @@
+#include "properties/generators/shapes/open_shapes.h"
+
+#include <algorithm>
+
+#include "corpus/scenes/trigonometry.h"
+#include "properties/generators/shapes/closed_shapes.h"
+
+namespace assay::properties {
+namespace {
+
+using corpus::cos_turn;
+using corpus::sin_turn;
+
+// All triangles around a vertex, or one triangle. At least one triangle stays.
+void cut_hole(Random& random, Draft& d) {
+  const Face face = any_of(random, d.faces);
+  const std::int32_t v = face[0];
+  const auto around =
+      std::count_if(d.faces.begin(), d.faces.end(), [v](const Face& f) { return has(f, v); });
+  const bool whole_star =
+      random.below(2) == 0 && around * 2 <= static_cast<std::ptrdiff_t>(d.faces.size());
+  if (whole_star) {
+    d.holes.push_back(at(d.rest(), v));
+    std::erase_if(d.faces, [v](const Face& f) { return has(f, v); });
+  } else if (d.faces.size() > 1) {
+    d.holes.push_back(mean({at(d.rest(), face[0]), at(d.rest(), face[1]), at(d.rest(), face[2])}));
+    std::erase(d.faces, face);
+  }
+}
+
+Draft with_holes(Random& random, Draft d) {
+  const int most = d.faces.size() < 8 ? 1 : d.faces.size() < 20 ? 2 : 4;
+  const int holes = random.between(1, most);
+  for (int i = 0; i < holes; ++i) cut_hole(random, d);
+  // Two holes can take a small piece away as a whole and leave a closed one.
+  if (is_cycle(d.faces)) d.faces.pop_back();
+  drop_unused_vertices(d);
+  d.tag("holes:" + std::to_string(holes));
+  return d;
+}
+
+// rows x columns of quads; `place` puts (i,j) into space.
+template <class Place>
+Draft grid(int rows, int columns, bool around, const Place& place) {
+  Draft d;
+  d.frames.emplace_back();
+  const int across = around ? columns : columns + 1;
+  for (int i = 0; i <= rows; ++i) {
+    for (int j = 0; j < across; ++j) d.vertex(place(i, j));
+  }
+  const auto number = [=](int i, int j) { return i * across + j % across; };
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      d.quad(number(i, j), number(i, j + 1), number(i + 1, j + 1), number(i + 1, j));
+    }
+  }
+  return d;
+}
+
+// {rows, columns} with 2 rows columns about size.
+std::array<int, 2> shape_of_grid(int size, int least_columns) {
+  int columns = least_columns;
+  while (2 * (columns + 1) * (columns + 1) <= size) ++columns;
+  return {std::max(1, size / (2 * columns)), columns};
+}
+
+Draft sheet(Random& random, int size) {
+  const auto [rows, columns] = shape_of_grid(size, 1);
+  const double wave = random.below(2) == 0 ? 0 : random.unit();
+  Draft d = grid(rows, columns, false, [&, r = rows, c = columns](int i, int j) -> Point {
+    const double x = 2.0 * j / c - 1, y = 2.0 * i / r - 1;
+    return {x, y, wave * x * y + 0.25 * wave * random.signed_unit() / (r + c)};
+  });
+  d.axis = {{{-1, 0, -1}, {1, 0, -1}}};
+  d.tag("shape:sheet");
+  d.holes.push_back({0, 0, 0});
+  return d;
+}
+
+Draft tube(Random& random, int size) {
+  const int sides = size < 40 ? 3 : random.between(3, 6);
+  const int rows = std::max(1, size / (2 * sides));
+  const double half = 1 + random.unit();
+  Draft d = grid(rows, sides, true, [=, r = rows](int i, int j) -> Point {
+    const double turn = static_cast<double>(j) / sides;
+    return {0.5 * cos_turn(turn), 0.5 * sin_turn(turn), half * (2.0 * i / r - 1)};
+  });
+  d.holes = {{0, 0, -half}, {0, 0, half}};
+  d.axis = {{{0, 0, -half / 2}, {0, 0, half / 2}}};
+  d.star_shaped = true;
+  d.tag("shape:tube");
+  d.tag("holes:2");
+  return d;
+}
+
+// A ribbon around the z axis that goes outward: over itself after one turn.
+Draft spiral(Random& random, int size) {
+  const int columns = std::max(5, size / 2);
+  const double turns = 1.125 + random.unit();
+  const double growth = 0.25 + 0.5 * random.unit();
+  Draft d = grid(1, columns, false, [=](int i, int j) -> Point {
+    const double turn = turns * j / columns, r = 0.5 + growth * turn;
+    return {r * cos_turn(turn), r * sin_turn(turn), i - 0.5};
+  });
+  d.star_shaped = true;  // positive all along, though it lies over itself (case of L9)
+  d.holes.push_back({0.5 + growth * 0.5, 0, 0});
+  d.tag("shape:spiral");
+  return d;
+}
+
+// Two holes of one triangle each that meet at a vertex only: its loop passes there twice.
+Draft loop_twice_through_a_vertex(Random& random, int size) {
+  Draft d = star_shape(random, std::max(size, 8));
+  const Face first = any_of(random, d.faces);
+  const std::int32_t v = first[0];
+  for (const auto& f : d.faces) {
+    const auto shared = std::count_if(f.begin(), f.end(), [&](auto w) { return has(first, w); });
+    if (!has(f, v) || shared != 1) continue;
+    const Face second = f;
+    std::erase(d.faces, first);
+    std::erase(d.faces, second);
+    d.holes = {at(d.rest(), first[1]), at(d.rest(), second[1])};
+    d.tag("holes:vertex-twice");
+    return d;
+  }
+  return with_holes(random, std::move(d));
+}
+
+Draft cut_open(Random& random, int size) {
+  return with_holes(random, closed_shape(random, std::max(size, 6)));
+}
+
+}  // namespace
+
+Draft open_star_shape(Random& random, int size) {
+  return with_holes(random, star_shape(random, std::max(size, 6)));
+}
+
+Draft open_shape(Random& random, int size) {
+  // What stands here twice is made twice as often.
+  constexpr Draft (*shapes[])(Random&, int) = {
+      sheet,           sheet,           tube,     spiral,  loop_twice_through_a_vertex,
+      open_star_shape, open_star_shape, cut_open, cut_open};
+  return any_of(random, shapes)(random, size);
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,155 @@
+#include "properties/judging/case_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "oracle/view/view_sign.h"
+#include "properties/worker/case_player.h"
+
+namespace assay::properties {
+
+using detector::Answer;
+using detector::Arithmetic;
+using detector::Culling;
+using detector::ViewSign;
+
+namespace {
+
+std::string time_text(const detector::TimeEnclosure& t) {
+  return fmt::format("[{}, {}]", t.lo, t.hi);
+}
+
+class CaseChecker {
+ public:
+  CaseChecker(const corpus::Case& c, std::optional<Culling> culling, int jobs,
+              std::optional<Arithmetic> arithmetic)
+      : case_(c), jobs_(jobs), options_(options_of(c)) {
+    options_.culling = culling.value_or(options_.culling);
+    options_.arithmetic = arithmetic.value_or(options_.arithmetic);
+    claims_ = claims_of(options_);
+  }
+
+  CaseReport run() {
+    auto made = CasePlayer::make(case_, options_);
+    if (!made) {
+      if (case_.expected.answer != Answer::error) fail("refused: " + made.error().message);
+      return finish();
+    }
+    if (case_.expected.answer == Answer::error) fail("accepted, expected to be refused");
+    bool collision = false;
+    player_ = &made.value();
+    for (std::size_t s = 0; s < player_->steps(); ++s) {
+      check_step(s);
+      collision |= report_.steps.back().result.answer == Answer::collision;
+    }
+    const bool expected = case_.expected.answer == Answer::collision;
+    if (expected ? claims_.free_sound && !collision : claims_.no_spurious && collision) {
+      fail(fmt::format("answer {}, expected {}", collision ? "collision" : "free",
+                       name_of(case_.expected.answer)));
+    }
+    return finish();
+  }
+
+ private:
+  void fail(std::string what) { report_.failed.push_back(std::move(what)); }
+
+  CaseReport finish() {
+    if (!report_.failed.empty() && report_.outcome == Outcome::holds)
+      report_.outcome = Outcome::defect;
+    return std::move(report_);
+  }
+
+  void check_step(std::size_t s) {
+    CaseStepReport step{
+        player_->play(s),
+        oracle::judge_step(player_->x_t0(s), player_->x_t1(s), case_.triangles, {jobs_, {}}),
+        {}};
+    step.diff = compare(step.result, step.judgement, options_);
+    const std::string where = fmt::format("step {}: ", s + 1);
+    if (step.diff.outcome != Outcome::holds) fail(where + "detector and oracle disagree");
+    if (s < case_.expected.steps.size()) {
+      check_facts(where, case_.expected.steps[s], step.judgement);
+    }
+    if (uses_views(options_.culling) && claims_.free_sound) check_signs(where, s, step.result);
+    if (const auto view = corpus::view_of_step(case_, s)) check_expected_signs(where, s, *view);
+    report_.steps.push_back(std::move(step));
+  }
+
+  void check_facts(const std::string& where, const corpus::ExpectedStep& expected,
+                   const oracle::StepJudgement& judgement) {
+    if (judgement.answer != expected.answer) {
+      fail(fmt::format("{}oracle answers {}, expected {}", where, name_of(judgement.answer),
+                       name_of(expected.answer)));
+    }
+    if (expected.first_time && judgement.answer == Answer::collision &&
+        *expected.first_time != judgement.first) {
+      fail(fmt::format("{}first time {}, expected {}", where, time_text(judgement.first),
+                       time_text(*expected.first_time)));
+    }
+    if (!expected.pairs) return;
+    std::vector<corpus::ExpectedPair> found;
+    for (const auto& contact : judgement.pairs) found.push_back({contact.pair, contact.time});
+    if (found == *expected.pairs) return;
+    fail(fmt::format("{}{} pairs with their times, expected {}, or other pairs or times", where,
+                     found.size(), expected.pairs->size()));
+  }
+
+  // The detector's own signs against the oracle, at the primitives that it used.
+  void check_signs(const std::string& where, std::size_t s, const detector::StepResult& result) {
+    if (result.answer == Answer::error) return;
+    // A step of view-auto that fell back has none.
+    if (options_.culling == Culling::view_auto && result.signs.empty()) return;
+    const auto& mesh = player_->detector().topology();
+    for (std::size_t c = 0; c < mesh.components.size(); ++c) {
+      for (const auto t : mesh.components[c].triangles) {
+        const auto exact = sign_by_oracle(s, t, result.primitives[c]);
+        const auto ours = result.signs[static_cast<std::size_t>(t)];
+        // V0 costs time only: what is not certified may be there.
+        const bool allowed = exact == ours || (!claims_.no_spurious && ours == ViewSign::zero);
+        if (!allowed) {
+          fail(fmt::format("{}view sign of triangle {}: detector {}, oracle {}", where, t,
+                           static_cast<int>(ours), static_cast<int>(exact)));
+        }
+      }
+    }
+  }
+
+  void check_expected_signs(const std::string& where, std::size_t s,
+                            const detector::ViewPrimitive& view) {
+    if (s >= case_.expected.steps.size() || !case_.expected.steps[s].view_signs) return;
+    const auto& expected = *case_.expected.steps[s].view_signs;
+    for (Eigen::Index t = 0; t < case_.triangles.rows(); ++t) {
+      const auto exact = sign_by_oracle(s, static_cast<std::int32_t>(t), view);
+      if (exact != expected[static_cast<std::size_t>(t)]) {
+        fail(fmt::format("{}view sign of triangle {}: oracle {}, expected {}", where, t,
+                         static_cast<int>(exact),
+                         static_cast<int>(expected[static_cast<std::size_t>(t)])));
+      }
+    }
+  }
+
+  ViewSign sign_by_oracle(std::size_t s, std::int32_t t,
+                          const detector::ViewPrimitive& view) const {
+    const auto corner = [&](int i) {
+      return detector::moving_point(player_->x_t0(s), player_->x_t1(s), case_.triangles(t, i));
+    };
+    return oracle::view_sign({corner(0), corner(1), corner(2)}, view);
+  }
+
+  const corpus::Case& case_;
+  int jobs_;
+  detector::Options options_;
+  Claims claims_;
+  CasePlayer* player_ = nullptr;  // while the case runs
+  CaseReport report_;
+};
+
+}  // namespace
+
+CaseReport check_case(const corpus::Case& c, std::optional<Culling> culling, int jobs,
+                      std::optional<Arithmetic> arithmetic) {
+  return CaseChecker(c, culling, jobs, arithmetic).run();
+}
+
+}  // namespace assay::properties

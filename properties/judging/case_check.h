@@ -1,0 +1,33 @@
+// Runs a case of the corpus through detector and oracle and compares both with its expected facts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corpus/cases/case_file.h"
+#include "properties/judging/agreement.h"
+#include "properties/judging/case_options.h"
+
+namespace assay::properties {
+
+struct CaseStepReport {
+  detector::StepResult result;
+  oracle::StepJudgement judgement;
+  StepDiff diff;
+};
+
+struct CaseReport {
+  Outcome outcome = Outcome::holds;
+  std::vector<std::string> failed;  // one line for each fact that does not hold
+  std::vector<CaseStepReport> steps;
+};
+
+// Detector options from the case's own (case_options.h), with `culling` and
+// `arithmetic` in place of the case's when given. The case's view primitive is used where the
+// culling is one of views. Facts compared: refusal or answer, first time, pair set (detector and
+// oracle), view signs (detector where it tested the triangle, oracle always), agreement of detector
+// and oracle. The detector's answer, pairs and signs are held to what its arithmetic claims.
+CaseReport check_case(const corpus::Case& c, std::optional<detector::Culling> culling = {},
+                      int jobs = 1, std::optional<detector::Arithmetic> arithmetic = {});
+
+}  // namespace assay::properties

@@ -1,0 +1,99 @@
+#include "properties/judging/run_verdict.h"
+
+#include <algorithm>
+
+namespace assay::properties {
+
+namespace {
+
+// The worse of two.
+Outcome worse(Outcome a, Outcome b) {
+  constexpr Outcome ascending[] = {Outcome::holds, Outcome::undecided, Outcome::error,
+                                   Outcome::defect};
+  const auto rank = [&](Outcome outcome) {
+    return std::find(std::begin(ascending), std::end(ascending), outcome);
+  };
+  return rank(a) < rank(b) ? b : a;
+}
+
+void add_broken(RunVerdict& verdict, Claim claim) {
+  verdict.outcome = Outcome::defect;
+  const auto place = std::lower_bound(verdict.broken.begin(), verdict.broken.end(), claim);
+  if (place == verdict.broken.end() || *place != claim) verdict.broken.insert(place, claim);
+}
+
+void not_answered(RunVerdict& verdict, const Claims& claims) {
+  if (claims.total) {
+    add_broken(verdict, Claim::total);
+  } else {
+    verdict.outcome = Outcome::error;
+  }
+}
+
+}  // namespace
+
+std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& contract) {
+  corpus::Case out = c;
+  for (auto& frame : out.frames) {
+    frame = contracted(frame, contract.coordinates);
+    if (!frame.allFinite()) return std::nullopt;
+  }
+  return out;
+}
+
+std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
+                                              const oracle::JudgeOptions& options) {
+  std::vector<oracle::StepJudgement> judgements;
+  for (const auto& step : corpus::steps_of(c)) {
+    judgements.push_back(
+        oracle::judge_step(start_of(c, step), end_of(c, step), c.triangles, options));
+  }
+  return judgements;
+}
+
+RunVerdict judge_run(const corpus::Case& c, const CaseRun& run,
+                     std::span<const oracle::StepJudgement> judgements, const Claims& claims,
+                     const Contract& contract, const CaseRun* again) {
+  RunVerdict verdict;
+  verdict.what = run.what;
+  verdict.disturbances = run.disturbances + (again ? again->disturbances : 0);
+  switch (run.end) {
+    case RunEnd::completed:
+      break;
+    case RunEnd::crashed:
+      not_answered(verdict, claims);
+      break;
+    case RunEnd::refused:
+      if (c.expected.answer != detector::Answer::error) not_answered(verdict, claims);
+      break;
+    case RunEnd::hung:
+    case RunEnd::out_of_memory:
+      verdict.outcome = Outcome::undecided;
+      break;
+    case RunEnd::not_run:
+      verdict.outcome = Outcome::error;
+      return verdict;
+  }
+  for (std::size_t s = 0; s < std::min(run.steps.size(), judgements.size()); ++s) {
+    auto diff = compare(run.steps[s], judgements[s], claims, contract, c.triangles);
+    verdict.outcome = worse(verdict.outcome, diff.outcome);
+    for (const auto claim : diff.broken) add_broken(verdict, claim);
+    verdict.left_out_misses += diff.left_out_missed ? 1 : 0;
+    verdict.steps.push_back(std::move(diff));
+  }
+  if (!again) return verdict;
+  if (again->end == RunEnd::crashed && run.end != RunEnd::crashed) {
+    verdict.what = again->what;
+    not_answered(verdict, claims);
+  }
+  const auto ended_by_itself = [](const CaseRun& one) {
+    return one.end == RunEnd::completed || one.end == RunEnd::crashed || one.end == RunEnd::refused;
+  };
+  if (claims.deterministic && ended_by_itself(run) && ended_by_itself(*again) &&
+      !same_answers(run, *again)) {
+    add_broken(verdict, Claim::deterministic);
+  }
+  return verdict;
+}
+
+}  // namespace assay::properties

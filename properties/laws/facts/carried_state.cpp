@@ -1,0 +1,103 @@
+#include "properties/laws/facts/carried_state.h"
+
+#include <fmt/format.h>
+
+namespace assay::properties {
+
+using OptionalLayers = std::vector<std::optional<oracle::Layer>>;  // by component
+
+namespace {
+
+std::size_t component_of(const CaseFacts& facts, std::size_t triangle) {
+  return at(facts.component_of(static_cast<std::int32_t>(triangle)));
+}
+
+}  // namespace
+
+std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& layers,
+                              const TriangleFlags& held) {
+  OptionalLayers shared(facts.surface().mesh.components.size());
+  for (std::size_t t = 0; t < held.size(); ++t) {
+    if (!held[t]) continue;
+    if (layers.touched[t]) return fmt::format("triangle {} is touched", t);
+    auto& layer = shared[component_of(facts, t)];
+    if (!layer) layer = layers.layer[t];
+    if (layer != layers.layer[t]) return fmt::format("triangle {} is of another layer", t);
+  }
+  return {};
+}
+
+TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags& in_question) {
+  const auto& layers = facts.layers_at_start(s);
+  const auto dirty = dirty_triangles(facts, s);
+  OptionalLayers wanted(facts.surface().mesh.components.size());
+  for (std::size_t t = 0; t < dirty.size(); ++t) {
+    auto& layer = wanted[component_of(facts, t)];
+    if (!layer && !dirty[t] && !in_question[t] && !layers.touched[t]) layer = layers.layer[t];
+  }
+  TriangleFlags clean(dirty.size(), 0);
+  for (std::size_t t = 0; t < dirty.size(); ++t) {
+    if (!in_question[t] || layers.touched[t]) continue;
+    const auto& layer = wanted[component_of(facts, t)];
+    clean[t] = layer ? layer == layers.layer[t] : layers.clean[t] != 0;
+  }
+  return clean;
+}
+
+bool has_account(CaseFacts& facts, std::size_t s) {
+  if (facts.options().arithmetic != detector::Arithmetic::exact) return false;
+  if (facts.options().release != detector::Release::pieces) return false;
+  if (facts.options().ghost_test != detector::GhostTest::exact) return false;
+  if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return false;
+  const auto p = facts.known_from(s);
+  return !p || has_account(facts, *p);
+}
+
+TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s) {
+  TriangleFlags flags = account_of_dirty(facts, s);
+  const bool incomplete = facts.options().pairs != detector::Pairs::all &&
+                          facts.judgement(s).answer == detector::Answer::collision;
+  for (std::size_t t = 0; t < flags.size(); ++t) {
+    flags[t] |= incomplete | facts.own_contacts(s)[t] | facts.touched(s)[t];
+  }
+  return flags;
+}
+
+TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s) {
+  const std::size_t count = facts.surface().mesh.triangles.size();
+  TriangleFlags dirty(count, 0);
+  const auto p = facts.known_from(s);
+  if (!p) {
+    for (std::size_t t = 0; t < count; ++t) {
+      dirty[t] = facts.options().start == detector::Start::unknown
+                     ? !facts.is_free_by_view(s, component_of(facts, t))
+                     : !facts.layers_at_start(s).clean[t];
+    }
+    return dirty;
+  }
+  const TriangleFlags in_doubt = in_doubt_after(facts, *p);
+  const auto& layers = facts.layers_at_start(s);
+  OptionalLayers common(facts.surface().mesh.components.size());
+  for (std::size_t t = 0; t < count; ++t) {
+    auto& layer = common[component_of(facts, t)];
+    if (!layer && !in_doubt[t]) layer = layers.layer[t];
+  }
+  for (std::size_t t = 0; t < count; ++t) {
+    if (!in_doubt[t]) continue;
+    const auto& layer = common[component_of(facts, t)];
+    const bool released =
+        !layers.touched[t] && (layer ? layer == layers.layer[t] : layers.clean[t] != 0);
+    dirty[t] = !released;
+  }
+  return dirty;
+}
+
+TriangleFlags dirty_triangles(const CaseFacts& facts, std::size_t s) {
+  TriangleFlags dirty;
+  for (const auto doubts : facts.result(s).doubts) {
+    dirty.push_back((doubts & detector::doubt::dirty) != 0);
+  }
+  return dirty;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,209 @@
+#include "properties/laws/facts/case_facts.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "oracle/instant/winding.h"
+#include "oracle/view/touched_by_ghosts.h"
+#include "oracle/view/view_sign.h"
+
+namespace assay::properties {
+
+using detector::Positions;
+using detector::Triangles;
+
+namespace {
+
+Triangles rows_of(const detector::Topology& surface, std::span<const std::int32_t> triangles) {
+  Triangles rows(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto& t = surface.triangles[at(triangles[i])];
+    rows.row(static_cast<Eigen::Index>(i)) << t[0], t[1], t[2];
+  }
+  return rows;
+}
+
+Positions apex_rows(const detector::StepResult& result, bool at_end) {
+  return detector::with_apexes(Positions(0, 3), result.apexes, at_end);
+}
+
+bool same_places(const Positions& a, const Positions& b) { return a.rows() == b.rows() && a == b; }
+
+}  // namespace
+
+struct CaseFacts::StepFacts {
+  std::optional<std::vector<detector::ViewSign>> signs;
+  std::optional<std::vector<std::uint8_t>> touched, own_contacts;
+  std::optional<oracle::Candidates> candidates;
+  std::map<std::size_t, std::optional<int>> winding;
+  std::optional<ViewRange> range;
+  std::optional<bool> trusted;
+};
+
+CaseFacts::CaseFacts(const corpus::Case& source, const detector::Options& options,
+                     std::span<const detector::StepResult> results,
+                     std::span<const oracle::StepJudgement> judgements,
+                     const detector::Surface& surface, StagesOf stages_of)
+    : source_(source),
+      options_(options),
+      results_(results),
+      judgements_(judgements),
+      surface_(surface),
+      stages_of_(std::move(stages_of)),
+      script_(corpus::steps_of(source)) {
+  assert(results.size() == script_.size() && judgements.size() == script_.size());
+  std::optional<std::size_t> committed;
+  for (std::size_t s = 0; s < script_.size(); ++s) {
+    const bool known = committed && same_places(x_t1(*committed), x_t0(s));
+    known_from_.push_back(known ? committed : std::nullopt);
+    const auto answer = results_[s].answer;
+    const bool answered = answer == detector::Answer::free || answer == detector::Answer::collision;
+    if (script_[s].commit && answered) committed = s;
+  }
+  const auto own = surface_.mesh.triangles.size();
+  std::vector<std::int32_t> ghosts;
+  for (std::size_t g = own; g < surface_.all().triangles.size(); ++g) {
+    ghosts.push_back(static_cast<std::int32_t>(g));
+  }
+  ghosts_ = rows_of(surface_.all(), ghosts);
+  facts_.resize(script_.size());
+}
+
+CaseFacts::~CaseFacts() = default;
+
+bool CaseFacts::has_views(std::size_t s) const {
+  const auto& r = results_[s];
+  return (r.answer == detector::Answer::free || r.answer == detector::Answer::collision) &&
+         r.signs.size() == surface_.all().triangles.size() &&
+         r.doubts.size() == surface_.mesh.triangles.size() &&
+         r.primitives.size() == surface_.mesh.components.size() &&
+         r.apexes.size() == surface_.loops.size();
+}
+
+Positions CaseFacts::all_t0(std::size_t s) const {
+  return oracle::with_apexes(x_t0(s), apex_rows(results_[s], false));
+}
+
+Positions CaseFacts::all_t1(std::size_t s) const {
+  return oracle::with_apexes(x_t1(s), apex_rows(results_[s], true));
+}
+
+bool CaseFacts::is_trusted(std::size_t s) {
+  if (options_.start != detector::Start::clean) return true;
+  auto& trusted = facts_[s].trusted;
+  if (trusted) return *trusted;
+  // What was vouched for wrongly at one start is carried on to the steps after it.
+  if (known_from_[s]) return *(trusted = is_trusted(*known_from_[s]));
+  const auto& clean = layers_at_start(s).clean;
+  trusted = std::all_of(clean.begin(), clean.end(), [](std::uint8_t c) { return c != 0; });
+  return *trusted;
+}
+
+const std::vector<detector::ViewSign>& CaseFacts::signs(std::size_t s) {
+  auto& signs = facts_[s].signs;
+  if (signs) return *signs;
+  const auto& all = surface_.all();
+  std::vector<detector::ViewPrimitive> primitives(all.triangles.size());
+  std::vector<std::int32_t> every(all.triangles.size());
+  for (std::size_t c = 0; c < all.components.size(); ++c) {
+    for (const auto t : all.components[c].triangles) {
+      primitives[at(t)] = results_[s].primitives[c];
+      every[at(t)] = t;
+    }
+  }
+  signs = oracle::view_signs(all_t0(s), all_t1(s), rows_of(all, every), primitives, 1);
+  return *signs;
+}
+
+const std::vector<std::uint8_t>& CaseFacts::touched(std::size_t s) {
+  auto& touched = facts_[s].touched;
+  if (touched) return *touched;
+  touched.emplace(surface_.mesh.triangles.size(), 0);
+  // A step of view-auto without views sweeps no ghosts: what has any is unknown to the next one.
+  const bool is_new = !known_from_[s] || !has_views(*known_from_[s]);
+  const Positions apexes_t0 = apex_rows(results_[s], false);
+  const Positions apexes_t1 = apex_rows(results_[s], true);
+  for (std::size_t c = 0; c < surface_.mesh.components.size(); ++c) {
+    const std::span<const std::int32_t> own = surface_.mesh.components[c].triangles;
+    const auto ghosts = std::span(surface_.all().components[c].triangles).subspan(own.size());
+    if (ghosts.empty()) continue;
+    const auto part =
+        oracle::touched_by_ghosts(x_t0(s), x_t1(s), rows_of(surface_.all(), own), apexes_t0,
+                                  apexes_t1, rows_of(surface_.all(), ghosts), {1, is_new});
+    for (std::size_t i = 0; i < part.size(); ++i) (*touched)[at(own[i])] = part[i];
+  }
+  return *touched;
+}
+
+const oracle::Candidates& CaseFacts::candidates(std::size_t s) {
+  auto& candidates = facts_[s].candidates;
+  if (candidates) return *candidates;
+  const auto& all = signs(s);
+  const auto own = static_cast<std::ptrdiff_t>(surface_.mesh.triangles.size());
+  candidates.emplace(std::vector(all.begin(), all.begin() + own), results_[s].doubts,
+                     surface_.mesh.component_of_triangle);
+  return *candidates;
+}
+
+std::optional<int> CaseFacts::winding_at_start(std::size_t s, std::size_t component) {
+  auto& winding = facts_[s].winding;
+  if (const auto found = winding.find(component); found != winding.end()) return found->second;
+  const auto& all = surface_.all();
+  const oracle::Instant start(all_t0(s));
+  const oracle::WindingField field(start, rows_of(all, all.components[component].triangles));
+  return winding[component] = field.at(results_[s].primitives[component].q0.t0);
+}
+
+bool CaseFacts::is_free_by_view(std::size_t s, std::size_t component) {
+  const auto& triangles = surface_.all().components[component].triangles;
+  const auto& of_step = signs(s);
+  return std::all_of(
+             triangles.begin(), triangles.end(),
+             [&](std::int32_t t) { return of_step[at(t)] == detector::ViewSign::positive; }) &&
+         winding_at_start(s, component) == 1;
+}
+
+const oracle::LayerState& CaseFacts::layers_of(const Positions& all) {
+  for (const auto& [places, layers] : layers_) {
+    if (same_places(places, all)) return *layers;
+  }
+  const Triangles mesh = source_.triangles;
+  layers_.emplace_back(all, std::make_unique<oracle::LayerState>(
+                                oracle::layers_at(oracle::Instant(all), mesh, ghosts_)));
+  return *layers_.back().second;
+}
+
+const oracle::LayerState& CaseFacts::layers_at_start(std::size_t s) { return layers_of(all_t0(s)); }
+
+const oracle::LayerState& CaseFacts::layers_at_end(std::size_t s) { return layers_of(all_t1(s)); }
+
+const std::vector<std::uint8_t>& CaseFacts::own_contacts(std::size_t s) {
+  auto& flags = facts_[s].own_contacts;
+  if (flags) return *flags;
+  flags.emplace(surface_.mesh.triangles.size(), 0);
+  for (const auto& contact : judgements_[s].pairs) {
+    if (same_component(contact.pair)) {
+      (*flags)[at(contact.pair.a)] = (*flags)[at(contact.pair.b)] = 1;
+    }
+  }
+  return *flags;
+}
+
+const ViewRange& CaseFacts::view_range(std::size_t s) {
+  auto& range = facts_[s].range;
+  if (range) return *range;
+  const Positions all_start = all_t0(s), all_end = all_t1(s);
+  for (std::size_t c = 0; c < surface_.mesh.components.size(); ++c) {
+    const auto part = properties::view_range(surface_.all(), surface_.all().components[c].triangles,
+                                             all_start, all_end, results_[s].primitives[c]);
+    if (range) range->widen(part);
+    if (!range) range = part;
+  }
+  return *range;
+}
+
+bool CaseFacts::is_close(std::size_t s) {
+  return has_views(s) && properties::is_close(view_range(s));
+}
+
+}  // namespace assay::properties

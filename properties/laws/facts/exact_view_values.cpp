@@ -1,0 +1,121 @@
+#include "properties/laws/facts/exact_view_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "properties/numbering.h"
+
+namespace assay::properties {
+namespace {
+
+constexpr int mantissa_bits = 53;
+constexpr int weight_bits = 4;
+
+// The least exponent e such that every coordinate is a multiple of 2^e.
+int common_exponent(std::span<const detector::MovingPoint* const> points) {
+  int least = 0;
+  bool found = false;
+  for (const auto* p : points) {
+    for (const auto& place : {p->t0, p->t1}) {
+      for (const double c : place) {
+        if (c == 0) continue;
+        int exponent = 0;
+        std::frexp(c, &exponent);
+        least = found ? std::min(least, exponent - mantissa_bits) : exponent - mantissa_bits;
+        found = true;
+      }
+    }
+  }
+  return least;
+}
+
+ExactInteger integer(double c, int unit) {
+  int exponent = 0;
+  const double mantissa = std::frexp(c, &exponent);
+  ExactInteger value = static_cast<std::int64_t>(std::ldexp(mantissa, mantissa_bits));
+  if (value != 0) value <<= exponent - mantissa_bits - unit;
+  return value;
+}
+
+ExactPoint operator-(const ExactPoint& a, const ExactPoint& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+ExactInteger dot(const ExactPoint& a, const ExactPoint& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+ExactPoint cross(const ExactPoint& a, const ExactPoint& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+}  // namespace
+
+ExactView::ExactView(const std::array<detector::MovingPoint, 3>& triangle,
+                     const detector::ViewPrimitive& primitive, int eighths) {
+  const std::array<const detector::MovingPoint*, 5> all = {&triangle[0], &triangle[1], &triangle[2],
+                                                           &primitive.q0, &primitive.q1};
+  const int unit = common_exponent(all);
+  const auto place = [&](const detector::MovingPoint& p) {
+    ExactPoint x;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[k] = (8 - eighths) * integer(p.t0[k], unit) + eighths * integer(p.t1[k], unit);
+      x[k] <<= weight_bits;
+    }
+    return x;
+  };
+  for (std::size_t i = 0; i < 3; ++i) triangle_[i] = place(triangle[i]);
+  q0_ = place(primitive.q0);
+  q1_ = place(primitive.q1);
+  d_ = q1_ - q0_;
+  normal_ = cross(triangle_[1] - triangle_[0], triangle_[2] - triangle_[0]);
+  length2_ = dot(d_, d_);
+  if (length2_ == 0) length2_ = 1;
+}
+
+ExactPoint ExactView::corner(int i) const { return triangle_[at(i)]; }
+
+ExactPoint ExactView::inner_point(const std::array<int, 3>& sixteenths) const {
+  ExactPoint x;
+  for (std::size_t k = 0; k < 3; ++k) {
+    x[k] = sixteenths[0] * triangle_[0][k] + sixteenths[1] * triangle_[1][k] +
+           sixteenths[2] * triangle_[2][k];
+    x[k] >>= weight_bits;  // exact: corners are multiples of 2^4
+  }
+  return x;
+}
+
+ExactInteger ExactView::axial(const ExactPoint& x) const { return dot(x - q0_, d_); }
+
+Region ExactView::region_of(const ExactPoint& x) const {
+  const ExactInteger s = axial(x);
+  return s <= 0 ? Region::r0 : s >= length2_ ? Region::r1 : Region::r2;
+}
+
+bool ExactView::has_zero_area() const { return dot(normal_, normal_) == 0; }
+
+ExactInteger ExactView::by_clamp(const ExactPoint& x) const {
+  // f0 and f1 are the same for every point of the triangle's plane, so a corner serves.
+  const ExactInteger f0 = dot(triangle_[0] - q0_, normal_), f1 = dot(triangle_[0] - q1_, normal_);
+  const ExactInteger s = std::clamp<ExactInteger>(axial(x), 0, length2_);
+  return (length2_ - s) * f0 + s * f1;
+}
+
+ExactInteger ExactView::by_region(const ExactPoint& x) const {
+  switch (region_of(x)) {
+    case Region::r0:
+      return length2_ * dot(x - q0_, normal_);
+    case Region::r1:
+      return length2_ * dot(x - q1_, normal_);
+    case Region::r2:
+      break;
+  }
+  // |d|^2 times the way from the foot q0 + s d to x.
+  const ExactInteger s = axial(x);
+  ExactPoint from_foot = x - q0_;
+  for (std::size_t k = 0; k < 3; ++k) from_foot[k] = length2_ * from_foot[k] - s * d_[k];
+  return dot(from_foot, normal_);
+}
+
+}  // namespace assay::properties

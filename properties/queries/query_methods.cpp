@@ -1,0 +1,72 @@
+#include "properties/queries/query_methods.h"
+
+#include <array>
+
+#include "detector/contact/contact_exact.h"
+#include "detector/contact/elementary.h"
+#include "oracle/referee/referee.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Want;
+
+detector::VertexFace vertex_face(const Query& q) {
+  return {q.points[0], {q.points[1], q.points[2], q.points[3]}};
+}
+
+detector::EdgeEdge edge_edge(const Query& q) {
+  return {{q.points[0], q.points[1]}, {q.points[2], q.points[3]}};
+}
+
+QueryVerdict verdict(bool contact) {
+  return contact ? QueryVerdict::contact : QueryVerdict::no_contact;
+}
+
+MethodAnswer oracle_yes_no(const Query& query) {
+  return {verdict(ask_oracle(query, Want::yes_no).contact), {}};
+}
+
+MethodAnswer detector_yes_no(const Query& query) {
+  return {verdict(detector::test_contact(query, Want::yes_no).contact), {}};
+}
+
+MethodAnswer detector_timed(const Query& query) {
+  const auto result = detector::test_contact(query, Want::first_time);
+  if (!result.contact) return {QueryVerdict::no_contact, {}};
+  return {QueryVerdict::contact, result.time};
+}
+
+MethodAnswer detector_integers(const Query& query) {
+  const auto first = detector::exact_first_contact(query);
+  return {verdict(first.has_value()), first};
+}
+
+// Small: what is not settled soon is mostly a touch, which no amount of work settles.
+constexpr oracle::RefereeOptions referee_options = {60, 100};
+
+MethodAnswer second_referee(const Query& query) {
+  const auto told = query.first_group == 1 ? oracle::referee(vertex_face(query), referee_options)
+                                           : oracle::referee(edge_edge(query), referee_options);
+  if (told == oracle::RefereeVerdict::open) return {QueryVerdict::open, {}};
+  return {verdict(told == oracle::RefereeVerdict::contact), {}};
+}
+
+constexpr std::array methods = {
+    QueryMethod{"oracle, yes or no", oracle_yes_no},
+    QueryMethod{"detector, yes or no", detector_yes_no},
+    QueryMethod{"detector, timed", detector_timed},
+    QueryMethod{"detector, integers alone", detector_integers},
+    QueryMethod{"second referee", second_referee},
+};
+
+}  // namespace
+
+std::span<const QueryMethod> query_methods() { return methods; }
+
+oracle::ContactAnswer ask_oracle(const Query& query, Want want) {
+  return query.first_group == 1 ? oracle::vertex_face_contact(vertex_face(query), want)
+                                : oracle::edge_edge_contact(edge_edge(query), want);
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,41 @@
+// What the self-test consists of: families of cases, each case made alone from its index.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "properties/queries/query_checks.h"
+
+namespace assay::properties {
+
+class SelfTestFamily {
+ public:
+  SelfTestFamily(std::string name, std::string about)
+      : name_(std::move(name)), about_(std::move(about)) {}
+  virtual ~SelfTestFamily() = default;
+  SelfTestFamily(const SelfTestFamily&) = delete;
+  SelfTestFamily& operator=(const SelfTestFamily&) = delete;
+
+  const std::string& name() const { return name_; }
+  const std::string& about() const { return about_; }
+  // Indices to check when `queries` random small-integer queries are asked for.
+  virtual std::uint64_t indices(std::uint64_t queries) const = 0;
+  // Checks a case; what is wrong with it, or nothing. Some indices of a small world hold no case.
+  virtual std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
+                                           QueryTally& tally) const = 0;
+  // The case, exactly, and what each method says of it.
+  virtual std::string text(std::uint64_t seed, std::uint64_t index) const = 0;
+
+ private:
+  std::string name_, about_;
+};
+
+// Cheap and most telling first: named queries with the rung that must decide them, small worlds,
+// whole small steps, random queries, then the larger worlds (only when many queries are asked for).
+const std::vector<std::unique_ptr<const SelfTestFamily>>& self_test_families();
+
+}  // namespace assay::properties

@@ -1,0 +1,107 @@
+// Simpler coordinates: see passes.h.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "properties/random.h"
+#include "properties/reducer/case_edits.h"
+#include "properties/reducer/numbers.h"
+#include "properties/reducer/passes/passes.h"
+
+namespace assay::properties {
+namespace {
+
+using corpus::Case;
+
+double largest_magnitude(Case& c, int axis) {
+  double largest = 0;
+  for (const double* x : numbers_along(c, axis)) largest = std::max(largest, std::abs(*x));
+  return largest;
+}
+
+}  // namespace
+
+void translate(ReductionSearch& search) {
+  constexpr std::size_t most_origins = 60;
+  for (int axis = 0; axis < 3; ++axis) {
+    Case c = search.best();
+    std::set<double> origins;
+    for (const double* x : numbers_along(c, axis)) origins.insert(*x);
+    std::size_t tried = 0;
+    for (const double origin : origins) {
+      if (++tried > most_origins || search.ended()) break;
+      Case moved = c;
+      for (double* x : numbers_along(moved, axis)) *x -= origin;
+      search.offer(moved);
+    }
+  }
+}
+
+void round_all(ReductionSearch& search) {
+  // All axes alike, then each by itself: a linear map keeps contacts, and signs seen from a point.
+  for (int axis = -1; axis < 3; ++axis) {
+    Case c = search.best();
+    const double largest = largest_magnitude(c, axis);
+    if (largest == 0) continue;
+    // Integers up to each of these; what is no smaller than now is not judged.
+    for (const double limit :
+         {1.,    2.,    3.,     4.,  5.,  6.,     7.,     8.,     9.,     12.,    16.,
+          20.,   24.,   32.,    48., 64., 99.,    128.,   256.,   512.,   999.,   2048.,
+          4096., 9999., 65536., 1e6, 1e7, 0x1p30, 0x1p36, 0x1p42, 0x1p48, largest}) {
+      Case rounded = c;
+      for (double* x : numbers_along(rounded, axis)) *x = std::round(*x * (limit / largest)) + 0.0;
+      if (search.offer(rounded)) break;
+    }
+  }
+}
+
+void round_vertices(ReductionSearch& search) {
+  for (Eigen::Index v = 0; v < search.best().frames.front().rows(); ++v) {
+    for (const int digits : {1, 2, 3, 4, 5, 6, 8, 10, 12, 14}) {
+      if (search.ended()) return;
+      Case rounded = search.best();
+      for (auto& frame : rounded.frames) {
+        for (int k = 0; k < 3; ++k) frame(v, k) = rounded_to_digits(frame(v, k), digits);
+      }
+      if (search.offer(rounded)) break;
+    }
+  }
+}
+
+void simplify_numbers(ReductionSearch& search) {
+  Case c = search.best();
+  for (std::size_t g = 0; g < number_groups(c).size() && !search.ended(); ++g) {
+    const double value = *number_groups(c)[g].front();
+    for (const double simpler : simpler_values(value)) {
+      Case candidate = c;
+      const auto groups = number_groups(candidate);
+      for (double* x : groups[g]) *x = simpler;
+      if (!search.offer(candidate)) continue;
+      c = search.best();
+      break;
+    }
+  }
+}
+
+void simplify_together(ReductionSearch& search) {
+  constexpr int failures = 400;
+  Random random(0x70e7, search.calls());
+  for (int failed = 0; failed < failures && !search.ended(); ++failed) {
+    Case c = search.best();
+    const auto groups = number_groups(c);
+    for (int n = random.between(2, 4); n > 0; --n) {
+      const auto& group =
+          groups[static_cast<std::size_t>(random.below(static_cast<int>(groups.size())))];
+      const auto values = simpler_values(*group.front());
+      // A small integer may be no simpler by itself: the sum decides.
+      const double value =
+          values.empty() || random.below(3) == 0
+              ? random.between(-9, 9)
+              : values[static_cast<std::size_t>(random.below(static_cast<int>(values.size())))];
+      for (double* x : group) *x = value;
+    }
+    if (search.offer(c)) failed = 0;
+  }
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,103 @@
+// Triangulated spheres over a few of the case's own vertices: see passes.h.
+//
+// The four moving points of a contact, taken as a tetrahedron, have the same contact at the same
+// time: where the failure lies in how a contact is looked for, this is often the whole reduction.
+#include <algorithm>
+
+#include "properties/reducer/case_edits.h"
+#include "properties/reducer/passes/passes.h"
+#include "properties/reducer/rings.h"
+#include "properties/reducer/sphere_meshes.h"
+
+namespace assay::properties {
+namespace {
+
+using Corners = std::array<std::int32_t, 3>;
+
+Corners sorted(Corners corners) {
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+// Calls `take` with each subset of `count` of the first `pool` places, ascending; ends when it
+// returns true.
+template <class Take>
+bool any_subset(std::size_t pool, std::size_t count, Take take) {
+  std::vector<std::size_t> chosen(count);
+  for (std::size_t i = 0; i < count; ++i) chosen[i] = i;
+  while (true) {
+    if (take(chosen)) return true;
+    std::size_t i = count;
+    while (i > 0 && chosen[i - 1] == pool - count + i - 1) --i;
+    if (i == 0) return false;
+    ++chosen[i - 1];
+    for (std::size_t k = i; k < count; ++k) chosen[k] = chosen[k - 1] + 1;
+  }
+}
+
+bool holds_all(const SphereMesh& mesh, const std::vector<Corners>& wanted) {
+  return std::all_of(wanted.begin(), wanted.end(), [&](const Corners& corners) {
+    return std::any_of(mesh.begin(), mesh.end(),
+                       [&](const Corners& other) { return sorted(other) == sorted(corners); });
+  });
+}
+
+void try_spheres(ReductionSearch& search, bool of_pair_only) {
+  constexpr std::size_t largest_pool = 8;
+  // From here on there are too many, and only those that hold the reported triangles are tried.
+  constexpr std::size_t many = 6;
+  Rings rings = rings_of(search);
+  const corpus::Case start = search.best();
+  std::vector<std::int32_t> pool(rings.far_first.rbegin(), rings.far_first.rend());  // near first
+  if (pool.size() > largest_pool) pool.resize(largest_pool);
+  if (of_pair_only) {
+    std::erase_if(pool, [&](std::int32_t v) { return rings.distance[at(v)] > 0; });
+  }
+
+  for (std::size_t n = 4; n <= std::min<std::size_t>(7, pool.size()); ++n) {
+    if (search.size().triangles <= 2 * n - 4) return;
+    const bool smaller = any_subset(pool.size(), n, [&](const std::vector<std::size_t>& chosen) {
+      std::vector<std::int32_t> place(static_cast<std::size_t>(start.frames.front().rows()), -1);
+      for (std::size_t i = 0; i < n; ++i) {
+        place[at(pool[chosen[i]])] = static_cast<std::int32_t>(i);
+      }
+      std::vector<Corners> wanted;
+      if (n >= many) {
+        if (search.finding().focus.size() < 2) return true;
+        for (const auto t : search.finding().focus) {
+          Corners corners;
+          for (int i = 0; i < 3; ++i) {
+            corners[at(i)] = place[at(start.triangles(t, i))];
+          }
+          if (sorted(corners)[0] < 0) return false;
+          wanted.push_back(corners);
+        }
+      }
+      for (const SphereMesh& sphere : sphere_meshes(static_cast<int>(n))) {
+        if (!holds_all(sphere, wanted)) continue;
+        for (SphereMesh mesh : {sphere, mirrored(sphere)}) {
+          if (search.ended()) return true;
+          for (Corners& corners : mesh) {
+            for (auto& v : corners) v = pool[chosen[at(v)]];
+          }
+          const corpus::Case small = with_triangles(start, mesh);
+          if (search.offer(small)) return true;
+          // The view of the large mesh need not suit the small one.
+          if (n < many && search.offer(seen_from_its_middle(small))) return true;
+        }
+      }
+      return false;
+    });
+    if (smaller && search.size().triangles < static_cast<std::size_t>(start.triangles.rows())) {
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+void try_spheres_of_pair(ReductionSearch& search) { try_spheres(search, true); }
+
+void try_small_spheres(ReductionSearch& search) { try_spheres(search, false); }
+
+}  // namespace assay::properties

@@ -1,0 +1,21 @@
+// The check of one class of a tetrahedron's motions: detector and laws against the oracle.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "properties/worlds/tetrahedron_world.h"
+
+namespace assay::properties {
+
+struct TetrahedronFailure {
+  corpus::Case c;
+  std::string what;
+};
+
+// All view-points of the motion, both orientations; adds to the counts. The first that fails, or
+// nothing.
+std::optional<TetrahedronFailure> check_tetrahedron(const TetrahedronMotion& motion,
+                                                    TetrahedronWorldResult& counts);
+
+}  // namespace assay::properties
