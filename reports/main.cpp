@@ -12,10 +12,10 @@
 #include <thread>
 #include <vector>
 
-#include "reports/commands.h"
-#include "reports/complaint.h"
-#include "reports/exit_code.h"
-#include "reports/verb_options.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/exit_code.h"
+#include "reports/verbs/commands.h"
+#include "reports/verbs/verb_options.h"
 
 namespace {
 

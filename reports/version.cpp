@@ -9,7 +9,7 @@
 
 #include "commit.h"
 #include "oracle/versions.h"
-#include "reports/commands.h"
+#include "reports/verbs/commands.h"
 
 namespace assay::reports {
 

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/words.h"
-#include "reports/bench/error_output.h"
-#include "reports/bench/stability_output.h"
-#include "reports/commands.h"
+#include "reports/bench/speed_error/error_output.h"
+#include "reports/bench/stability/stability_output.h"
+#include "reports/verbs/commands.h"
 
 namespace assay::reports {
 

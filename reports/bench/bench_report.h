@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "reports/bench/error_summary.h"
 #include "reports/bench/estimate.h"
-#include "reports/bench/stability_cell.h"
+#include "reports/bench/speed_error/error_summary.h"
+#include "reports/bench/stability/stability_cell.h"
 
 namespace assay::reports {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "reports/bench/bench_report.h"
-#include "reports/progress.h"
+#include "reports/terminal/progress.h"
 
 namespace assay::reports {
 

@@ -6,7 +6,7 @@
 #include "properties/campaign/phases/phases.h"
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/stored/run_folder.h"
-#include "reports/plain_progress.h"
+#include "reports/terminal/plain_progress.h"
 
 namespace assay::reports {
 

@@ -4,8 +4,8 @@
 #include "corpus/digest.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "properties/reducer/mesh_size.h"
+#include "reports/campaign/failure_text.h"
 #include "reports/certificate/sections.h"
-#include "reports/failure_text.h"
 
 namespace assay::reports {
 namespace {

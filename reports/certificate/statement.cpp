@@ -5,7 +5,7 @@
 #include "corpus/digest.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/sections.h"
-#include "reports/shell_word.h"
+#include "reports/terminal/shell_word.h"
 
 namespace assay::reports {
 namespace {

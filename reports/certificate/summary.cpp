@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/certificate/junit.h"
-#include "reports/json_output.h"
+#include "reports/steps/json_output.h"
 
 namespace assay::reports {
 namespace {

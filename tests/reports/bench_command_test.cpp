@@ -8,13 +8,13 @@
 #include <numeric>
 
 #include "corpus/scenes/scenes.h"
-#include "reports/bench/break_even.h"
+#include "reports/bench/claims/break_even.h"
 #include "reports/bench/contact_step.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/peak_memory.h"
 #include "reports/bench/query_sets.h"
-#include "reports/bench/swept_boxes.h"
 #include "reports/bench/timed_step.h"
+#include "reports/bench/view/swept_boxes.h"
 #include "tests/reports/program.h"
 
 namespace assay::reports {

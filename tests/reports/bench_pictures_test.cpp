@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 
-#include "reports/bench/pictures/gnuplot.h"
-#include "reports/bench/pictures/pictures.h"
+#include "reports/pictures/gnuplot.h"
+#include "reports/pictures/pictures.h"
 
 namespace assay::reports {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "properties/campaign/stored/merge.h"
 #include "properties/faults/fault.h"
-#include "reports/page_data/failure_scenes.h"
-#include "reports/page_data/page_file.h"
-#include "reports/page_data/run_json.h"
+#include "reports/page/data/failure_scenes.h"
+#include "reports/page/data/page_file.h"
+#include "reports/page/data/run_json.h"
 #include "tests/reports/program.h"
 #include "tests/reports/stored_run.h"
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "reports/picture/contact_point.h"
-#include "reports/picture/mesh_svg.h"
-#include "reports/picture/nearest_points.h"
-#include "reports/picture/scene_maker.h"
-#include "reports/picture/view_set.h"
+#include "reports/pictures/contact_point.h"
+#include "reports/pictures/mesh_svg.h"
+#include "reports/pictures/nearest_points.h"
+#include "reports/pictures/scene_maker.h"
+#include "reports/pictures/view_set.h"
 #include "tests/reports/stored_run.h"
 
 namespace assay::tests {

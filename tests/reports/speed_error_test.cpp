@@ -8,9 +8,9 @@
 
 #include "properties/random.h"
 #include "reports/bench/bootstrap.h"
-#include "reports/bench/error_families.h"
-#include "reports/bench/error_output.h"
-#include "reports/bench/error_runs.h"
+#include "reports/bench/speed_error/error_families.h"
+#include "reports/bench/speed_error/error_output.h"
+#include "reports/bench/speed_error/error_runs.h"
 #include "reports/bench/timed_step.h"
 
 namespace assay::reports {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "detector/step/stages.h"
-#include "reports/bench/stability_changes.h"
-#include "reports/bench/stability_family.h"
-#include "reports/bench/stability_suite.h"
+#include "reports/bench/stability/stability_changes.h"
+#include "reports/bench/stability/stability_family.h"
+#include "reports/bench/stability/stability_suite.h"
 
 namespace assay::reports {
 namespace {

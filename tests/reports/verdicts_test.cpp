@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/campaign/stored/run_folder.h"
-#include "reports/campaign_text.h"
+#include "reports/campaign/campaign_text.h"
 #include "reports/certificate/junit.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/certificate/verify.h"
-#include "reports/page_data/run_json.h"
+#include "reports/page/data/run_json.h"
 #include "tests/properties/good_findings.h"
 #include "tests/reports/program.h"
 

@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include "reports/bench/claims/claims_parts.h"
+#include "reports/bench/interleave.h"
+#include "reports/bench/timed_step.h"
+
+namespace assay::reports {
+namespace {
+
+using namespace detector;
+
+Stages stages_that(TreeSearch::Skipping skipping) {
+  Stages stages = standard_stages(bench_options(Culling::view_point));
+  stages.pair_search = std::make_shared<TreeSearch>(skipping);
+  return stages;
+}
+
+double box_tests(TimedStep& step) {
+  return static_cast<double>(step.result().counts.search.box_tests);
+}
+
+void compare_box_tests(const NamedStep& named, BenchReport& report) {
+  const auto& [name, step] = named;
+  const Options with_views = bench_options(Culling::view_point);
+  TimedStep bvh(name, step.triangles, step.frames, bench_options(Culling::bvh), report);
+  TimedStep plain(name, step.triangles, step.frames, with_views,
+                  stages_that(TreeSearch::Skipping::off), report);
+  TimedStep compact(name, step.triangles, step.frames, with_views,
+                    stages_that(TreeSearch::Skipping::on), report);
+  const auto& counts = compact.result().counts.search;
+  report.add(fmt::format("box tests of the vBVHs over bvh's, {}", name), "times",
+             exactly(box_tests(plain) / box_tests(bvh)), below(1),
+             fmt::format("{:.0f} over {:.0f}, V+ {:.1f} %", box_tests(plain), box_tests(bvh),
+                         100 * plain.positive_share()));
+  report.add(fmt::format("box tests with skipping over without, {}", name), "times",
+             exactly(box_tests(compact) / box_tests(plain)), below(1),
+             fmt::format("{} tests, {} child counts, {} nodes skipped", counts.box_tests,
+                         counts.child_counts, counts.skipped));
+}
+
+struct NodePair {
+  std::int32_t a, b;
+};
+
+// Node pairs that a descent tests, in its order; at most `most`.
+std::vector<NodePair> tested_pairs(const BoundingVolumeTree& tree, std::size_t most) {
+  std::vector<NodePair> tested, stack = {{BoundingVolumeTree::root, BoundingVolumeTree::root}};
+  while (!stack.empty() && tested.size() < most) {
+    const auto [a, b] = stack.back();
+    stack.pop_back();
+    if (a == b) {
+      if (tree.is_leaf(a)) continue;
+      const auto child = tree.child(a);
+      stack.insert(stack.end(), {{child, child + 1}, {child + 1, child + 1}, {child, child}});
+      continue;
+    }
+    tested.push_back({a, b});
+    if (apart(tree.box(a), tree.box(b)) || tree.is_leaf(a) || tree.is_leaf(b)) continue;
+    for (const auto i : {tree.child(a), tree.child(a) + 1}) {
+      for (const auto j : {tree.child(b), tree.child(b) + 1}) stack.push_back({i, j});
+    }
+  }
+  return tested;
+}
+
+TriangleType type_of(ViewSign sign) {
+  return sign == ViewSign::positive   ? TriangleType::positive
+         : sign == ViewSign::negative ? TriangleType::negative
+                                      : TriangleType::zero;
+}
+
+// The same node pairs, each once by its boxes and once by the flags below it.
+void compare_a_look(const NamedStep& named, int rounds, BenchReport& report) {
+  const auto& [name, step] = named;
+  TimedStep views(name, step.triangles, step.frames, bench_options(Culling::view_point), report);
+  std::vector<TriangleType> types;
+  for (const auto sign : views.result().signs) types.push_back(type_of(sign));
+  const Topology mesh = make_topology(step.triangles, step.frames[0].rows());
+  BoundingVolumeTree tree(mesh, step.frames[0]);
+  tree.refit(mesh, step.frames[0], step.frames[1]);
+  Marks marks(tree);
+  MarkingCounts unused;
+  Marking().bring_to(types, tree, marks, unused);
+  std::vector<NodePair> pairs;
+  constexpr std::size_t most = 500'000;
+  for (const auto& pair : tested_pairs(tree, most)) {
+    if (!tree.is_leaf(pair.a)) pairs.push_back(pair);
+  }
+  if (pairs.empty()) return;
+  const PairTable k = PairRule().candidates().within;
+  const auto flags = [&](std::int32_t node) {
+    return marks.node_flags[static_cast<std::size_t>(node)];
+  };
+  const auto samples = interleave(rounds, {[&] {
+                                             std::size_t found = 0;
+                                             const double ns = ns_of([&] {
+                                               for (const auto& [a, b] : pairs)
+                                                 found += apart(tree.box(a), tree.box(b));
+                                             });
+                                             keep(found);
+                                             return ns;
+                                           },
+                                           [&] {
+                                             std::size_t found = 0;
+                                             const double ns = ns_of([&] {
+                                               for (const auto& [a, b] : pairs) {
+                                                 const auto partners = k.partners(flags(b));
+                                                 const auto child = tree.child(a);
+                                                 found += ((partners & flags(child)) != 0) !=
+                                                          ((partners & flags(child + 1)) != 0);
+                                               }
+                                             });
+                                             keep(found);
+                                             return ns;
+                                           }});
+  const double each = 1 / static_cast<double>(pairs.size());
+  report.add(
+      fmt::format("time of a child count over a box test, {}", name), "times",
+      ratio_of(samples[1], samples[0]), below(1),
+      fmt::format("{:.2f} ns over {:.2f} ns, {} node pairs", median_of(samples[1]).value * each,
+                  median_of(samples[0]).value * each, pairs.size()));
+}
+
+}  // namespace
+
+void measure_search(const std::vector<NamedStep>& steps, const BenchSettings& settings,
+                    BenchReport& report) {
+  for (const auto& step : steps) compare_box_tests(step, report);
+  if (!steps.empty()) compare_a_look(steps.back(), settings.rounds(15), report);
+}
+
+}  // namespace assay::reports

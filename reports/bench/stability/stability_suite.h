@@ -1,0 +1,18 @@
+// Suite `stability` over any families and subjects: tests hand in wrong ones.
+#pragma once
+
+#include <span>
+
+#include "corpus/hard/hard_families.h"
+#include "reports/bench/stability/stability_run.h"
+#include "reports/bench/suites.h"
+
+namespace assay::reports {
+
+// Rows family by family and subject by subject; an exact subject that is wrong, a bounded one that
+// misses or is late, and an oracle that contradicts a construction are wrong answers.
+BenchReport stability_of(std::span<const corpus::HardFamily> families,
+                         std::span<const StabilitySubject> subjects, const BenchSettings& settings,
+                         Progress& progress);
+
+}  // namespace assay::reports

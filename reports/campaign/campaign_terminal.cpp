@@ -1,0 +1,179 @@
+#include "reports/campaign/campaign_terminal.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/phases/phases.h"
+#include "properties/campaign/stored/binding.h"
+#include "properties/campaign/stored/power_proof.h"
+#include "properties/worker/worker_process.h"
+#include "reports/campaign/detector_choice.h"
+#include "reports/campaign/failure_text.h"
+#include "reports/campaign/plugin_text.h"
+#include "reports/terminal/exit_code.h"
+#include "reports/terminal/interruption.h"
+#include "reports/terminal/plain_progress.h"
+
+namespace assay::reports {
+
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// "; about 40 s left" at the rate so far; nothing before there is one.
+std::string rest_text(std::uint64_t done, std::uint64_t left, double seconds) {
+  constexpr double least_seconds = 1;
+  if (done == 0 || left == 0 || seconds < least_seconds) return "";
+  const double rest = seconds * static_cast<double>(left) / static_cast<double>(done);
+  constexpr double minute = 60;
+  return rest < 2 * minute ? fmt::format("; about {:.0f} s left", rest)
+                           : fmt::format("; about {:.0f} min left", rest / minute);
+}
+
+class CampaignTerminal : public properties::CampaignObserver {
+ public:
+  CampaignTerminal(const properties::CampaignRequest& request, const properties::Store& store,
+                   std::string out)
+      : request_(request), store_(store), out_(std::move(out)) {
+    announce();
+  }
+
+  void on_phase(const char* phase) override {
+    phase_began_ = Clock::now();
+    progress_.emplace(phase);
+  }
+
+  void on_canary(const properties::Canary& canary) override {
+    fmt::print("canary {}: {}\n", canary.fault,
+               canary.found_after ? fmt::format("found after {} cases", *canary.found_after)
+                                  : "NOT FOUND: the harness sees nothing");
+    std::fflush(stdout);
+  }
+
+  void on_trial(const properties::TrialProgress& state) override {
+    progress_->show(
+        fmt::format("{}/{} trials, {} with a defect, {} undecided{}{}", state.done, state.planned,
+                    state.defects, state.undecided,
+                    state.disturbed ? fmt::format(", {} disturbed", state.disturbed) : "",
+                    rest_text(state.done - state.stored, state.planned - state.done,
+                              seconds_since(phase_began_))));
+  }
+
+  void on_trials(const properties::TrialsEnd& end) override {
+    progress_.reset();
+    if (!end.harness_problem.empty()) fmt::print("harness: {}\n", end.harness_problem);
+    if (end.trials > 0) fmt::print("{} trials in {:.1f} s\n", end.trials, end.seconds);
+    std::fflush(stdout);
+  }
+
+  void on_shrinking(const std::string& signature) override { progress_->show(signature); }
+
+  void on_failures_shrunk() override {
+    progress_.reset();
+    const auto failures =
+        write_failures(store_, out_, request_.plugin ? request_.plugin->string() : "");
+    fmt::print("{}", failures.text);
+    std::fflush(stdout);
+    problem_ = failures.problem;
+  }
+
+  void on_hunt(const properties::HuntProgress& state) override {
+    const auto seeds = static_cast<std::uint64_t>(state.seeds);
+    const auto done = static_cast<std::uint64_t>(state.seed - 1) * state.most_cases + state.cases;
+    progress_->show(
+        fmt::format("seed {} of {}: {} cases, {} of {} planted faults still hidden{}", state.seed,
+                    state.seeds, state.cases, state.hidden, state.planted,
+                    rest_text(done, seeds * state.most_cases - done, seconds_since(phase_began_))));
+  }
+
+  void on_fault_shrunk(const std::string& fault) override {
+    progress_->show(fmt::format("{} shrunk", fault));
+  }
+
+  void on_world(const std::string& world) override {
+    progress_->show(fmt::format("{}: every motion of a tetrahedron on a small grid", world));
+  }
+
+  // Why a failing mesh could not be written.
+  const std::optional<std::string>& problem() const { return problem_; }
+
+ private:
+  void announce() const {
+    const auto& plan = request_.plan;
+    const auto planned = properties::planned_trial_count(plan, request_.shard);
+    const auto stored = store_.trial_count();
+    fmt::print("campaign {}, seed {}, shard {}: {} trials of {} families{}, {} configurations",
+               plan.name, request_.seed, text_of(request_.shard), planned, plan.strata.size(),
+               stored ? fmt::format(" ({} are stored, {} to do)", stored, planned - stored) : "",
+               request_.detector.configurations.size());
+    if (request_.power) {
+      fmt::print("; planted faults as campaign {}, seed {}, of this build found them",
+                 request_.power->source.campaign, request_.power->source.seed);
+    } else if (plan.fault_cases > 0) {
+      fmt::print("; {} planted faults", properties::planted_count());
+    }
+    fmt::print("; {} jobs; ", request_.jobs);
+    constexpr double soon_enough_to_tell = 1e8;
+    if (plan.seconds > 0 && plan.seconds < soon_enough_to_tell) {
+      const auto end = std::time(nullptr) + static_cast<std::time_t>(plan.seconds);
+      fmt::print("until {:%H:%M:%S} at the latest\n", *std::localtime(&end));
+    } else {
+      fmt::print("until done\n");
+    }
+    fmt::print("{}\nwrites {}\n",
+               request_.detector.built_in
+                   ? "detector built-in"
+                   : plugin_text(request_.detector.name, request_.detector.claims,
+                                 request_.detector.contract),
+               out_);
+    std::fflush(stdout);
+  }
+
+  const properties::CampaignRequest& request_;
+  const properties::Store& store_;
+  const std::string out_;
+  Clock::time_point phase_began_;
+  std::optional<PlainProgress> progress_;
+  std::optional<std::string> problem_;
+};
+
+}  // namespace
+
+std::optional<std::string> ask_for_campaign(const CampaignWords& words,
+                                            properties::CampaignRequest& request) {
+  end_when_interrupted(fmt::format("interrupted: what was judged is stored in {}; run the same "
+                                   "again to go on",
+                                   words.out),
+                       exit_undecided);
+  auto plan = properties::find_plan(words.campaign);
+  if (!plan) return plan.error().message;
+  request.plan = std::move(plan.value());
+  if (words.time_limit) request.plan.seconds = *words.time_limit;
+  request.seed = words.seed;
+  request.jobs = words.jobs;
+  request.worker = properties::worker_program();
+  // Before the first code of a plug-in runs.
+  if (!words.power.empty()) {
+    if (auto problem = properties::take_power(words.power, words.out, request)) return problem;
+  }
+  if (auto problem = choose_detector(words.detector, request)) return problem;
+  std::error_code error;
+  std::filesystem::create_directories(words.out, error);
+  if (error) return fmt::format("{}: cannot be made: {}", words.out, error.message());
+  return std::nullopt;
+}
+
+std::optional<std::string> run_on_terminal(const properties::CampaignRequest& request,
+                                           properties::Store& store, const std::string& out) {
+  note_library(store, request);
+  CampaignTerminal terminal(request, store, out);
+  properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal);
+  return terminal.problem();
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,252 @@
+#include "reports/campaign/campaign_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "properties/campaign/gates/bounds.h"
+#include "properties/campaign/stored/count_names.h"
+#include "reports/terminal/exit_code.h"
+
+namespace assay::reports {
+namespace {
+
+using properties::FaultProof;
+using properties::FaultStatus;
+using properties::GateState;
+using properties::RunFindings;
+using properties::StratumTally;
+
+std::string stratum_row(const RunFindings& findings, const properties::StratumPlan& stratum,
+                        std::size_t c, const std::string& name) {
+  const auto& tally = findings.tally_of(stratum);
+  const auto& outcomes = tally.by_configuration[c];
+  const double seconds = 1e-6 * static_cast<double>(tally.oracle_us + tally.detector_us);
+  return fmt::format("{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9.2e} {:>9} {:>13}\n",
+                     c == 0 ? stratum.family : "", name, outcomes.trials(), outcomes.holds,
+                     outcomes.defects, outcomes.open(), bound_of(outcomes, findings.run),
+                     stratum.wanted_bound > 0 ? fmt::format("{:.0e}", stratum.wanted_bound) : "-",
+                     c == 0 && seconds > 0
+                         ? fmt::format("{:.0f}", static_cast<double>(tally.steps) / seconds)
+                         : "");
+}
+
+// A row for each family and configuration, one where all configurations agree.
+std::string strata_text(const RunFindings& findings) {
+  const auto& configurations = findings.run.detector.configurations;
+  std::string out = fmt::format("{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n",
+                                "stratum", "configuration", "n", "holds", "defects", "undecided",
+                                "bound", "wanted", "steps/s/core");
+  for (const auto& stratum : findings.run.plan.strata) {
+    const auto& all = findings.tally_of(stratum).by_configuration;
+    const bool all_same = std::all_of(all.begin(), all.end(),
+                                      [&](const auto& outcomes) { return outcomes == all[0]; });
+    const std::size_t rows = all_same ? std::min<std::size_t>(all.size(), 1) : all.size();
+    for (std::size_t c = 0; c < rows; ++c)
+      out += stratum_row(findings, stratum, c,
+                         all_same && configurations.size() > 1
+                             ? fmt::format("each of {}", configurations.size())
+                             : configurations[c].name);
+  }
+  return out;
+}
+
+// Trials that were killed from outside and ran again, and those that came near their limit.
+std::string disturbance_text(const RunFindings& findings) {
+  const auto& tally = findings.tally;
+  std::string out;
+  if (tally.disturbances > 0)
+    out += fmt::format("{} trials ran again: their worker was killed from outside ({} times)\n",
+                       tally.disturbed(), tally.disturbances);
+  if (tally.near.empty()) return out;
+  out += fmt::format("{} trials took more than a third of the limit of {} s:", tally.near.size(),
+                     findings.run.plan.case_seconds);
+  constexpr std::size_t most = 5;
+  for (std::size_t i = 0; i < std::min(most, tally.near.size()); ++i)
+    out += fmt::format("{} {} ({:.1f} s)", i ? "," : "", tally.near[i].id,
+                       1e-6 * static_cast<double>(tally.near[i].slowest_us));
+  return out + (tally.near.size() > most ? ", ...\n" : "\n");
+}
+
+std::string range_text(int log2) {
+  if (log2 < 0) return "none";
+  const std::uint64_t lo = std::uint64_t{1} << log2, hi = 2 * lo - 1;
+  return lo == hi ? fmt::format("{}", lo) : fmt::format("{}-{}", lo, hi);
+}
+
+std::string histogram(const std::map<int, std::uint64_t>& counts) {
+  std::string out;
+  for (const auto& [log2, count] : counts) {
+    out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", range_text(log2), count);
+  }
+  return out;
+}
+
+std::string distribution_text(const properties::Tally& tally) {
+  std::string out;
+  for (const auto& [family, t] : tally.strata) {
+    out += fmt::format(
+        "{}: {} steps of {} cases ({} distinct, {} discarded), {:.0f} % collide\n  triangles {}\n  "
+        "pairs in "
+        "contact {}\n",
+        family, t.steps, t.trials, t.meshes.size(), t.discards,
+        t.steps ? 100.0 * static_cast<double>(t.collisions) / static_cast<double>(t.steps) : 0.0,
+        histogram(t.sizes), histogram(t.contacts));
+  }
+  return out;
+}
+
+std::string tags_text(const properties::Counts& counts) {
+  std::string out;
+  for (const auto& [sets, contacts, first] : properties::set_pairs_in(counts)) {
+    if (out.empty())
+      out = fmt::format("{:16} {:>12} {:>14}\n", "sets of a pair", "in contact", "first contact");
+    out += fmt::format("{:16} {:>12} {:>14}\n", sets, contacts, first);
+  }
+  const auto tags = properties::tags_in(counts);
+  if (tags.empty()) return out;
+  out += "cases by tag:\n";
+  std::string line;
+  for (const auto& [tag, count] : tags) {
+    const std::string word = fmt::format("{} {}", tag, count);
+    constexpr std::size_t width = 100;
+    if (!line.empty() && line.size() + word.size() + 2 > width) {
+      out += fmt::format("  {}\n", line);
+      line.clear();
+    }
+    line += (line.empty() ? "" : ", ") + word;
+  }
+  return out + fmt::format("  {}\n", line);
+}
+
+std::string laws_text(const RunFindings& findings) {
+  const auto wanted = findings.laws_are_judged() ? findings.run.plan.law_premises : 0;
+  std::string out = fmt::format("{:52} {:>9} {:>7} {:>7}\n", "law", "premise", "close", "broken");
+  for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
+    const double close = tally.premise ? 100.0 * static_cast<double>(tally.close) /
+                                             static_cast<double>(tally.premise)
+                                       : 0.0;
+    out += fmt::format("{:52} {:>9} {:>6.0f}% {:>7}{}\n", law->name, tally.premise, close,
+                       tally.broken,
+                       properties::starved(*law, tally, wanted).empty() ? "" : "  too few");
+  }
+  return out;
+}
+
+const char* word_of(const FaultProof& proof) {
+  switch (proof.status) {
+    case FaultStatus::planted:
+      return proof.found() ? "found" : proof.time_over ? "the time was over" : "NOT FOUND";
+    case FaultStatus::open:
+      return proof.found() ? "found: no longer open" : "open";
+    case FaultStatus::equivalent:
+      return proof.found() ? "FOUND, but registered as equivalent" : "survives, rightly";
+  }
+  return "";
+}
+
+std::string faults_text(const RunFindings& findings) {
+  const auto& power = findings.evidence.power;
+  const auto count =
+      fmt::format("{} of {} planted faults found", findings.found(), findings.planted());
+  if (!power.empty())
+    return fmt::format("{}, by campaign {}, seed {}, of this build\n", count, power[0].campaign,
+                       power[0].seed);
+  std::string out = fmt::format("{:44} {:18} {:>10} {:>12} {:>9}  {}\n", "fault", "law", "cases",
+                                "curated", "vertices", "verdict");
+  for (const auto& proof : findings.evidence.faults) {
+    const auto* fault = properties::find_fault(proof.fault);
+    const auto median = proof.median();
+    out += fmt::format("{:44} {:18} {:>10} {:>12} {:>9}  {}\n", proof.fault, proof.law,
+                       median ? fmt::format("{}", *median) : "-",
+                       fault && fault->curated.empty() ? "-" : (proof.curated ? "yes" : "no"),
+                       proof.known_vertices ? fmt::format("{}", proof.known_vertices) : "-",
+                       word_of(proof));
+  }
+  return out + count + "\n";
+}
+
+// How small what the planted faults show became; empty where nothing was shrunk.
+std::string shrinking_text(const RunFindings& findings) {
+  std::string out = fmt::format("{:44} {:>22} {:>14} {:>7} {:>8}\n", "fault",
+                                "triangles, steps from", "to", "known", "calls");
+  std::size_t tried = 0, reached = 0;
+  bool any = false;
+  for (const auto& proof : findings.evidence.faults) {
+    if (!proof.shrunk || proof.status != FaultStatus::planted) continue;
+    any = true;
+    const auto& [before, after, calls] = *proof.shrunk;
+    const bool near = after.vertices <= proof.known_vertices + 1;
+    tried += proof.known_vertices > 0 ? 1 : 0;
+    reached += proof.known_vertices > 0 && near ? 1 : 0;
+    out += fmt::format("{:44} {:>22} {:>14} {:>7} {:>8}{}\n", proof.fault,
+                       fmt::format("{}, {}", before.triangles, before.steps),
+                       fmt::format("{} vertices", after.vertices),
+                       proof.known_vertices ? fmt::format("{}", proof.known_vertices) : "-", calls,
+                       near || proof.known_vertices == 0 ? "" : "  larger");
+  }
+  if (!any) return "";
+  return out +
+         fmt::format("{} of {} within one vertex of the smallest known mesh\n", reached, tried);
+}
+
+std::string worlds_text(const RunFindings& findings) {
+  std::string out = "every motion of a tetrahedron on a grid, up to symmetry:\n";
+  for (const auto& world : findings.evidence.worlds) {
+    out += fmt::format("  {:18} {} classes proved, of {} motions (of {}){}; {} collide\n",
+                       world.world, world.classes, world.motions, world.all,
+                       world.counterexample ? "; COUNTEREXAMPLE: " + *world.counterexample
+                       : world.complete     ? ", all of it"
+                                            : ", the time was over",
+                       world.collisions);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string findings_text(const RunFindings& findings) {
+  const auto& run = findings.run;
+  std::string out;
+  if (!run.plan.strata.empty()) {
+    out += fmt::format("\n{}{}\n{}\n{}", strata_text(findings), disturbance_text(findings),
+                       distribution_text(findings.tally), tags_text(findings.tally.counts));
+    if (!run.detector.built_in)
+      out += fmt::format(
+          "the contract leaves out what would have been a miss in {} steps\n",
+          properties::count_of(findings.tally.counts, properties::left_out_misses_name));
+    if (run.detector.built_in && run.plan.laws_every > 0)
+      out += fmt::format("\n{}", laws_text(findings));
+  }
+  if (!findings.evidence.faults.empty()) out += fmt::format("\n{}", faults_text(findings));
+  const auto shrinking = shrinking_text(findings);
+  if (!shrinking.empty()) out += fmt::format("\n{}", shrinking);
+  if (!findings.evidence.worlds.empty()) out += fmt::format("\n{}", worlds_text(findings));
+  return out;
+}
+
+std::string gates_text(const properties::Judgement& judgement) {
+  std::string out = fmt::format("{:<10} {}\n", "gate", "outcome");
+  constexpr std::size_t most = 5;
+  for (const auto& [gate, state, reasons] : judgement.gates) {
+    out += fmt::format("{:<10} {}\n", properties::rule_of(gate).name,
+                       state == GateState::fails ? "FAILS" : name_of(state));
+    for (std::size_t i = 0; i < std::min(most, reasons.size()); ++i)
+      out += fmt::format("  {}\n", reasons[i]);
+    if (reasons.size() > most) out += fmt::format("  and {} more\n", reasons.size() - most);
+  }
+  return out;
+}
+
+std::string verdict_text(const RunFindings& findings, const properties::Judgement& judgement) {
+  std::string word = judgement.verdict;
+  // What has to be looked at stands out.
+  if (judgement.exit_code == exit_defect || judgement.exit_code == exit_unsound)
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](char c) { return c == '-' ? ' ' : static_cast<char>(std::toupper(c)); });
+  return fmt::format("{}: {} trials with a defect, {} undecided, {} laws broken", word,
+                     findings.tally.with_defect(), findings.tally.open(),
+                     properties::broken_laws(findings.tally.counts));
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,24 @@
+#include "reports/campaign/detector_choice.h"
+
+#include "properties/worker/worker_process.h"
+
+namespace assay::reports {
+
+std::optional<std::string> choose_detector(const std::string& library,
+                                           properties::CampaignRequest& request) {
+  request.detector = properties::built_in_detector();
+  if (library.empty()) return std::nullopt;
+  request.plugin = library;
+  properties::WorkerProcess worker(request.worker, request.plugin);
+  const auto description = worker.describe();
+  if (!description) return description.error().message;
+  const auto& plugin = description.value();
+  request.detector = {plugin.name + " " + plugin.version,
+                      false,
+                      plugin.claims,
+                      plugin.contract,
+                      {{plugin.name, {}}}};
+  return std::nullopt;
+}
+
+}  // namespace assay::reports

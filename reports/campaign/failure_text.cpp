@@ -1,0 +1,82 @@
+#include "reports/campaign/failure_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "corpus/atomic_file.h"
+#include "properties/campaign/stored/run_folder.h"
+#include "properties/reducer/mesh_size.h"
+#include "reports/pictures/scene_maker.h"
+#include "reports/terminal/shell_word.h"
+
+namespace assay::reports {
+
+using properties::failure_file;
+
+std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
+                        const std::string& plugin) {
+  return fmt::format("assay replay {}{}", shell_word((out / file).string()),
+                     detector_words(plugin));
+}
+
+namespace {
+
+std::string size_of_mesh(const std::string& text) {
+  const auto c = corpus::parse_case(text, "stored failure");
+  return c ? properties::size_text(properties::size_of(c.value())) : "unreadable";
+}
+
+}  // namespace
+
+FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
+                             const std::string& plugin) {
+  FailureReport report;
+  auto failures = store.failures();
+  if (failures.empty()) return report;
+  std::stable_partition(failures.begin(), failures.end(),
+                        [](const auto& failure) { return !failure.smallest.empty(); });
+  const auto folder = (out / failure_file(failures[0], false)).parent_path();
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    report.problem = fmt::format("{}: cannot be made: {}", folder.string(), error.message());
+    return report;
+  }
+  SceneMaker scenes(plugin);
+  const auto met = store.signatures();
+  std::set<std::string> told;
+  for (const auto& failure : failures) {
+    for (const auto& [path, text] :
+         {std::pair(out / failure_file(failure, false), failure.mesh),
+          std::pair(out / failure_file(failure, true), failure.smallest)}) {
+      if (text.empty()) continue;
+      if (const auto written = corpus::write_file_atomically(path, text); !written) {
+        report.problem = written.error().message;
+        return report;
+      }
+    }
+    if (!told.insert(failure.signature).second) continue;
+    const bool is_shrunk = !failure.smallest.empty();
+    const auto shown_file = failure_file(failure, is_shrunk);
+    const auto shown =
+        corpus::parse_case(is_shrunk ? failure.smallest : failure.mesh, "stored failure");
+    if (shown) {
+      report.problem = scenes.write_picture((out / shown_file).string(), shown.value(),
+                                            failure.configuration, failure.signature);
+      if (report.problem) return report;
+    }
+    const auto count = met.find(failure.signature);
+    report.text += fmt::format(
+        "\nDEFECT {} ({}), met {} times\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n",
+        failure.signature, failure.configuration, count == met.end() ? 1 : count->second,
+        failure.what, failure.id, size_of_mesh(failure.mesh),
+        is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
+        failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
+        picture_file((out / shown_file).string()), replay_line(out, shown_file, plugin));
+  }
+  return report;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,58 @@
+#include "reports/check/check_outcome.h"
+
+#include <fmt/format.h>
+
+#include "properties/judging/agreement.h"
+#include "reports/steps/step_text.h"
+#include "reports/terminal/exit_code.h"
+
+namespace assay::reports {
+
+using properties::Outcome;
+
+std::string CheckOutcome::summary(const CheckRequest& request) const {
+  std::string text = undecided || !ended.empty() ? "no collision found so far" : "no collision";
+  if (collision_step) {
+    text = fmt::format("collision at t = {} of step {}", time_text(collision_time),
+                       *collision_step + 1);
+  }
+  if (unsound) {
+    text += "; UNSOUND: oracle and second opinion contradict each other\n";
+  } else if (defect) {
+    text += fmt::format("; DEFECT: {}\n", facts_differ     ? "the case's expected facts do not hold"
+                                          : !ended.empty() ? ended
+                                                           : "detector and oracle differ");
+  } else if (undecided) {
+    text += fmt::format("; undecided: {}\n", !ended.empty()          ? ended
+                                             : limit_reached.empty() ? "a limit reached"
+                                                                     : limit_reached + " reached");
+  } else if (!request.use_oracle) {
+    text += "; not judged\n";
+  } else if (!judged_by_claims) {
+    text += "; detector and oracle agree\n";
+  } else {
+    text += "; all claims hold\n";
+  }
+  if (left_out_misses > 0) {
+    text += fmt::format("{} step{} would be a miss if the contract did not leave neighbours out\n",
+                        left_out_misses, left_out_misses == 1 ? "" : "s");
+  }
+  return text;
+}
+
+const char* CheckOutcome::word(const CheckRequest& request) const {
+  if (unsound) return "unsound";
+  if (defect) return name_of(Outcome::defect);
+  if (!request.use_oracle) return "not judged";
+  return name_of(undecided ? Outcome::undecided : Outcome::holds);
+}
+
+int CheckOutcome::exit_code(const CheckRequest& request) const {
+  if (unsound) return exit_unsound;
+  if (defect) return exit_defect;
+  if (undecided) return exit_undecided;
+  if (request.fail_on_collision && collision_step) return exit_collision;
+  return exit_holds;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,29 @@
+// What a run of `check` comes to: its last line, its word in the report, its exit code.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "detector/mesh/step_types.h"
+#include "reports/verbs/commands.h"
+
+namespace assay::reports {
+
+struct CheckOutcome {
+  bool defect = false, undecided = false;
+  bool unsound = false;       // a second opinion contradicts the oracle
+  bool facts_differ = false;  // of a case file
+  bool judged_by_claims = false;
+  std::string ended;  // how a plug-in's run ended, where it did not go through
+  std::string limit_reached;
+  std::size_t left_out_misses = 0;  // steps that only a plug-in's contract saves from being a miss
+  std::optional<std::size_t> collision_step;  // the first, from 0
+  detector::TimeEnclosure collision_time;
+
+  // One line or two, each with its end.
+  std::string summary(const CheckRequest& request) const;
+  const char* word(const CheckRequest& request) const;
+  int exit_code(const CheckRequest& request) const;
+};
+
+}  // namespace assay::reports

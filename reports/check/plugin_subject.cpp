@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "properties/worker/worker_process.h"
+#include "reports/campaign/plugin_text.h"
+#include "reports/check/subject.h"
+
+namespace assay::reports {
+namespace {
+
+using detector::StepResult;
+using properties::Claim;
+
+// A week: nobody waits longer for one mesh.
+constexpr double no_limit_seconds = 7 * 24 * 3600.0;
+
+class Plugin : public Subject {
+ public:
+  Plugin(properties::WorkerProcess worker, properties::PluginDescription description,
+         std::string library, const corpus::Case& c)
+      : worker_(std::move(worker)),
+        description_(std::move(description)),
+        library_(std::move(library)),
+        case_(c) {}
+
+  std::string title() const override {
+    return plugin_text(description_.name + " " + description_.version, description_.claims,
+                       description_.contract);
+  }
+
+  nlohmann::ordered_json to_json() const override {
+    nlohmann::ordered_json claims = nlohmann::ordered_json::array();
+    for (const auto claim : properties::list_of(description_.claims)) {
+      claims.push_back(name_of(claim));
+    }
+    const auto& contract = description_.contract;
+    return {{"culling", nullptr},
+            {"arithmetic", nullptr},
+            {"detector",
+             {{"name", description_.name},
+              {"version", description_.version},
+              {"library", library_},
+              {"claims", std::move(claims)},
+              {"disturbances", worker_.disturbances()},
+              {"contract",
+               {{"adjacency", name_of(contract.adjacency)},
+                {"coordinates", name_of(contract.coordinates)},
+                {"margin", contract.margin}}}}}};
+  }
+
+  // All steps at once: the worker carries the detector's state from one to the next. A second time
+  // where it claims to be deterministic.
+  properties::RunVerdict begin() override {
+    const std::size_t times = description_.claims.deterministic ? 2 : 1;
+    runs_ =
+        worker_.run(case_, std::vector<properties::Configuration>(times, {description_.name, {}}));
+    return properties::judge_run(case_, runs_[0], {}, description_.claims, description_.contract,
+                                 times == 2 ? &runs_[1] : nullptr);
+  }
+
+  StepResult answer(std::size_t s, const detector::StopFunction&) override {
+    return s < runs_[0].steps.size() ? runs_[0].steps[s] : not_reached();
+  }
+
+  StepError error_of(const StepResult&) const override { return {runs_[0].what, false}; }
+
+  properties::StepDiff judge(const StepResult& result,
+                             const oracle::StepJudgement& judgement) const override {
+    return properties::compare(result, judgement, description_.claims, description_.contract,
+                               case_.triangles);
+  }
+
+  std::string stage_that_lost(std::size_t, detector::TrianglePair) const override { return ""; }
+
+ private:
+  static StepResult not_reached() {
+    StepResult result;
+    result.answer = detector::Answer::undecided;
+    return result;
+  }
+
+  properties::WorkerProcess worker_;
+  properties::PluginDescription description_;
+  std::string library_;
+  const corpus::Case& case_;
+  std::vector<properties::CaseRun> runs_;
+};
+
+}  // namespace
+
+MadeSubject make_plugin_subject(const CheckRequest& request, CheckInput& input) {
+  properties::WorkerProcess worker(
+      properties::worker_program(), request.plugin_library,
+      {request.time_limit.value_or(no_limit_seconds), request.memory_limit.value_or(0)});
+  auto description = worker.describe();
+  if (!description) return description.error().message;
+  auto seen = properties::contracted(input.c, description.value().contract);
+  if (!seen) {
+    return fmt::format("{}: a coordinate is beyond {}, which {} takes", request.files[0],
+                       name_of(description.value().contract.coordinates), description.value().name);
+  }
+  input.c = std::move(*seen);
+  return std::make_unique<Plugin>(std::move(worker), std::move(description.value()),
+                                  request.plugin_library, input.c);
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,52 @@
+// The detector that `check` has before it: the built-in one, or a plug-in.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <variant>
+
+#include "properties/judging/run_verdict.h"
+#include "reports/check/check_input.h"
+#include "reports/terminal/limits.h"
+#include "reports/verbs/commands.h"
+
+namespace assay::reports {
+
+class Subject {
+ public:
+  virtual ~Subject() = default;
+
+  // For the line that announces the run: "culling view-point", "plug-in NAME VERSION".
+  virtual std::string title() const = 0;
+  // Of the report: `culling` and `arithmetic` (null for a plug-in) and `detector`.
+  virtual nlohmann::ordered_json to_json() const = 0;
+  // Judged by its claims; otherwise it must agree with the oracle in every bit.
+  virtual bool judged_by_claims() const { return true; }
+
+  // Before the first step; what the run as a whole broke, with no verdict on any step. Not `holds`:
+  // there may be no steps to ask for.
+  virtual properties::RunVerdict begin() { return {}; }
+
+  // Steps are asked for in order, each once.
+  virtual detector::StepResult answer(std::size_t step, const detector::StopFunction& stop) = 0;
+  // What an error of a step says; the input is to blame (`refused`) or the detector.
+  struct StepError {
+    std::string message;
+    bool refused = false;
+  };
+  virtual StepError error_of(const detector::StepResult& result) const = 0;
+
+  virtual properties::StepDiff judge(const detector::StepResult& result,
+                                     const oracle::StepJudgement& judgement) const = 0;
+  // The stage that lost a missing pair; empty where stages are not known.
+  virtual std::string stage_that_lost(std::size_t step, detector::TrianglePair pair) const = 0;
+};
+
+using MadeSubject = std::variant<std::unique_ptr<Subject>, std::string>;  // or a line for the user
+
+// `input` outlives the subject; its coordinates are rounded where the plug-in's contract says so.
+// A plug-in's worker ends what takes longer or more memory than the request allows.
+MadeSubject make_built_in(const CheckRequest& request, const CheckInput& input, Limits& limits);
+MadeSubject make_plugin_subject(const CheckRequest& request, CheckInput& input);
+
+}  // namespace assay::reports

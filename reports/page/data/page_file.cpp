@@ -1,0 +1,39 @@
+#include "reports/page/data/page_file.h"
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace assay::reports {
+
+std::string script_safe(const nlohmann::ordered_json& data) {
+  const std::string text =
+      data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    // In JSON these stand within strings only, where \u means the same.
+    if (c == '<') {
+      out += "\\u003c";
+    } else if (c == '>') {
+      out += "\\u003e";
+    } else if (c == '&') {
+      out += "\\u0026";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string page_text(std::string_view page, const nlohmann::ordered_json& data) {
+  constexpr std::string_view mark = "ASSAY_REPORT_DATA";
+  const auto at = page.find(mark);
+  if (at == std::string_view::npos || page.find(mark, at + 1) != std::string_view::npos)
+    throw std::logic_error("the template of the page must hold its mark once");
+  std::string out(page.substr(0, at));
+  out += script_safe(data);
+  out += page.substr(at + mark.size());
+  return out;
+}
+
+}  // namespace assay::reports

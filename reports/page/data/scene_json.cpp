@@ -1,0 +1,102 @@
+#include "reports/page/data/scene_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "reports/steps/json_output.h"
+#include "reports/pictures/contact_point.h"
+#include "reports/pictures/view_set.h"
+
+namespace assay::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point_json(const detector::Point& p) { return {p[0], p[1], p[2]}; }
+
+Json moving_json(const detector::MovingPoint& p) { return {point_json(p.t0), point_json(p.t1)}; }
+
+Json frame_json(const detector::Positions& x) {
+  Json list = Json::array();
+  for (Eigen::Index v = 0; v < x.rows(); ++v) list.push_back({x(v, 0), x(v, 1), x(v, 2)});
+  return list;
+}
+
+Json pairs_json(const CaseScene& scene, const SceneStep& step,
+                const std::vector<detector::PairContact>& pairs) {
+  const auto &x_t0 = start_of(scene.c, step.span), &x_t1 = end_of(scene.c, step.span);
+  Json list = Json::array();
+  for (const auto& contact : pairs) {
+    const double t = contact.time.lo + (contact.time.hi - contact.time.lo) / 2;
+    const auto point = contact_point(contact, scene.c.triangles, x_t0, x_t1, t);
+    Json json = to_json(contact);
+    json["point"] = point ? point_json(*point) : Json();
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+Json answer_json(const CaseScene& scene, const SceneStep& step, detector::Answer answer,
+                 const detector::TimeEnclosure& first,
+                 const std::vector<detector::PairContact>& pairs) {
+  return {{"answer", properties::name_of(answer)},
+          {"first_time", answer == detector::Answer::collision ? to_json(first) : Json()},
+          {"pairs", pairs_json(scene, step, pairs)}};
+}
+
+Json views_json(const CaseScene& scene, const detector::StepResult& seen) {
+  const auto own = static_cast<std::size_t>(scene.c.triangles.rows());
+  Json sets = Json::array(), ghost_sets = Json::array(), ghosts = Json::array(),
+       apexes = Json::array(), primitives = Json::array();
+  for (std::size_t t = 0; t < own; ++t)
+    sets.push_back(view_set_names[static_cast<std::size_t>(view_set(seen, t))]);
+  if (scene.surface && !scene.surface->is_closed()) {
+    const auto& all = scene.surface->all().triangles;
+    for (std::size_t t = own; t < all.size(); ++t) {
+      ghosts.push_back(all[t]);
+      ghost_sets.push_back(view_set_names[static_cast<std::size_t>(view_set(seen, t))]);
+    }
+    for (const auto& apex : seen.apexes) apexes.push_back(moving_json(apex));
+  }
+  for (const auto& primitive : seen.primitives) {
+    primitives.push_back({{"q0", moving_json(primitive.q0)},
+                          {"q1", primitive.is_point() ? Json() : moving_json(primitive.q1)}});
+  }
+  return {{"sets", std::move(sets)},
+          {"ghosts", std::move(ghosts)},
+          {"ghost_sets", std::move(ghost_sets)},
+          {"apexes", std::move(apexes)},
+          {"primitives", std::move(primitives)}};
+}
+
+}  // namespace
+
+Json scene_json(const CaseScene& scene) {
+  Json triangles = Json::array(), frames = Json::array(), steps = Json::array();
+  for (Eigen::Index t = 0; t < scene.c.triangles.rows(); ++t) {
+    const auto row = scene.c.triangles.row(t);
+    triangles.push_back({row[0], row[1], row[2]});
+  }
+  for (const auto& frame : scene.c.frames) frames.push_back(frame_json(frame));
+  for (const auto& step : scene.steps) {
+    const auto& truth = step.truth;
+    steps.push_back(
+        {{"from", step.span.from},
+         {"to", step.span.to},
+         {"commit", step.span.commit},
+         {"oracle", answer_json(scene, step, truth.answer, truth.first, truth.pairs)},
+         {"detector", step.answered ? answer_json(scene, step, step.answered->answer,
+                                                  step.answered->first, step.answered->pairs)
+                                    : Json()},
+         {"views", step.seen ? views_json(scene, *step.seen) : Json()}});
+  }
+  const auto pair = scene.shown_pair();
+  return {{"triangles", std::move(triangles)},
+          {"frames", std::move(frames)},
+          {"steps", std::move(steps)},
+          {"views_by", scene.views_by.empty() ? Json() : Json(scene.views_by)},
+          {"ended", scene.ended.empty() ? Json() : Json(scene.ended)},
+          {"shown",
+           {{"step", scene.shown_step()}, {"pair", pair ? Json({pair->a, pair->b}) : Json()}}}};
+}
+
+}  // namespace assay::reports

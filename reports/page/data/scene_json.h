@@ -1,0 +1,13 @@
+// The scene of a case in `assay-report/1`: what the viewer draws.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "reports/pictures/case_scene.h"
+
+namespace assay::reports {
+
+// Fields: reports/README.md, `scene`.
+nlohmann::ordered_json scene_json(const CaseScene& scene);
+
+}  // namespace assay::reports

@@ -1,0 +1,81 @@
+#include "reports/pictures/contact_point.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+
+#include "reports/pictures/nearest_points.h"
+
+namespace assay::reports {
+namespace {
+
+using Vector = Eigen::Vector3d;
+using Corners = std::array<std::int32_t, 3>;
+
+// Where the line e0 e1 crosses the plane of f, within the edge; its middle when it is parallel.
+Vector on_plane(const Vector& e0, const Vector& e1, const std::array<Vector, 3>& f) {
+  const Vector normal = (f[1] - f[0]).cross(f[2] - f[0]);
+  const double h0 = normal.dot(e0 - f[0]), h1 = normal.dot(e1 - f[0]);
+  const double part = h0 == h1 ? 0.5 : std::clamp(h0 / (h0 - h1), 0.0, 1.0);
+  return e0 + part * (e1 - e0);
+}
+
+// Where two triangles come closest, in features that share no vertex; nothing where all do.
+template <class Place>
+std::optional<Vector> where_closest(const Corners& a, const Corners& b, const Place& place) {
+  std::optional<NearestPoints> best;
+  const auto offer = [&](const NearestPoints& points) {
+    if (!best || points.distance() < best->distance()) best = points;
+  };
+  const auto has = [](const Corners& corners, std::int32_t v) {
+    return std::find(corners.begin(), corners.end(), v) != corners.end();
+  };
+  for (const auto& [vertices, face] : {std::pair(a, b), std::pair(b, a)}) {
+    for (const auto v : vertices) {
+      if (has(face, v)) continue;
+      offer(nearest_of_triangle(place(v), {place(face[0]), place(face[1]), place(face[2])}));
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Corners first = {a[i], a[(i + 1) % 3], -1}, second = {b[j], b[(j + 1) % 3], -2};
+      if (has(first, second[0]) || has(first, second[1])) continue;
+      offer(nearest_of_segments(place(first[0]), place(first[1]), place(second[0]),
+                                place(second[1])));
+    }
+  }
+  return best ? std::optional<Vector>(best->middle()) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<detector::Point> contact_point(const detector::PairContact& contact,
+                                             const detector::TrianglesView& triangles,
+                                             const detector::PositionsView& x_t0,
+                                             const detector::PositionsView& x_t1, double t) {
+  const auto place = [&](std::int32_t vertex) -> Vector {
+    return (1 - t) * x_t0.row(vertex).transpose() + t * x_t1.row(vertex).transpose();
+  };
+  const auto& v = contact.feature.vertices;
+  Vector at;
+  if (contact.feature.kind == detector::FeatureKind::same_vertices) {
+    const auto row = triangles.row(contact.pair.a);
+    at = (place(row[0]) + place(row[1]) + place(row[2])) / 3;
+  } else if (v[0] < 0) {
+    const auto row_a = triangles.row(contact.pair.a), row_b = triangles.row(contact.pair.b);
+    const auto closest =
+        where_closest({row_a[0], row_a[1], row_a[2]}, {row_b[0], row_b[1], row_b[2]}, place);
+    if (!closest) return std::nullopt;
+    at = *closest;
+  } else if (contact.feature.kind == detector::FeatureKind::vertex_face) {
+    at = place(v[0]);
+  } else if (contact.feature.kind == detector::FeatureKind::edge_edge) {
+    at = nearest_of_segments(place(v[0]), place(v[1]), place(v[2]), place(v[3])).middle();
+  } else {
+    at = on_plane(place(v[0]), place(v[1]), {place(v[2]), place(v[3]), place(v[4])});
+  }
+  if (!at.allFinite()) return std::nullopt;
+  return detector::Point{at[0], at[1], at[2]};
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,213 @@
+#include "reports/pictures/mesh_svg.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "detector/boundary/boundary_handler.h"
+#include "reports/pictures/contact_point.h"
+#include "reports/pictures/view_set.h"
+
+namespace assay::reports {
+namespace {
+
+using detector::Positions;
+using Vector = Eigen::Vector3d;
+using Corners = std::array<std::int32_t, 3>;
+
+// Pixels.
+constexpr double width = 360, picture = 300, margin = 24, caption = 44, row = 18;
+
+std::string escaped(const std::string& text) {
+  static const std::map<char, const char*> names = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}};
+  std::string out;
+  for (const char c : text) {
+    const auto found = names.find(c);
+    out += found == names.end() ? std::string(1, c) : found->second;
+  }
+  return out;
+}
+
+double middle(const detector::TimeEnclosure& time) { return time.lo + (time.hi - time.lo) / 2; }
+
+class Picture {
+ public:
+  Picture(const CaseScene& scene, const SceneStep& step) : scene_(scene), step_(step) {
+    const auto pair = scene.shown_pair();
+    exact_ = contact_of(step.truth.pairs, pair);
+    if (step.answered) answered_ = contact_of(step.answered->pairs, pair);
+    time_ = exact_ ? middle(exact_->time) : answered_ ? middle(answered_->time) : 0;
+    pair_ = pair;
+    x_t0_ = start_of(scene.c, step.span);
+    x_t1_ = end_of(scene.c, step.span);
+    Positions all_t0 = x_t0_, all_t1 = x_t1_;
+    for (Eigen::Index t = 0; t < scene.c.triangles.rows(); ++t) {
+      const auto corners = scene.c.triangles.row(t);
+      faces_.push_back({corners[0], corners[1], corners[2]});
+    }
+    own_ = faces_.size();
+    if (scene.surface && step.seen && !scene.surface->is_closed()) {
+      all_t0 = detector::with_apexes(x_t0_, step.seen->apexes, false);
+      all_t1 = detector::with_apexes(x_t1_, step.seen->apexes, true);
+      const auto& all = scene.surface->all().triangles;
+      faces_.insert(faces_.end(), all.begin() + static_cast<std::ptrdiff_t>(own_), all.end());
+    }
+    x_ = (1 - time_) * all_t0 + time_ * all_t1;
+    place_in_unit_box();
+    choose_side();
+  }
+
+  std::string body() const {
+    std::vector<std::size_t> order(faces_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return depth(a) < depth(b); });
+    std::string out;
+    for (const auto i : order) out += face(i);
+    for (const auto i : order) {
+      if (is_shown(i)) out += outline(i);
+    }
+    if (answered_) out += mark(*answered_, "fill=\"none\" stroke=\"#d6336c\"", 9);
+    if (exact_) out += mark(*exact_, "fill=\"#111\" stroke=\"#fff\"", 5);
+    return out;
+  }
+
+ private:
+  // Coordinates may be of any size: divided by the largest before anything is added up.
+  void place_in_unit_box() {
+    const double largest = x_.topRows(x_t0_.rows()).cwiseAbs().maxCoeff();
+    scale_ = largest > 0 ? largest : 1;
+    const Positions own = x_.topRows(x_t0_.rows()) / scale_;
+    low_ = own.colwise().minCoeff().transpose();
+    size_ = (own.colwise().maxCoeff().transpose() - low_).maxCoeff();
+    if (!(size_ > 0)) size_ = 1;
+    for (Eigen::Index v = 0; v < x_.rows(); ++v) x_.row(v) = unit(x_.row(v).transpose());
+  }
+  Vector unit(const Vector& point) const { return (point / scale_ - low_) / size_; }
+
+  // Of four isometric sides, the one from which the pair covers the largest area, a hidden
+  // triangle being none.
+  void choose_side() {
+    double most = -1;
+    for (const auto& [sx, sy] : {std::pair(1, 1), {-1, 1}, {-1, -1}, {1, -1}}) {
+      const Vector towards = Vector(sx, sy, 1).normalized();
+      double least = 1e300;
+      for (std::size_t i = 0; i < own_; ++i) {
+        if (!is_shown(i)) continue;
+        const auto& f = faces_[i];
+        const Vector normal = (at(f[1]) - at(f[0])).cross(at(f[2]) - at(f[0]));
+        least = std::min(least, std::abs(normal.dot(towards)));
+      }
+      if (least <= most * (1 + 1e-9)) continue;
+      most = least;
+      towards_ = towards;
+    }
+    right_ = Vector(0, 0, 1).cross(towards_).normalized();
+    up_ = towards_.cross(right_);
+    flat_low_ = Eigen::Vector2d(1e300, 1e300);
+    Eigen::Vector2d high = -flat_low_;
+    for (Eigen::Index v = 0; v < x_t0_.rows(); ++v) {
+      const Eigen::Vector2d p = flat(x_.row(v).transpose());
+      flat_low_ = flat_low_.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    flat_size_ = std::max((high - flat_low_).maxCoeff(), 1e-9);
+    shift_ = 0.5 * (Eigen::Vector2d(flat_size_, flat_size_) - (high - flat_low_));
+  }
+
+  Vector at(std::int32_t vertex) const { return x_.row(vertex).transpose(); }
+  Eigen::Vector2d flat(const Vector& p) const { return {p.dot(right_), -p.dot(up_)}; }
+  Eigen::Vector2d pixel(const Vector& p) const {
+    const Eigen::Vector2d part = (flat(p) - flat_low_ + shift_) / flat_size_;
+    return {(width - picture) / 2 + margin + part[0] * (picture - 2 * margin),
+            margin + part[1] * (picture - 2 * margin)};
+  }
+  double depth(std::size_t face) const {
+    const auto& f = faces_[face];
+    return (at(f[0]) + at(f[1]) + at(f[2])).dot(towards_);
+  }
+  bool is_shown(std::size_t face) const {
+    return pair_ && face < own_ &&
+           (face == static_cast<std::size_t>(pair_->a) ||
+            face == static_cast<std::size_t>(pair_->b));
+  }
+
+  std::string points(std::size_t face) const {
+    std::string out;
+    for (const auto v : faces_[face]) {
+      const auto p = pixel(at(v));
+      out += fmt::format("{}{:.1f},{:.1f}", out.empty() ? "" : " ", p[0], p[1]);
+    }
+    return out;
+  }
+  std::string face(std::size_t i) const {
+    if (i >= own_) {
+      return fmt::format(
+          "<polygon points=\"{}\" fill=\"none\" stroke=\"#888\" stroke-dasharray=\"3 3\"/>\n",
+          points(i));
+    }
+    const auto set = step_.seen ? view_set(*step_.seen, i) : ViewSet::none;
+    return fmt::format(
+        "<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"0.6\" stroke=\"#777\" "
+        "stroke-linejoin=\"round\"/>\n",
+        points(i), view_set_colours[static_cast<std::size_t>(set)]);
+  }
+  std::string outline(std::size_t i) const {
+    const auto& f = faces_[i];
+    const auto centre = pixel((at(f[0]) + at(f[1]) + at(f[2])) / 3);
+    return fmt::format(
+        "<polygon points=\"{}\" fill=\"none\" stroke=\"#d6336c\" stroke-width=\"2\" "
+        "stroke-linejoin=\"round\"/>\n<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" "
+        "fill=\"#777\">{}</text>\n",
+        points(i), centre[0], centre[1] + 4, i);
+  }
+  std::string mark(const detector::PairContact& contact, const char* look, int radius) const {
+    const auto point =
+        contact_point(contact, scene_.c.triangles, x_t0_, x_t1_, middle(contact.time));
+    if (!point) return "";
+    const auto p = pixel(unit({(*point)[0], (*point)[1], (*point)[2]}));
+    return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" {} stroke-width=\"2\"/>\n",
+                       p[0], p[1], radius, look);
+  }
+
+  const CaseScene& scene_;
+  const SceneStep& step_;
+  const detector::PairContact *exact_ = nullptr, *answered_ = nullptr;
+  std::optional<detector::TrianglePair> pair_;
+  double time_ = 0;
+  Positions x_t0_, x_t1_, x_;
+  std::vector<Corners> faces_;  // the mesh's, then ghosts
+  std::size_t own_ = 0;
+  double scale_ = 1, size_ = 1, flat_size_ = 1;
+  Vector low_, towards_, right_, up_;
+  Eigen::Vector2d flat_low_, shift_;
+};
+
+std::string line(int number, const std::string& text) {
+  return fmt::format(
+      "<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\" fill=\"#777\">{}</text>\n", width / 2,
+      picture + row * number, escaped(text));
+}
+
+}  // namespace
+
+std::string mesh_svg(const CaseScene& scene, const std::string& title) {
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+      "viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" font-size=\"12\">\n<title>{2}</title>\n",
+      width, picture + caption, escaped(title));
+  if (!scene.steps.empty()) out += Picture(scene, scene.steps[scene.shown_step()]).body();
+  std::string where;
+  if (const auto pair = scene.shown_pair()) {
+    const auto& step = scene.steps[scene.shown_step()];
+    const auto* exact = contact_of(step.truth.pairs, pair);
+    where = fmt::format("step {}, triangles {} and {}: ", scene.shown_step() + 1, pair->a, pair->b);
+    where += exact ? fmt::format("t = {:.9g}", middle(exact->time)) : "no contact by the oracle";
+  }
+  return out + line(1, title) + line(2, where) + "</svg>\n";
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,51 @@
+#include "reports/pictures/nearest_points.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace assay::reports {
+
+using Vector = Eigen::Vector3d;
+
+namespace {
+
+// part / whole within [0,1]; 0 for a whole of no length.
+double share(double part, double whole) {
+  return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0;
+}
+
+}  // namespace
+
+// The ends are clamped one after the other, as in Ericson, Real-Time Collision Detection, 5.1.9.
+NearestPoints nearest_of_segments(const Vector& a0, const Vector& a1, const Vector& b0,
+                                  const Vector& b1) {
+  const Vector a = a1 - a0, b = b1 - b0, gap = a0 - b0;
+  const double aa = a.squaredNorm(), bb = b.squaredNorm(), ab = a.dot(b);
+  const double ag = a.dot(gap), bg = b.dot(gap);
+  double s = share(ab * bg - ag * bb, aa * bb - ab * ab);
+  const double u = share(ab * s + bg, bb);
+  s = share(ab * u - ag, aa);
+  return {a0 + s * a, b0 + u * b};
+}
+
+NearestPoints nearest_of_triangle(const Vector& point, const std::array<Vector, 3>& corners) {
+  const Vector normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  const double area = normal.squaredNorm();
+  bool inside = area > 0;
+  NearestPoints best;
+  double least = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector& from = corners[i];
+    const Vector& to = corners[(i + 1) % 3];
+    inside = inside && normal.dot((to - from).cross(point - from)) >= 0;
+    const NearestPoints on_edge = nearest_of_segments(point, point, from, to);
+    if (i == 0 || on_edge.distance() < least) {
+      best = on_edge;
+      least = on_edge.distance();
+    }
+  }
+  if (inside) best = {point, point - normal * (normal.dot(point - corners[0]) / area)};
+  return best;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,40 @@
+// Runs a stored case through the detector that failed on it, to show what it does there.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "reports/pictures/case_scene.h"
+
+namespace assay::reports {
+
+class SceneMaker {
+ public:
+  // A plug-in's library; empty: the built-in detector; nothing: a plug-in whose library is not
+  // known. A library that is no longer there costs the detector's part of the scenes, no more.
+  explicit SceneMaker(const std::optional<std::string>& library);
+
+  // In the configuration that the case's options state (a plug-in has one). Nothing when a
+  // coordinate is beyond the detector's contract.
+  std::optional<CaseScene> scene_of(const corpus::Case& c, const std::string& configuration);
+
+  // One line for the user when the picture of a case could not be written beside its file, as
+  // .svg in place of .json.
+  std::optional<std::string> write_picture(const std::string& case_file, const corpus::Case& c,
+                                           const std::string& configuration,
+                                           const std::string& title);
+
+ private:
+  properties::DetectorUnderTest detector_;
+  properties::WorkerProcess reference_;
+  std::optional<properties::WorkerProcess> worker_;
+  std::string absent_;  // why the plug-in is not run
+};
+
+// "mesh.svg" of "mesh.json", "mesh.x.svg" of "mesh.x".
+std::string picture_file(const std::string& case_file);
+
+// Beyond this a mesh is too much for a picture and its reader.
+inline constexpr Eigen::Index most_shown_triangles = 2000;
+
+}  // namespace assay::reports

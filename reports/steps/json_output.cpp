@@ -1,0 +1,181 @@
+#include "reports/steps/json_output.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "corpus/atomic_file.h"
+
+namespace assay::reports {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const detector::TimeEnclosure& time) { return Json::array({time.lo, time.hi}); }
+
+Json to_json(const detector::PairContact& contact) {
+  Json vertices = Json::array();
+  for (const auto v : contact.feature.vertices) {
+    if (v >= 0) vertices.push_back(v);
+  }
+  return {{"triangles", {contact.pair.a, contact.pair.b}},
+          {"time", to_json(contact.time)},
+          {"feature", properties::name_of(contact.feature.kind)},
+          {"vertices", vertices}};
+}
+
+namespace {
+
+Json pairs_json(const std::vector<detector::PairContact>& pairs) {
+  Json out = Json::array();
+  for (const auto& contact : pairs) out.push_back(to_json(contact));
+  return out;
+}
+
+Json times_json(const std::vector<properties::WrongTime>& times) {
+  Json out = Json::array();
+  for (const auto& t : times) {
+    out.push_back({{"triangles", {t.pair.a, t.pair.b}},
+                   {"detector", to_json(t.detector)},
+                   {"oracle", to_json(t.oracle)}});
+  }
+  return out;
+}
+
+}  // namespace
+
+Json to_json(const properties::StepDiff& diff) {
+  Json broken = Json::array();
+  for (const auto claim : diff.broken) broken.push_back(properties::name_of(claim));
+  return {{"outcome", properties::name_of(diff.outcome)},
+          {"broken", std::move(broken)},
+          {"partial", diff.partial},
+          {"wrong_answer", diff.wrong_answer},
+          {"wrong_first_time", diff.wrong_first_time},
+          {"missing", pairs_json(diff.missing)},
+          {"excused", pairs_json(diff.excused)},
+          {"spurious", pairs_json(diff.spurious)},
+          {"late", times_json(diff.late)},
+          {"early", times_json(diff.early)},
+          {"left_out", diff.left_out.size()},
+          {"left_out_missed", diff.left_out_missed}};
+}
+
+Json step_json(const detector::StepResult& result, const oracle::StepJudgement* judgement,
+               double oracle_ms, const properties::StepDiff* diff) {
+  const bool collision = result.answer == detector::Answer::collision;
+  Json step = {{"answer", properties::name_of(result.answer)},
+               {"first_time", collision ? to_json(result.first) : Json()},
+               {"view_positive", result.view_positive},
+               {"view_negative", result.view_negative},
+               {"view_zero", result.view_zero},
+               {"violated", result.violated},
+               {"dirty", result.dirty},
+               {"free_components", result.counts.free_components},
+               {"box_tests", result.counts.search.box_tests},
+               {"contour_tests", result.counts.search.contour_tests},
+               {"child_counts", result.counts.search.child_counts},
+               {"skipped", result.counts.search.skipped},
+               {"marking",
+                {{"changed", result.counts.marking.changed},
+                 {"marked", result.counts.marking.marked},
+                 {"cleared", result.counts.marking.cleared}}},
+               {"candidate_pairs", result.counts.search.candidate_pairs},
+               {"elementary_tests", result.counts.narrow.elementary_tests},
+               {"rungs",
+                {{"axis", result.counts.narrow.rungs.axis},
+                 {"filter", result.counts.narrow.rungs.filter},
+                 {"exact", result.counts.narrow.rungs.exact},
+                 {"open", result.counts.narrow.rungs.open}}},
+               {"view_rungs",
+                {{"lanes", result.counts.view.lanes},
+                 {"filter", result.counts.view.filter},
+                 {"exact", result.counts.view.exact},
+                 {"open", result.counts.view.open}}},
+               {"closure_rounds", result.counts.closure_rounds},
+               {"winding_numbers", result.counts.winding_numbers},
+               {"ghosts",
+                {{"pairs", result.counts.ghosts.pairs},
+                 {"elementary_tests", result.counts.ghosts.elementary_tests},
+                 {"near_triangles", result.counts.ghosts.near_triangles}}},
+               {"release",
+                {{"in_doubt", result.counts.release.in_doubt},
+                 {"released", result.counts.release.released},
+                 {"pairs", result.counts.release.pairs},
+                 {"elementary_tests", result.counts.release.elementary_tests},
+                 {"winding_numbers", result.counts.release.winding_numbers}}},
+               {"pairs", pairs_json(result.pairs)},
+               {"times_ms",
+                {{"view_test", result.times.view_test},
+                 {"start", result.times.start},
+                 {"ghosts", result.times.ghosts},
+                 {"broad_phase", result.times.broad_phase},
+                 {"narrow_phase", result.times.narrow_phase},
+                 {"closure", result.times.closure},
+                 {"total", result.times.total}}}};
+  step["second_opinion"] = nullptr;
+  if (!judgement) {
+    step["oracle"] = nullptr;
+    step["diff"] = nullptr;
+    return step;
+  }
+  step["oracle"] = {
+      {"answer", properties::name_of(judgement->answer)},
+      {"complete", judgement->complete},
+      {"first_time", judgement->complete && judgement->answer == detector::Answer::collision
+                         ? to_json(judgement->first)
+                         : Json()},
+      {"pairs", judgement->pairs.size()},
+      {"feature_candidates", judgement->feature_candidates},
+      {"rungs",
+       {{"axis", judgement->rungs.axis},
+        {"interval", judgement->rungs.interval},
+        {"algebraic", judgement->rungs.algebraic}}},
+      {"time_ms", oracle_ms}};
+  step["diff"] = to_json(*diff);
+  return step;
+}
+
+std::optional<std::string> cannot_write(const std::string& path,
+                                        const std::vector<std::string>& inputs) {
+  namespace fs = std::filesystem;
+  if (path.empty()) return std::nullopt;
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) return path + ": is a directory";
+  if (fs::exists(path, ignored)) {
+    if (!fs::is_regular_file(path, ignored)) return path + ": is not a regular file";
+    for (const auto& input : inputs) {
+      if (fs::equivalent(path, input, ignored)) return path + ": is an input too";
+    }
+    if (access(path.c_str(), W_OK) != 0) return path + ": no permission to write it";
+  }
+  const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
+  if (!fs::is_directory(parent, ignored)) return path + ": its folder does not exist";
+  // Some folders and names take no file whatever their permissions say.
+  const std::string probe = path + ".part";
+  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  if (file < 0) return path + ": cannot be written: " + std::strerror(errno);
+  close(file);
+  fs::remove(probe, ignored);
+  return std::nullopt;
+}
+
+std::optional<std::string> write_text_file(const std::string& path, const std::string& text) {
+  // Through a symbolic link to the file behind it.
+  std::error_code ignored;
+  const auto target = std::filesystem::is_symlink(path, ignored)
+                          ? std::filesystem::canonical(path, ignored)
+                          : std::filesystem::path(path);
+  auto written = corpus::write_file_atomically(target, text);
+  if (!written) return written.error().message;
+  return std::nullopt;
+}
+
+std::optional<std::string> write_json_file(const std::string& path, const Json& json) {
+  return write_text_file(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace assay::reports

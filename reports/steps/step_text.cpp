@@ -1,0 +1,92 @@
+#include "reports/steps/step_text.h"
+
+#include <fmt/format.h>
+
+namespace assay::reports {
+
+using detector::Answer;
+using properties::Outcome;
+
+std::string time_text(const detector::TimeEnclosure& time) {
+  if (time.lo == time.hi) return fmt::format("{}", time.lo);
+  const std::string lo = fmt::format("{:.9g}", time.lo), hi = fmt::format("{:.9g}", time.hi);
+  return lo == hi ? lo : fmt::format("[{}, {}]", lo, hi);
+}
+
+namespace {
+
+// In ways that no claim is broken by, where the outcome is `holds`.
+bool differs(const properties::StepDiff& diff) {
+  return diff.wrong_answer || diff.wrong_first_time || !diff.missing.empty() ||
+         !diff.spurious.empty() || !diff.late.empty() || !diff.early.empty();
+}
+
+std::string verdict_text(const properties::StepDiff& diff) {
+  if (diff.outcome == Outcome::holds) return differs(diff) ? "all claims hold" : "agree";
+  return diff.outcome == Outcome::undecided ? "undecided" : "DIFFER";
+}
+
+std::string diff_text(const properties::StepDiff& diff) {
+  std::string out = fmt::format("  diff: {} missing, {} spurious, {} late, {} early{}{}{}\n",
+                                diff.missing.size(), diff.spurious.size(), diff.late.size(),
+                                diff.early.size(), diff.wrong_answer ? ", wrong answer" : "",
+                                diff.wrong_first_time ? ", wrong first time" : "",
+                                diff.partial ? " (partial)" : "");
+  if (!diff.broken.empty()) {
+    out += "  broken:";
+    for (const auto claim : diff.broken) out += fmt::format(" {}", properties::name_of(claim));
+    out += "\n";
+  }
+  constexpr std::size_t most_listed = 10;
+  const auto list = [&](const char* what, const std::vector<detector::PairContact>& pairs) {
+    for (std::size_t i = 0; i < pairs.size() && i < most_listed; ++i) {
+      out += fmt::format("  {}: triangles {} and {} at t = {} ({})\n", what, pairs[i].pair.a,
+                         pairs[i].pair.b, time_text(pairs[i].time),
+                         properties::name_of(pairs[i].feature.kind));
+    }
+    if (pairs.size() > most_listed)
+      out += fmt::format("  ... {} more\n", pairs.size() - most_listed);
+  };
+  list("missing", diff.missing);
+  list("spurious", diff.spurious);
+  return out;
+}
+
+}  // namespace
+
+std::string step_text(std::size_t number, const detector::StepResult& result,
+                      const oracle::StepJudgement* judgement, double oracle_ms,
+                      const properties::StepDiff* diff) {
+  std::string out = fmt::format("step {}: {}", number, properties::name_of(result.answer));
+  if (result.answer == Answer::collision) {
+    out += fmt::format(" at t = {}, {} pairs in contact", time_text(result.first),
+                       result.pairs.size());
+  }
+  if (!diff) {
+    out += "; not judged\n";
+  } else if (result.answer == Answer::undecided && diff->outcome == Outcome::undecided) {
+    out += "\n";
+  } else {
+    out += fmt::format("; {}\n", verdict_text(*diff));
+  }
+  out += fmt::format(
+      "  sets: V+ {}  V- {}  V0 {}  violated {}  dirty {}\n"
+      "  work: {} box tests, {} candidate pairs, {} elementary tests, {} closure rounds\n"
+      "  ms:   view test {:.1f}, start {:.1f}, broad phase {:.1f}, narrow phase {:.1f}, closure "
+      "{:.1f}, detector {:.1f}",
+      result.view_positive, result.view_negative, result.view_zero, result.violated, result.dirty,
+      result.counts.search.box_tests, result.counts.search.candidate_pairs,
+      result.counts.narrow.elementary_tests, result.counts.closure_rounds, result.times.view_test,
+      result.times.start, result.times.broad_phase, result.times.narrow_phase, result.times.closure,
+      result.times.total);
+  if (judgement) {
+    out += fmt::format(", oracle {:.1f}\n  oracle: {}, {} pairs of {} feature candidates{}",
+                       oracle_ms, properties::name_of(judgement->answer), judgement->pairs.size(),
+                       judgement->feature_candidates, judgement->complete ? "" : " (stopped)");
+  }
+  out += "\n";
+  if (diff && (diff->outcome != Outcome::holds || differs(*diff))) out += diff_text(*diff);
+  return out;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,57 @@
+#include "reports/verbs/option_words.h"
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace assay::reports {
+
+// CLI11's own validator of positive numbers prints the whole range of double.
+CLI::Validator positive() {
+  return CLI::Validator(
+      [](const std::string& word) {
+        double value = 0;
+        const bool is_number = CLI::detail::lexical_cast(word, value);
+        return is_number && value > 0 && std::isfinite(value)
+                   ? std::string()
+                   : fmt::format("'{}' is not a number above 0", word);
+      },
+      "NUMBER > 0");
+}
+
+// CLI11 reads "-1", and numbers beyond 64 bits, as the largest unsigned number.
+CLI::Validator whole_number() {
+  return CLI::Validator(
+      [](const std::string& word) {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const bool is_number = error == std::errc() && end == word.data() + word.size();
+        return is_number ? std::string()
+                         : fmt::format("'{}' is not a whole number of 64 bits", word);
+      },
+      "NUMBER >= 0");
+}
+
+CLI::Validator share() {
+  return CLI::Validator(
+      [](const std::string& word) {
+        double value = 0;
+        const bool is_number = CLI::detail::lexical_cast(word, value);
+        return is_number && value > 0 && value <= 1
+                   ? std::string()
+                   : fmt::format("'{}' is not a number above 0, at most 1", word);
+      },
+      "0 < SHARE <= 1");
+}
+
+void add_jobs(CLI::App* verb, int& jobs) {
+  verb->add_option("--jobs", jobs, "Threads of the oracle; the result does not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+}
+
+void add_seed(CLI::App* verb, std::uint64_t& seed, const std::string& about) {
+  verb->add_option("--seed", seed, about)->check(whole_number())->capture_default_str();
+}
+
+}  // namespace assay::reports

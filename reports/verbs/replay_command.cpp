@@ -1,0 +1,208 @@
+// `assay replay`: one case again, by its id or from its file, and what is known of a pair in it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <string_view>
+
+#include "properties/campaign/phases/case_tally.h"
+#include "properties/campaign/phases/clean_starts.h"
+#include "properties/campaign/request.h"
+#include "properties/generators/families.h"
+#include "properties/judging/case_check.h"
+#include "properties/reducer/mesh_size.h"
+#include "properties/worker/worker_process.h"
+#include "reports/campaign/detector_choice.h"
+#include "reports/steps/case_export.h"
+#include "reports/steps/pair_story.h"
+#include "reports/steps/step_text.h"
+#include "reports/terminal/complaint.h"
+#include "reports/verbs/commands.h"
+
+namespace assay::reports {
+namespace {
+
+using properties::Outcome;
+
+bool is_number(std::string_view word) {
+  return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+struct TrialName {
+  const properties::Family* family;
+  std::uint64_t index;
+};
+
+// Of an id "campaign:seed:family:index"; nothing for what is none. Behind the seed's number a round
+// may stand, as in "quick:1.canary:broken:7".
+std::optional<TrialName> trial_of(std::string_view id) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= id.size();) {
+    const auto end = std::min(id.find(':', begin), id.size());
+    parts.push_back(id.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  if (parts.size() != 4 || parts[0].empty() || !is_number(parts[3]) ||
+      !is_number(parts[1].substr(0, parts[1].find('.')))) {
+    return std::nullopt;
+  }
+  std::uint64_t index = 0;
+  const auto* end = parts[3].data() + parts[3].size();
+  if (std::from_chars(parts[3].data(), end, index).ec != std::errc()) return std::nullopt;
+  const auto known = properties::families();
+  const auto found = std::find_if(known.begin(), known.end(),
+                                  [&](const auto& family) { return family.name == parts[2]; });
+  if (found == known.end()) return std::nullopt;
+  return TrialName{&*found, index};
+}
+
+struct ReplayedCase {
+  corpus::Case c;
+  std::optional<TrialName> trial;  // of the campaign that it is from
+};
+
+// An id makes the case again; anything else is a file.
+corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(id_or_file, ignored)) {
+    if (const auto trial = trial_of(id_or_file)) {
+      return ReplayedCase{properties::make_case(*trial->family, id_or_file).c, trial};
+    }
+  }
+  auto read = corpus::read_case(id_or_file);
+  if (!read) return read.error();
+  return ReplayedCase{std::move(read.value()), std::nullopt};
+}
+
+// A case that states options is about them; one that does not, about every configuration.
+std::optional<std::string> choose_configurations(const corpus::Case& c,
+                                                 properties::DetectorUnderTest& detector) {
+  if (!detector.built_in || c.options.empty()) return std::nullopt;
+  if (auto wrong = properties::wrong_option(c)) return wrong;
+  const auto options = properties::options_of(c);
+  const char* first = options.pairs == detector::Pairs::first ? "/first" : "";
+  detector.configurations = {
+      {fmt::format("{}{}", properties::name_of(options.culling), first), options}};
+  return std::nullopt;
+}
+
+void print_steps(const corpus::Case& c, const std::vector<oracle::StepJudgement>& truth) {
+  const auto script = corpus::steps_of(c);
+  for (std::size_t s = 0; s < script.size(); ++s) {
+    fmt::print("step {} (frame {} to {}, {}): oracle {}", s + 1, script[s].from, script[s].to,
+               script[s].commit ? "committed" : "evaluated only",
+               properties::name_of(truth[s].answer));
+    if (!truth[s].pairs.empty()) {
+      fmt::print(" at t = {}, {} pairs in contact", time_text(truth[s].first),
+                 truth[s].pairs.size());
+    }
+    fmt::print("\n");
+  }
+}
+
+std::string sets_text(const detector::StepResult& result) {
+  if (result.doubts.empty()) return "";
+  return fmt::format("; V+ {}  V- {}  V0 {}  Vv {} (violated {}, dirty {})", result.view_positive,
+                     result.view_negative, result.view_zero, result.against_all, result.violated,
+                     result.dirty);
+}
+
+void print_run(const properties::Configuration& configuration, const properties::CaseRun& run,
+               const properties::Verdict& verdict) {
+  fmt::print("{}: {}{}\n", configuration.name, properties::name_of(verdict.outcome),
+             run.what.empty() ? "" : " (" + run.what + ")");
+  for (std::size_t s = 0; s < run.steps.size(); ++s) {
+    const auto& result = run.steps[s];
+    fmt::print("  step {}: {}{}, {} pairs{}\n", s + 1, properties::name_of(result.answer),
+               result.answer == detector::Answer::collision
+                   ? fmt::format(" at t = {}", time_text(result.first))
+                   : "",
+               result.pairs.size(), sets_text(result));
+  }
+  if (verdict.failure) {
+    fmt::print("  DEFECT {} in step {}: {}\n", verdict.failure->signature(),
+               verdict.failure->step + 1, verdict.failure->what);
+  }
+}
+
+// True when there are any.
+bool print_broken_laws(const corpus::Case& c, const properties::DetectorUnderTest& detector,
+                       const std::vector<properties::CaseRun>& runs,
+                       const std::vector<oracle::StepJudgement>& truth) {
+  const auto tally = properties::tally_case({c, {}}, detector.configurations, runs, truth, true);
+  for (const auto& broken : tally.broken) {
+    fmt::print("BROKEN LAW {} ({}): {}\n", broken.law, broken.configuration, broken.what);
+  }
+  return !tally.broken.empty();
+}
+
+}  // namespace
+
+int run_replay(const ReplayRequest& request) {
+  auto made = case_of(request.id_or_file);
+  if (!made) {
+    return refuse(made.error().message +
+                  (request.id_or_file.find(':') == std::string::npos
+                       ? ""
+                       : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)"));
+  }
+  const corpus::Case& c = made.value().c;
+  const auto& trial = made.value().trial;
+  properties::CampaignRequest subject;
+  subject.worker = properties::worker_program();
+  if (auto problem = choose_detector(request.detector, subject)) return refuse(*problem);
+  if (auto problem = choose_configurations(c, subject.detector)) {
+    return refuse(fmt::format("{}: {}", request.id_or_file, *problem));
+  }
+  const bool vouched = trial && properties::is_vouched_for(subject.detector, c, trial->index);
+  if (vouched) {
+    subject.detector.configurations = properties::with_clean_start(subject.detector.configurations);
+  }
+  if (request.why && !subject.detector.built_in) {
+    return refuse("--why is of the built-in detector: a plug-in does not show its stages");
+  }
+  if (request.why && (request.why->a < 0 || request.why->b >= c.triangles.rows())) {
+    return refuse(fmt::format("--why {},{}: the mesh has {} triangles", request.why->a,
+                              request.why->b, c.triangles.rows()));
+  }
+  const auto seen = properties::contracted(c, subject.detector.contract);
+  if (!seen) return refuse("a coordinate of the case is beyond the detector's contract");
+  const auto truth = properties::judge_case(*seen);
+  properties::WorkerProcess worker(subject.worker, subject.plugin);
+  const auto runs = worker.run(c, subject.detector.configurations);
+  for (const auto& run : runs) {
+    if (run.end == properties::RunEnd::not_run) return refuse(run.what);
+  }
+  if (!request.export_folder.empty()) {
+    if (auto problem = export_case(request.export_folder, *seen, subject.detector, truth)) {
+      return refuse(*problem);
+    }
+  }
+  fmt::print("{}: {}{}\n", c.id, properties::size_text(properties::size_of(c)),
+             c.about.empty() ? "" : "; " + c.about);
+  if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
+  print_steps(c, truth);
+  int code = exit_holds;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto& configuration = subject.detector.configurations[i];
+    const auto verdict =
+        properties::judge_trial(*seen, truth, runs[i], configuration, subject.detector);
+    print_run(configuration, runs[i], verdict);
+    if (verdict.outcome == Outcome::defect) code = exit_defect;
+    if (verdict.outcome != Outcome::defect && verdict.outcome != Outcome::holds &&
+        code == exit_holds) {
+      code = exit_undecided;
+    }
+    if (request.why) {
+      fmt::print("{}", pair_story(c, configuration.options, *request.why, truth));
+    }
+  }
+  if (subject.detector.built_in && print_broken_laws(c, subject.detector, runs, truth)) {
+    code = exit_defect;
+  }
+  if (!request.export_folder.empty()) fmt::print("exported to {}\n", request.export_folder);
+  return code;
+}
+
+}  // namespace assay::reports

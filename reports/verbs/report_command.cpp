@@ -1,0 +1,68 @@
+// `assay report`: runs as one HTML page that works offline.
+#include <fmt/format.h>
+
+#include "properties/campaign/stored/run_folder.h"
+#include "reports/certificate/verify.h"
+#include "reports/page/data/failure_scenes.h"
+#include "reports/page/data/page_file.h"
+#include "reports/page/data/run_json.h"
+#include "reports/steps/json_output.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/plain_progress.h"
+#include "reports/verbs/commands.h"
+
+namespace assay::reports {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// All that the page says of the run in a folder. What stands in a certificate there is believed
+// only where it verifies.
+std::optional<Json> describe_run(const std::string& folder, PlainProgress& progress,
+                                 std::string& problem) {
+  const auto findings = properties::read_findings(folder, problem);
+  if (!findings) return std::nullopt;
+  progress.show(fmt::format("{}: {} trials, {} failures kept", folder, findings->tally.trials(),
+                            findings->failures.size()));
+  const auto certificate = properties::certificate_file(folder);
+  std::error_code ignored;
+  Json json;
+  if (std::filesystem::exists(certificate, ignored)) {
+    const auto [differences, statement] = verify_certificate(certificate);
+    json = differences.empty()
+               ? run_json(*findings, judge(*findings), statement)
+               : run_json(*findings, judge(*findings), nullptr, differences.front());
+  } else {
+    json = run_json(*findings, judge(*findings, properties::asked_of_a_run()));
+  }
+  json["failures"] = failure_scenes(*findings);
+  return json;
+}
+
+}  // namespace
+
+int run_report(const ReportRequest& request) {
+  if (auto problem = cannot_write(request.out, {})) return refuse(*problem);
+  Json runs = Json::array();
+  PlainProgress progress("report");
+  for (const auto& folder : request.folders) {
+    std::string wrong;
+    auto run = describe_run(folder, progress, wrong);
+    if (!run) return refuse(wrong);
+    runs.push_back(std::move(*run));
+  }
+  progress.finish();
+  const Json data = {
+      {"schema", "assay-report/2"}, {"version", version_text()}, {"runs", std::move(runs)}};
+  if (auto problem = write_text_file(request.out, page_text(page_template(), data)))
+    return refuse(*problem);
+  for (const auto& run : data["runs"]) {
+    fmt::print("{}: {}; {}\n", run["folder"].get<std::string>(), run["verdict"].get<std::string>(),
+               run["why"].get<std::string>());
+  }
+  fmt::print("page {}: opens in a browser, without a network\n", request.out);
+  return exit_holds;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,131 @@
+// assay self-test: the oracle's own check, a line a family.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "properties/queries/self_test_run.h"
+#include "reports/terminal/exit_code.h"
+#include "reports/terminal/progress.h"
+#include "reports/verbs/commands.h"
+
+namespace assay::reports {
+namespace {
+
+using properties::FamilyResult;
+using properties::QueryTally;
+using properties::SelfTestFamily;
+using Clock = std::chrono::steady_clock;
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void print_row(const std::string& name, const QueryTally& t, double seconds) {
+  const std::uint64_t judged = t.rungs.axis + t.rungs.interval + t.rungs.algebraic;
+  fmt::print("{:<14}{:>10}{:>10}{:>16}{:>8}{:>9.2f}{:>12.2f}{:>13.2f}{:>9.1f}\n", name, t.queries,
+             t.contacts, t.contradictions, t.open, share(t.rungs.axis, judged),
+             share(t.rungs.interval, judged), share(t.rungs.algebraic, judged), seconds);
+  std::fflush(stdout);
+}
+
+std::string replay_line(const SelfTestFamily& family, std::uint64_t seed, std::uint64_t index) {
+  return fmt::format("assay self-test --replay {}:{}:{}", family.name(), seed, index);
+}
+
+void print_failures(const SelfTestFamily& family, std::uint64_t seed, const FamilyResult& result) {
+  for (const auto& failure : result.failures) {
+    fmt::print("contradiction: {}\n{}replay: {}\n", failure.what, family.text(seed, failure.index),
+               replay_line(family, seed, failure.index));
+  }
+  if (result.tally.contradictions > result.failures.size()) {
+    fmt::print("{} contradictions in {}, the first {} printed\n", result.tally.contradictions,
+               family.name(), result.failures.size());
+  }
+}
+
+int replay(const SelfTestRequest& request) {
+  const auto named = properties::self_test_case(request.replay);
+  if (!named) {
+    fmt::print(stderr, "assay: '{}' is no case of the self-test (family:seed:index)\n",
+               request.replay);
+    return exit_usage;
+  }
+  fmt::print("{}", named->family->text(named->seed, named->index));
+  QueryTally tally;
+  const auto wrong = named->family->check(named->seed, named->index, tally);
+  fmt::print("{}\n", wrong ? "contradiction: " + *wrong : "no contradiction");
+  return wrong ? exit_unsound : exit_holds;
+}
+
+void announce(const SelfTestRequest& request) {
+  fmt::print(
+      "oracle against its referees: {} random small-integer queries, the other families by it; "
+      "seed {}, {} jobs; writes no file; until {}\n",
+      request.queries, request.seed, request.jobs,
+      request.time_limit ? fmt::format("done, or {:.0f} s from now", *request.time_limit) : "done");
+  for (const auto& family : properties::self_test_families()) {
+    if (family->indices(request.queries) > 0) {
+      fmt::print("  {:<14}{}\n", family->name(), family->about());
+    } else {
+      fmt::print("  {:<14}left out: more --queries wanted for {}\n", family->name(),
+                 family->about());
+    }
+  }
+  fmt::print("{:<14}{:>10}{:>10}{:>16}{:>8}{:>9}{:>12}{:>13}{:>9}\n", "family", "queries",
+             "contacts", "contradictions", "open", "axis %", "interval %", "algebraic %", "s");
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int run_self_test(const SelfTestRequest& request) {
+  if (!request.replay.empty()) return replay(request);
+  announce(request);
+
+  constexpr double kSecondsBetweenLines = 30;
+  const bool on_terminal = isatty(STDERR_FILENO) == 1;
+  const auto begin = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  properties::SelfTestOptions options{request.seed, request.queries, request.jobs, {}, false};
+  if (request.time_limit) {
+    options.stop = [&, limit = *request.time_limit] { return elapsed() >= limit; };
+  }
+  Progress progress("self-test");
+  double last_line = 0;
+  QueryTally total;
+  bool complete = true;
+  for (const auto& family : properties::self_test_families()) {
+    const std::uint64_t indices = family->indices(request.queries);
+    if (indices == 0) continue;
+    const auto result = properties::run_family(*family, options, [&](std::uint64_t done) {
+      const auto phase = fmt::format("{} {:.0f} %", family->name(), share(done, indices));
+      progress.phase(phase);
+      if (on_terminal || elapsed() - last_line < kSecondsBetweenLines) return;
+      last_line = elapsed();
+      fmt::print(stderr, "self-test: {} {:.0f} s\n", phase, last_line);
+    });
+    progress.finish();
+    print_row(family->name(), result.tally, result.seconds);
+    print_failures(*family, request.seed, result);
+    total += result.tally;
+    complete = complete && result.complete;
+  }
+  print_row("all", total, elapsed());
+  fmt::print("{} invariances of these queries checked\n", total.invariances);
+  if (total.contradictions > 0) {
+    fmt::print("self-test: {} contradictions; the oracle or a referee is wrong\n",
+               total.contradictions);
+    return exit_unsound;
+  }
+  if (!complete) {
+    fmt::print("self-test: undecided, stopped at the time limit; no contradiction in {} queries\n",
+               total.queries);
+    return exit_undecided;
+  }
+  fmt::print("self-test: no contradiction in {} queries, seed {}\n", total.queries, request.seed);
+  return exit_holds;
+}
+
+}  // namespace assay::reports

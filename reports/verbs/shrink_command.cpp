@@ -1,0 +1,106 @@
+// `assay shrink`: the smallest case that fails as this one does.
+#include <fmt/format.h>
+
+#include "properties/campaign/phases/case_tally.h"
+#include "properties/campaign/phases/shrink.h"
+#include "properties/judging/case_check.h"
+#include "properties/reducer/mesh_size.h"
+#include "reports/campaign/detector_choice.h"
+#include "reports/pictures/scene_maker.h"
+#include "reports/steps/json_output.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/interruption.h"
+#include "reports/terminal/plain_progress.h"
+#include "reports/terminal/shell_word.h"
+#include "reports/verbs/commands.h"
+
+namespace assay::reports {
+namespace {
+
+// How the case fails.
+struct Failing {
+  std::string signature;
+  properties::Configuration configuration;
+  const properties::Law* law = nullptr;  // that it breaks; null: a claim
+};
+
+// The first configuration in which it breaks a claim, else a law; nothing when it holds.
+std::optional<Failing> find_failure(const corpus::Case& c,
+                                    const properties::DetectorUnderTest& detector,
+                                    properties::WorkerProcess& worker) {
+  for (const auto& configuration : detector.configurations) {
+    const auto finding = properties::judge_of_detector(detector, configuration, worker)(c);
+    if (finding) return Failing{finding->signature, configuration, nullptr};
+  }
+  if (!detector.built_in) return std::nullopt;
+  const auto runs = worker.run(c, detector.configurations);
+  const auto tally = properties::tally_case({c, {}}, detector.configurations, runs,
+                                            properties::judge_case(c), true);
+  if (tally.broken.empty()) return std::nullopt;
+  const auto& broken = tally.broken.front();
+  for (const auto& configuration : detector.configurations) {
+    if (configuration.name == broken.configuration)
+      return Failing{"law " + broken.law, configuration, properties::law_named(broken.law)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+int run_shrink(const ShrinkRequest& request) {
+  end_when_interrupted("interrupted: the smallest so far is in " + request.out, exit_undecided);
+  if (auto problem = cannot_write(request.out, {request.file})) return refuse(*problem);
+  auto read = corpus::read_case(request.file);
+  if (!read) return refuse(read.error().message);
+  const corpus::Case& c = read.value();
+  if (auto wrong = properties::wrong_option(c)) {
+    return refuse(fmt::format("{}: {}", request.file, *wrong));
+  }
+  properties::CampaignRequest subject;
+  subject.worker = properties::worker_program();
+  if (auto problem = choose_detector(request.detector, subject)) return refuse(*problem);
+  if (subject.detector.built_in && !c.options.empty()) {
+    subject.detector.configurations = {{"the case's own", properties::options_of(c)}};
+  }
+  constexpr double hang_seconds = 10;
+  properties::WorkerProcess worker(subject.worker, subject.plugin, {hang_seconds, 0});
+  const auto failing = find_failure(c, subject.detector, worker);
+  if (!failing) {
+    fmt::print("{}: holds in every configuration; there is nothing to shrink\n", request.file);
+    return exit_holds;
+  }
+  fmt::print("{} ({}); at most {} s; writes {}\n", failing->signature, failing->configuration.name,
+             request.seconds, request.out);
+  std::fflush(stdout);
+  PlainProgress progress("shrinking");
+  std::optional<std::string> problem;
+  const properties::ReduceLimits limits{request.seconds, 10'000'000};
+  const properties::OnBetter keep = [&](const corpus::Case& better) {
+    progress.show(properties::size_text(properties::size_of(better)));
+    problem = write_text_file(request.out, corpus::case_text(better));
+  };
+  keep(c);
+  const auto reduction =
+      failing->law
+          ? properties::reduce(c, properties::judge_of_law(*failing->law, failing->configuration),
+                               limits, keep)
+          : properties::shrink_case(c, subject.detector, failing->configuration, worker, limits,
+                                    keep);
+  progress.finish();
+  if (!problem) {
+    problem = write_text_file(request.out, corpus::case_text(reduction.smallest));
+  }
+  if (!problem) {
+    SceneMaker scenes(request.detector);
+    problem = scenes.write_picture(request.out, reduction.smallest, failing->configuration.name,
+                                   failing->signature);
+  }
+  if (problem) return refuse(*problem);
+  fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: assay replay {}{}\n",
+             properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
+             reduction.calls, reduction.seconds, reduction.fixed_point ? "" : "; the time was over",
+             picture_file(request.out), shell_word(request.out), detector_words(request.detector));
+  return exit_defect;
+}
+
+}  // namespace assay::reports
