@@ -85,10 +85,10 @@ TEST(House, TheWorkerKnowsNoOracle) {
   const std::regex judges("fault_run");
   const std::regex may_use(
       "^(detector/|corpus/cases/case_file.h|properties/(worker/|faults/)|"
-      "properties/(claims|words|numbering|random).h)");
+      "properties/(judging/claims|words|numbering|random).h)");
   // What they may use beside their own folders is held to the same.
   std::vector<fs::path> files;
-  for (const auto* name : {"claims.h", "claims.cpp", "words.h", "numbering.h", "random.h"}) {
+  for (const auto* name : {"judging/claims.h", "judging/claims.cpp", "words.h", "numbering.h", "random.h"}) {
     files.push_back(root / "properties" / name);
   }
   for (const auto* folder : {"properties/worker", "properties/faults"}) {

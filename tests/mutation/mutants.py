@@ -104,7 +104,7 @@ def mutants_of(root, file):
 
 def area_weight(file):
     """How often lines of a file are drawn: the core of the detector most."""
-    core = ("view/", "contact/", "boundary/", "search/", "state/", "step")
+    core = ("view/", "contact/", "boundary/", "search/", "state/", "step/", "geometry/")
     weight = 2.0 if file.removeprefix("detector/").startswith(core) else 1.0
     return weight * (0.25 if file.endswith(".h") else 1.0)
 

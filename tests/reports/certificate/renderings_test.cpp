@@ -4,7 +4,7 @@
 #include "reports/certificate/junit.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
-#include "tests/properties/good_findings.h"
+#include "tests/properties/campaign/good_findings.h"
 
 namespace assay::reports {
 namespace {

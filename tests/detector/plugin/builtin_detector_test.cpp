@@ -1,0 +1,192 @@
+// The built-in detector in C: options, named errors, sets, view primitives, stop.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "detector/detector.h"
+#include "tests/detector/plugin/builtin_fixture.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::BuiltinDetector;
+using tests::table;
+
+TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
+  const auto in_c = [&](const assay_builtin_options& options) {
+    const auto handle = make(&options);
+    const auto result = evaluate(handle, in, hit);
+    const auto sets = sets_of(handle);
+    return std::make_tuple(result.answer, result.first_lo, result.first_hi, result.pair_count,
+                           sets.view_positive, sets.against_all, sets.dirty);
+  };
+  const auto in_cpp = [&](const Options& options) {
+    auto made = Detector::create(triangles, in, options);
+    const auto r = made.value().evaluate(in, hit);
+    return std::make_tuple(
+        std::int32_t{r.answer == Answer::collision ? ASSAY_COLLISION : ASSAY_FREE}, r.first.lo,
+        r.first.hi, std::uint64_t{r.pairs.size()}, std::uint64_t{r.view_positive},
+        std::uint64_t{r.against_all}, std::uint64_t{r.dirty});
+  };
+  for (std::int32_t culling = 0; culling < 6; ++culling) {
+    for (std::int32_t start = 0; start < 3; ++start) {
+      for (std::int32_t pairs = 0; pairs < 2; ++pairs) {
+        for (std::int32_t arithmetic = 0; arithmetic < 4; ++arithmetic) {
+          const assay_builtin_options c = {sizeof c, culling, start, pairs, arithmetic, 0, 0};
+          EXPECT_EQ(in_c(c),
+                    in_cpp({static_cast<Culling>(culling), static_cast<Start>(start),
+                            static_cast<Pairs>(pairs), static_cast<Arithmetic>(arithmetic)}));
+        }
+      }
+    }
+  }
+  const assay_builtin_options defaults = ASSAY_BUILTIN_DEFAULTS;
+  EXPECT_EQ(in_c(defaults), in_cpp({}));
+}
+
+// Out through a hole, and on: what is released, and what a ghost's box calls violated.
+TEST_F(BuiltinDetector, ReleaseAndGhostTestReachTheDetector) {
+  Positions x_out = in;
+  x_out.row(5) << 1.5, 1.5, 1.5;
+  const Positions& out = x_out;
+  std::map<std::vector<std::uint64_t>, int> outcomes;
+  for (std::int32_t release = 0; release < 3; ++release) {
+    for (std::int32_t ghost_test = 0; ghost_test < 2; ++ghost_test) {
+      const assay_builtin_options c = {sizeof c,  ASSAY_CULLING_VIEW_POINT, 0, 0, 0, release,
+                                       ghost_test};
+      const auto handle = make(&c, 7);
+      auto made =
+          Detector::create(triangles.bottomRows(7), in,
+                           {Culling::view_point, Start::verified, Pairs::all, Arithmetic::exact,
+                            static_cast<Release>(release), static_cast<GhostTest>(ghost_test)});
+      std::vector<std::uint64_t> seen;
+      const Positions* from = &in;
+      for (const auto* x : {&in, &out, &out, &in, &in}) {
+        evaluate(handle, *from, *x);
+        ASSERT_EQ(assay_builtin_commit(handle.get(), &error), ASSAY_OK);
+        const auto sets = sets_of(handle);
+        const auto expected = made.value().step(*from, *x);
+        EXPECT_EQ(sets.view_positive + sets.view_negative + sets.view_zero + sets.against_all, 7u);
+        EXPECT_EQ(sets.view_negative, expected.view_negative);
+        EXPECT_EQ(sets.view_zero, expected.view_zero);
+        EXPECT_EQ(sets.violated, expected.violated);
+        EXPECT_EQ(sets.dirty, expected.dirty);
+        ASSERT_TRUE(sets.doubts);
+        EXPECT_TRUE(std::equal(expected.doubts.begin(), expected.doubts.end(), sets.doubts));
+        seen.insert(seen.end(), {sets.violated, sets.dirty});
+        from = x;
+      }
+      ++outcomes[seen];
+    }
+  }
+  EXPECT_GT(outcomes.size(), 1u) << "the options make a difference";
+}
+
+TEST_F(BuiltinDetector, WrongOptionsAreRefusedByName) {
+  using Member = std::int32_t assay_builtin_options::*;
+  const std::vector<std::pair<Member, std::int32_t>> past_the_last = {
+      {&assay_builtin_options::culling, 6}, {&assay_builtin_options::start, 3},
+      {&assay_builtin_options::pairs, 2},   {&assay_builtin_options::arithmetic, 4},
+      {&assay_builtin_options::release, 3}, {&assay_builtin_options::ghost_test, 2}};
+  for (const auto& [member, wrong] : past_the_last) {
+    for (const std::int32_t value : {wrong, -1, 256}) {
+      assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
+      options.*member = value;
+      EXPECT_FALSE(make(&options));
+      EXPECT_EQ(error.code, ASSAY_BUILTIN_WRONG_OPTIONS);
+    }
+    assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
+    options.*member = wrong - 1;
+    EXPECT_TRUE(make(&options));
+  }
+  assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
+  options.struct_size = 0;
+  EXPECT_FALSE(make(&options));
+  EXPECT_EQ(error.code, ASSAY_BUILTIN_WRONG_OPTIONS);
+  EXPECT_TRUE(make(nullptr));
+}
+
+TEST_F(BuiltinDetector, WrongInputIsRefusedByName) {
+  const auto create = [&](std::vector<std::int32_t> t, std::uint64_t count, Positions x,
+                          std::uint64_t vertices = 6) {
+    assay_handle* handle = nullptr;
+    const auto code =
+        assay_builtin_create(t.data(), count, x.data(), vertices, nullptr, &handle, &error);
+    EXPECT_EQ(handle, nullptr);
+    return code;
+  };
+  expect_refused(create({}, 0, in), ASSAY_BUILTIN_NO_TRIANGLES);
+  expect_refused(create({0, 1, 6}, 1, in), ASSAY_BUILTIN_INDEX_OUT_OF_RANGE);
+  expect_refused(create({0, 1, 1}, 1, in), ASSAY_BUILTIN_REPEATED_INDEX);
+  expect_refused(create({0, 1, 2, 2, 1, 0}, 2, in), ASSAY_BUILTIN_SAME_VERTICES_TWICE);
+  Positions infinite = in;
+  infinite(3, 2) = HUGE_VAL;
+  expect_refused(create({0, 1, 2}, 1, infinite), ASSAY_BUILTIN_NON_FINITE_COORDINATE);
+  expect_refused(create({0, 1, 2}, std::uint64_t{1} << 31, in), ASSAY_BUILTIN_TOO_MANY);
+  expect_refused(create({0, 1, 2}, 1, in, ~std::uint64_t{0}), ASSAY_BUILTIN_TOO_MANY);
+  // No place for the error: the code alone.
+  assay_handle* handle = nullptr;
+  EXPECT_EQ(assay_builtin_create(nullptr, 0, in.data(), 6, nullptr, &handle, nullptr),
+            ASSAY_REFUSED);
+
+  const auto octahedron = make(nullptr);
+  const auto evaluate_with = [&](const Positions& x, std::uint64_t primitives) {
+    const std::vector<assay_view_primitive> given(2);
+    return assay_builtin_evaluate(octahedron.get(), in.data(), x.data(), given.data(), primitives,
+                                  nullptr, nullptr, &error);
+  };
+  expect_refused(evaluate_with(infinite, 0), ASSAY_BUILTIN_NON_FINITE_COORDINATE);
+  expect_refused(assay_builtin_commit(octahedron.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
+  expect_refused(evaluate_with(in, 2), ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT);
+  expect_refused(evaluate_with(in, ~std::uint64_t{0}), ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT);
+  EXPECT_EQ(evaluate_with(in, 1), ASSAY_OK);
+}
+
+TEST_F(BuiltinDetector, EveryErrorHasItsName) {
+  std::map<std::string, int> names;
+  for (std::int32_t code = -3; code < 300; ++code) ++names[assay_builtin_error_name(code)];
+  EXPECT_EQ(names["no_error"], 1);
+  EXPECT_EQ(names.size(), 17u) << "11 of the detector, 4 of the interface, none, unknown";
+  EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_FOREIGN_STATE), "foreign_state");
+  EXPECT_STREQ(assay_builtin_error_name(ASSAY_BUILTIN_SMALL_BUFFER), "small_buffer");
+}
+
+TEST_F(BuiltinDetector, IsViewedFromWhereTheCallerSays) {
+  const auto handle = make(Culling::view_point);
+  const auto view_positive = [&](const Point& q0, const Point& q1) {
+    assay_view_primitive view;
+    for (int k = 0; k < 3; ++k) {
+      view.q0_t0[k] = q0[static_cast<std::size_t>(k)];
+      view.q0_t1[k] = q1[static_cast<std::size_t>(k)];
+      view.q1_t0[k] = view.q0_t0[k];
+      view.q1_t1[k] = view.q0_t1[k];
+    }
+    EXPECT_EQ(assay_builtin_evaluate(handle.get(), in.data(), in.data(), &view, 1, nullptr, nullptr,
+                                     &error),
+              ASSAY_OK);
+    return sets_of(handle).view_positive;
+  };
+  EXPECT_EQ(view_positive({0, 0, 0}, {0, 0, 0}), 8u);
+  EXPECT_EQ(view_positive({0, 0, 0}, {1, 1, 1}), 7u) << "out through one triangle";
+  EXPECT_EQ(view_positive({1, 1, 1}, {1, 1, 1}), 7u);
+}
+
+TEST_F(BuiltinDetector, StopsWhenToldTo) {
+  assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
+  options.culling = ASSAY_CULLING_NONE;
+  const auto handle = make(&options);
+  int calls = 0;
+  const auto stop = [](void* data) -> std::int32_t { return ++*static_cast<int*>(data) > 0; };
+  ASSERT_EQ(
+      assay_builtin_evaluate(handle.get(), in.data(), hit.data(), nullptr, 0, stop, &calls, &error),
+      ASSAY_OK);
+  EXPECT_GT(calls, 0);
+  assay_result result = {};
+  table().result(handle.get(), &result);
+  EXPECT_EQ(result.answer, ASSAY_UNDECIDED);
+  expect_refused(assay_builtin_commit(handle.get(), &error), ASSAY_BUILTIN_NOTHING_TO_COMMIT);
+}
+
+}  // namespace
+}  // namespace assay::detector

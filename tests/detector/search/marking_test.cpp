@@ -1,0 +1,196 @@
+// Flags of the partial trees after any sequence, what marking costs, and what skipping leaves
+// alone.
+#include "detector/search/marking.h"
+
+#include <gtest/gtest.h>
+
+#include "detector/search/pair_search.h"
+#include "detector/search/representatives.h"
+#include "tests/detector/search/search_meshes.h"
+
+namespace assay::tests {
+namespace {
+
+using namespace detector;
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+std::uint8_t flags_below(const BoundingVolumeTree& tree, const std::vector<TriangleType>& types,
+                         std::int32_t node) {
+  if (tree.is_leaf(node)) return flags_of(types[at(tree.triangle(node))]);
+  return flags_below(tree, types, tree.child(node)) |
+         flags_below(tree, types, tree.child(node) + 1);
+}
+
+void expect_marked(const BoundingVolumeTree& tree, const Marks& marks,
+                   const std::vector<TriangleType>& types) {
+  ASSERT_EQ(marks.types, types);
+  for (std::size_t n = 0; n < tree.node_count(); ++n) {
+    ASSERT_EQ(marks.node_flags[n], flags_below(tree, types, static_cast<std::int32_t>(n)));
+  }
+}
+
+void expect_same(const Topology& mesh, const Representatives& kept,
+                 const std::vector<TriangleType>& types) {
+  Representatives fresh(mesh);
+  std::vector<std::int32_t> all(mesh.triangles.size());
+  for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<std::int32_t>(t);
+  fresh.update(mesh, types, all);
+  for (const auto t : all) ASSERT_EQ(kept.of(t), fresh.of(t));
+  for (std::size_t v = 0; v + 1 < mesh.vertex_triangles.starts.size(); ++v) {
+    const auto vertex = static_cast<std::int32_t>(v);
+    ASSERT_EQ(kept.types_of_vertex(vertex), fresh.types_of_vertex(vertex));
+  }
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto edge = static_cast<std::int32_t>(e);
+    ASSERT_EQ(kept.types_of_edge(edge), fresh.types_of_edge(edge));
+  }
+}
+
+std::uint64_t depth_of(const BoundingVolumeTree& tree, std::int32_t triangle) {
+  std::uint64_t depth = 1;
+  for (auto n = tree.leaf_of(triangle); n != BoundingVolumeTree::root; n = tree.parent(n)) ++depth;
+  return depth;
+}
+
+TEST(Marking, AtFirstEverythingIsPositive) {
+  SearchMeshes random(1);
+  const MovingMesh mesh = random.sheets(2, 4, false);
+  const BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
+  const std::vector<TriangleType> positive(mesh.topology.triangles.size(), TriangleType::positive);
+  Marks marks(tree);
+  expect_marked(tree, marks, positive);
+  MarkingCounts counts;
+  Marking().bring_to(positive, tree, marks, counts);
+  EXPECT_EQ(counts.changed + counts.marked + counts.cleared, 0u);
+}
+
+// After any sequence of markings, closures among them, flags are those marked from scratch, and the
+// work is bounded by the triangles that changed.
+TEST(Marking, FlagsAreThoseFromScratch) {
+  SearchMeshes random(2);
+  for (int round = 0; round < 20; ++round) {
+    const MovingMesh mesh = random.sheets(1 + round % 4, 1 + round % 6, false);
+    const BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
+    Marks marks(tree);
+    Representatives representatives(mesh.topology);
+    std::vector<TriangleType> types = marks.types;
+    for (int step = 0; step < 30; ++step) {
+      const std::vector<TriangleType> before = types;
+      MarkingCounts counts;
+      if (step % 3 == 2) {
+        // What joined the closure, as changes.
+        std::vector<Marking::Change> changes;
+        for (std::size_t t = 0; t < types.size(); ++t) {
+          if (types[t] != TriangleType::positive || random.below(4)) continue;
+          types[t] = TriangleType::positive_grown;
+          changes.push_back({static_cast<std::int32_t>(t), types[t]});
+          changes.push_back(changes.back());  // twice does no harm
+        }
+        Marking().change(changes, tree, marks, counts);
+      } else {
+        random.change(types, 1 << random.below(6));
+        Marking().bring_to(types, tree, marks, counts);
+      }
+      representatives.update(mesh.topology, marks.types, marks.changed);
+      expect_marked(tree, marks, types);
+      expect_same(mesh.topology, representatives, types);
+      std::uint64_t changed = 0, path = 0;
+      for (std::size_t t = 0; t < types.size(); ++t) {
+        if (flags_of(types[t]) == flags_of(before[t])) continue;
+        ++changed;
+        path += depth_of(tree, static_cast<std::int32_t>(t));
+      }
+      EXPECT_EQ(counts.changed, changed);
+      EXPECT_LE(counts.marked, path);
+      EXPECT_LE(counts.cleared, path);
+    }
+  }
+}
+
+// One triangle of many: its path and no more.
+TEST(Marking, WorkIsThatOfTheChange) {
+  SearchMeshes random(3);
+  const MovingMesh mesh = random.sheets(1, 30, false);
+  const BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
+  Marks marks(tree);
+  std::vector<TriangleType> types = marks.types;
+  types[100] = TriangleType::zero;
+  MarkingCounts first, second;
+  Marking().bring_to(types, tree, marks, first);
+  EXPECT_EQ(first.changed, 1u);
+  EXPECT_EQ(first.marked, depth_of(tree, 100));
+  EXPECT_EQ(first.cleared, 1u);  // P of the leaf; its sibling keeps P above
+  types[100] = TriangleType::positive;
+  Marking().bring_to(types, tree, marks, second);
+  EXPECT_EQ(second.marked, 1u);
+  EXPECT_EQ(second.cleared, depth_of(tree, 100));
+}
+
+using Pairs = std::set<std::pair<std::int32_t, std::int32_t>>;
+
+Pairs pairs_of(const PairSearch& search, const SearchInput& input, SearchCounts& counts) {
+  Pairs out;
+  search.search(input, counts, [&](std::int32_t a, std::int32_t b) {
+    EXPECT_NE(a, b);
+    EXPECT_TRUE(out.insert(std::minmax(a, b)).second) << "found twice";
+    return true;
+  });
+  return out;
+}
+
+// The search finds the pairs that are asked for and whose boxes are not apart, with and without
+// skipping; skipping tests fewer boxes, if not in every single search.
+TEST(Search, L3_PairsAreThoseAskedForWithAndWithoutSkipping) {
+  SearchMeshes random(4);
+  std::uint64_t with = 0, without = 0, skipped = 0;
+  for (int round = 0; round < 60; ++round) {
+    const bool coarse = round % 2 == 1;
+    const MovingMesh mesh = random.sheets(1 + round % 3, 2 + round % 5, coarse);
+    BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
+    tree.refit(mesh.topology, mesh.x_t0, mesh.x_t1);
+    const RoundedPositions points(mesh.x_t0, mesh.x_t1);
+    Marks marks(tree);
+    std::vector<TriangleType> types = marks.types;
+    random.change(types, 1 + random.below(20));
+    MarkingCounts marking;
+    Marking().bring_to(types, tree, marks, marking);
+    for (const PairTables& tables : {PairRule().candidates(), EveryPair().candidates()}) {
+      const SearchInput input{mesh.topology, tree, marks, tables};
+      SearchCounts on, off, exhaustive;
+      const Pairs found = pairs_of(TreeSearch(TreeSearch::Skipping::on), input, on);
+      EXPECT_EQ(found, pairs_of(TreeSearch(TreeSearch::Skipping::off), input, off));
+      Pairs wanted;
+      for (const auto& [a, b] : pairs_of(ExhaustiveSearch(), input, exhaustive)) {
+        const auto &ta = mesh.topology.triangles[at(a)], &tb = mesh.topology.triangles[at(b)];
+        if (!apart(points.box(ta), points.box(tb))) wanted.insert({a, b});
+      }
+      EXPECT_EQ(found, wanted);
+      EXPECT_EQ(off.skipped + off.child_counts, 0u);
+      with += on.box_tests;
+      without += off.box_tests;
+      skipped += on.skipped;
+    }
+  }
+  std::printf("  box tests %zu with skipping, %zu without; %zu nodes skipped\n",
+              static_cast<std::size_t>(with), static_cast<std::size_t>(without),
+              static_cast<std::size_t>(skipped));
+  EXPECT_LT(with, without);
+}
+
+TEST(Search, StopsWhereTheSinkSays) {
+  SearchMeshes random(5);
+  const MovingMesh mesh = random.sheets(2, 4, true);
+  BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
+  tree.refit(mesh.topology, mesh.x_t0, mesh.x_t1);
+  const Marks marks(tree);
+  const PairTables tables = EveryPair().candidates();
+  int seen = 0;
+  SearchCounts counts;
+  EXPECT_FALSE(TreeSearch().search({mesh.topology, tree, marks, tables}, counts,
+                                   [&](auto, auto) { return ++seen < 3; }));
+  EXPECT_EQ(seen, 3);
+}
+
+}  // namespace
+}  // namespace assay::tests

@@ -1,0 +1,161 @@
+// A passage through a hole and back, a caller's response, a state that is saved and restored.
+#include <gtest/gtest.h>
+
+#include "detector/detector.h"
+#include "tests/detector/contact/same_contacts.h"
+#include "tests/detector/points.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::octahedron;
+using tests::octahedron_positions;
+
+// The octahedron without its triangle at +x +y +z.
+Triangles with_hole() { return octahedron().bottomRows(7); }
+
+// Vertex 5, the tip at -z, at s (1, 1, 1): out of the hole where s is above 2/3.
+Positions tip_at(double s) {
+  Positions x = octahedron_positions(2);
+  x.row(5) << s, s, s;
+  return x;
+}
+
+// view-auto tests so small a mesh without views.
+Options with_points() {
+  Options options;
+  options.culling = Culling::view_point;
+  return options;
+}
+
+Detector make(const Options& options = with_points()) {
+  return std::move(Detector::create(with_hole(), octahedron_positions(2), options).value());
+}
+
+void expect_same(const StepResult& a, const StepResult& b) {
+  tests::expect_same_contacts(a, b);
+  EXPECT_EQ(a.doubts, b.doubts);
+  EXPECT_EQ(a.signs, b.signs);
+  EXPECT_EQ(a.counts.search.box_tests, b.counts.search.box_tests);
+  EXPECT_EQ(a.counts.narrow.elementary_tests, b.counts.narrow.elementary_tests);
+  EXPECT_EQ(a.counts.ghosts.pairs, b.counts.ghosts.pairs);
+  EXPECT_EQ(a.counts.ghosts.elementary_tests, b.counts.ghosts.elementary_tests);
+  EXPECT_EQ(a.counts.release.pairs, b.counts.release.pairs);
+  EXPECT_EQ(a.counts.winding_numbers, b.counts.winding_numbers);
+}
+
+TEST(Release, L9_OutThroughTheHoleAndBackIsUndone) {
+  const Positions in = octahedron_positions(2), out = tip_at(1.5), near = tip_at(.5);
+  Detector detector = make();
+  EXPECT_EQ(detector.step(in, in).against_all, 0u);
+  const auto passes = detector.step(in, out);
+  EXPECT_GT(passes.violated, 0u);
+  EXPECT_EQ(passes.dirty, 0u);
+  const auto stays = detector.step(out, out);
+  EXPECT_GT(stays.dirty, 0u) << "what is through the hole stays in doubt";
+  const auto returns = detector.step(out, in);
+  EXPECT_GT(returns.violated, 0u);
+  EXPECT_GT(returns.dirty, 0u);
+  const auto after = detector.step(in, near);
+  EXPECT_GT(after.counts.release.in_doubt, 0u) << "not free by view: L9 has to release";
+  EXPECT_EQ(after.counts.release.released, after.counts.release.in_doubt);
+  EXPECT_EQ(after.violated, 0u);
+  EXPECT_EQ(after.dirty, 0u);
+  // From then on it costs what a mesh costs that has always been clean.
+  Detector clean = make();
+  clean.step(in, near);
+  expect_same(detector.step(near, in), clean.step(near, in));
+}
+
+TEST(Release, TheCoarseFormsReleaseNoMore) {
+  const Positions in = octahedron_positions(2), out = tip_at(1.5);
+  Options model = with_points(), view = model, boxes = model;
+  model.release = Release::model;
+  view.release = Release::view;
+  boxes.ghost_test = GhostTest::boxes;
+  for (const auto& options : {model, view, boxes}) {
+    Detector fine = make(), coarse = make(options);
+    const Positions* from = &in;
+    std::uint64_t near = 0;
+    for (const auto* x : {&in, &out, &out, &in, &in}) {
+      const auto a = fine.step(*from, *x), b = coarse.step(*from, *x);
+      from = x;
+      EXPECT_EQ(a.answer, b.answer);
+      for (std::size_t t = 0; t < a.doubts.size(); ++t) {
+        EXPECT_EQ(a.doubts[t] & ~b.doubts[t], 0) << "triangle " << t;
+      }
+      // What the coarse form would violate is counted beside the exact one.
+      near += a.counts.ghosts.near_triangles;
+      if (options.ghost_test == GhostTest::boxes && !b.doubts.empty()) {
+        EXPECT_EQ(b.violated, b.counts.ghosts.near_triangles);
+        EXPECT_GE(a.counts.ghosts.near_triangles, a.violated);
+      }
+    }
+    EXPECT_GT(near, 0u);
+  }
+}
+
+TEST(Release, L8_TheCallerAnswersACollision) {
+  const Positions in = octahedron_positions(2);
+  Positions hit = in;
+  hit.row(1) << 3, .5, -1;
+  Detector detector = make();
+  const auto tried = detector.evaluate(in, hit);
+  ASSERT_EQ(tried.answer, Answer::collision);
+  const Positions shortened = in + .5 * tried.first.lo * (hit - in);
+  ASSERT_EQ(detector.evaluate(in, shortened).answer, Answer::free);
+  ASSERT_FALSE(detector.commit());
+  const auto next = detector.step(shortened, in);
+  EXPECT_EQ(next.answer, Answer::free);
+  EXPECT_EQ(next.dirty, 0u) << "what was only tried leaves no doubt";
+  Detector anew = make();
+  const auto elsewhere = detector.step(shortened, shortened);
+  EXPECT_EQ(elsewhere.doubts, anew.step(shortened, shortened).doubts)
+      << "a start that differs from the committed end is a new one";
+}
+
+TEST(SavedState, RestoredGivesTheSameBits) {
+  const Positions in = octahedron_positions(2), out = tip_at(1.5);
+  Detector detector = make();
+  detector.step(in, out);
+  const SavedState saved = detector.state();
+  SavedState copy = saved;
+  // Made from other positions: rules of apexes and views are in the state.
+  Detector other = std::move(Detector::create(with_hole(), tip_at(.25), with_points()).value());
+  ASSERT_FALSE(other.restore(copy));
+  Detector same = make();
+  ASSERT_FALSE(same.restore(copy));
+  const Positions* from = &out;
+  for (const auto* x : {&out, &in, &in}) {
+    const auto expected = detector.step(*from, *x);
+    EXPECT_EQ(other.evaluate(*from, *x).doubts, expected.doubts);
+    EXPECT_EQ(other.step(*from, *x).signs, expected.signs);
+    expect_same(same.step(*from, *x), expected);
+    from = x;
+  }
+  ASSERT_FALSE(detector.restore(saved));
+  EXPECT_GT(detector.step(out, in).dirty, 0u) << "back at the saved state";
+}
+
+TEST(SavedState, OfAnotherMeshOrCullingIsRefused) {
+  const Positions x = octahedron_positions(2);
+  Detector closed = std::move(Detector::create(octahedron(), x, with_points()).value());
+  Detector open = make();
+  open.step(x, tip_at(1.5));
+  const auto problem = open.restore(closed.state());
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->error, InputError::foreign_state);
+  EXPECT_GT(open.step(tip_at(1.5), x).dirty, 0u) << "nothing has changed";
+  Positions more(7, 3);  // a vertex that no triangle has
+  more << x, 0, 0, 0;
+  auto one_more = std::move(Detector::create(with_hole(), more, with_points()).value());
+  ASSERT_TRUE(one_more.restore(open.state()));
+  Options line;
+  line.culling = Culling::view_line;
+  EXPECT_EQ(make(line).restore(open.state())->error, InputError::foreign_state);
+  EXPECT_FALSE(open.restore(make().state()));
+  EXPECT_EQ(open.step(tip_at(.25), x).dirty, 0u) << "the state of one that has not begun";
+}
+
+}  // namespace
+}  // namespace assay::detector

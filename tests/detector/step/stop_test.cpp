@@ -1,0 +1,74 @@
+// A step that is stopped, at each asking in turn: undecided, and as if it had not been.
+#include <gtest/gtest.h>
+
+#include "detector/detector.h"
+#include "tests/detector/contact/same_contacts.h"
+#include "tests/detector/points.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::octahedron;
+using tests::octahedron_positions;
+
+// The tip at -z elsewhere.
+Positions tip_at(Point p) {
+  Positions x = octahedron_positions(2);
+  x.row(5) << p[0], p[1], p[2];
+  return x;
+}
+
+// Small meshes: each stage asks when it begins, and no more often than every 256 tests.
+constexpr int most_askings = 8;
+
+void stop_everywhere(Detector& detector, const Positions& x_t0, const Positions& x_t1) {
+  int askings = 0;
+  const auto count = [&] { return ++askings, false; };
+  const StepResult whole = detector.evaluate(x_t0, x_t1, {}, count);
+  ASSERT_NE(whole.answer, Answer::undecided);
+  ASSERT_GT(askings, 0);
+  EXPECT_LE(askings, most_askings);
+  const int all = askings;
+  for (int n = 1; n <= all; ++n) {
+    SCOPED_TRACE(n);
+    int asked = 0;
+    const auto stop = [&] { return ++asked == n; };
+    EXPECT_EQ(detector.evaluate(x_t0, x_t1, {}, stop).answer, Answer::undecided);
+    EXPECT_EQ(asked, n) << "and nothing is asked afterwards";
+    ASSERT_TRUE(detector.commit()) << "nothing to commit";
+  }
+  const StepResult again = detector.evaluate(x_t0, x_t1);
+  tests::expect_same_contacts(again, whole);
+  EXPECT_EQ(again.doubts, whole.doubts);
+  EXPECT_EQ(again.signs, whole.signs);
+}
+
+class Stop : public testing::TestWithParam<Culling> {};
+
+TEST_P(Stop, InAClosedMeshThatCollides) {
+  const Positions x = octahedron_positions(2);
+  auto detector = std::move(Detector::create(octahedron(), x, {GetParam()}).value());
+  stop_everywhere(detector, x, tip_at({.5, .25, 3}));
+}
+
+TEST_P(Stop, WhereGhostsAreSweptAndDoubtIsReleased) {
+  const Positions in = octahedron_positions(2), out = tip_at({1.5, 1.5, 1.5});
+  // Without its triangle at +x +y +z.
+  auto detector = std::move(Detector::create(octahedron().bottomRows(7), in, {GetParam()}).value());
+  stop_everywhere(detector, in, out);
+  detector.step(in, out);
+  stop_everywhere(detector, out, in);
+}
+
+std::string name_of_culling(const testing::TestParamInfo<Culling>& info) {
+  const char* names[] = {"view_auto", "view_point", "view_line", "normal_cone", "bvh", "none"};
+  return names[static_cast<int>(info.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Cullings, Stop,
+                         testing::Values(Culling::view_point, Culling::view_line,
+                                         Culling::normal_cone, Culling::bvh, Culling::none),
+                         name_of_culling);
+
+}  // namespace
+}  // namespace assay::detector

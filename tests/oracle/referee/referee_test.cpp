@@ -1,0 +1,255 @@
+// The second referee: named cases, agreement with contact.h, and how much it leaves open.
+#include "oracle/referee/referee.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "oracle/query/contact.h"
+#include "oracle/referee/existence.h"
+#include "oracle/referee/separation.h"
+#include "tests/oracle/query/query_kinds.h"
+
+namespace assay::oracle {
+namespace {
+
+using detector::EdgeEdge;
+using detector::MovingPoint;
+using detector::Point;
+using detector::VertexFace;
+using test::edge_edge;
+using test::Points;
+using test::QueryKind;
+using test::Random;
+using test::vertex_face;
+
+MovingPoint rest(const Point& p) { return {p, p}; }
+
+constexpr std::array<Point, 3> kFace = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+
+RefereeVerdict over_resting_face(const Point& from, const Point& to) {
+  return referee(VertexFace{{from, to}, {rest(kFace[0]), rest(kFace[1]), rest(kFace[2])}});
+}
+
+TEST(Referee, VertexThroughAFace) {
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, -1}), RefereeVerdict::contact);
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, -.7}), RefereeVerdict::contact);
+  EXPECT_EQ(over_resting_face({3, 3, 1}, {3, 3, -1}), RefereeVerdict::no_contact);
+}
+
+TEST(Referee, TouchingCounts) {
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, 0}), RefereeVerdict::contact);   // at t=1
+  EXPECT_EQ(over_resting_face({1, 1, 0}, {1, 1, 1}), RefereeVerdict::contact);   // at t=0
+  EXPECT_EQ(over_resting_face({0, 0, 1}, {0, 0, -1}), RefereeVerdict::contact);  // a corner
+  EXPECT_EQ(over_resting_face({2, 2, 1}, {2, 2, -2}), RefereeVerdict::contact);  // t=1/3, an edge
+  EXPECT_EQ(over_resting_face({-1, 1, 0}, {5, 1, 0}), RefereeVerdict::contact);  // in its plane
+  EXPECT_EQ(over_resting_face({-1, 5, 0}, {5, 5, 0}), RefereeVerdict::no_contact);
+}
+
+TEST(Referee, OneUnitInTheLastPlaceDecides) {
+  const double below = std::nextafter(0.0, -1), above = std::nextafter(0.0, 1);
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, below}), RefereeVerdict::contact);
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, above}), RefereeVerdict::no_contact);
+  EXPECT_EQ(over_resting_face({above, 1, 1}, {above, 1, -1}), RefereeVerdict::contact);
+  EXPECT_EQ(over_resting_face({below, 1, 1}, {below, 1, -1}), RefereeVerdict::no_contact);
+}
+
+TEST(Referee, ParallelAndZeroLengthEdges) {
+  const auto edges = [](const Point& a0, const Point& a1, const Point& b0, const Point& b1) {
+    const auto falls = [](Point p) {
+      MovingPoint m = rest(p);
+      m.t1[2] -= 2;
+      return m;
+    };
+    return referee(EdgeEdge{{falls(a0), falls(a1)}, {rest(b0), rest(b1)}});
+  };
+  EXPECT_EQ(edges({0, 0, 1}, {2, 0, 1}, {1, 0, 0}, {3, 0, 0}), RefereeVerdict::contact);
+  EXPECT_EQ(edges({0, 0, 1}, {2, 0, 1}, {3, 0, 0}, {4, 0, 0}), RefereeVerdict::no_contact);
+  EXPECT_EQ(edges({1, 0, 1}, {1, 0, 1}, {0, 0, 0}, {3, 0, 0}), RefereeVerdict::contact);
+  EXPECT_EQ(edges({1, 0, 1}, {1, 0, 1}, {1, 0, 0}, {1, 0, 0}), RefereeVerdict::contact);
+}
+
+TEST(Referee, NoMotion) {
+  EXPECT_EQ(over_resting_face({1, 1, 0}, {1, 1, 0}), RefereeVerdict::contact);
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, 1}), RefereeVerdict::no_contact);
+}
+
+TEST(Referee, ExtremeNumbers) {
+  constexpr double kHuge = 0x1.fffffffffffffp1023, kTiny = 0x1p-1074;
+  const auto scaled = [](double s, double z) {
+    return referee(VertexFace{{{s / 4, s / 4, z}, {s / 4, s / 4, -z}},
+                              {rest({-s, -s, 0}), rest({s, -s, 0}), rest({0, s, 0})}});
+  };
+  EXPECT_EQ(scaled(kHuge, kHuge), RefereeVerdict::contact);
+  EXPECT_EQ(scaled(4 * kTiny, kTiny), RefereeVerdict::contact);
+  EXPECT_EQ(scaled(kHuge, kTiny), RefereeVerdict::contact);
+  EXPECT_EQ(over_resting_face({1, 1, kTiny}, {1, 1, kHuge}), RefereeVerdict::no_contact);
+}
+
+// Within a plane, a flat face sweeps over a vertex at an irrational time: coplanar throughout, so
+// no crossing, and nothing to be seen at rational times.
+TEST(Referee, IrrationalTouchStaysOpen) {
+  // The face is a segment from (1, t) to (-2t, -1). Its line holds the origin where the two are
+  // parallel, -1 + 2 t^2 = 0.
+  const MovingPoint p = {{1, 0, 0}, {1, 1, 0}}, q = {{0, -1, 0}, {-2, -1, 0}};
+  const VertexFace touch = {rest({0, 0, 0}), {p, q, q}};
+  const ContactAnswer answer = vertex_face_contact(touch, detector::Want::first_time);
+  ASSERT_TRUE(answer.contact);
+  EXPECT_EQ(answer.first.lo, std::nextafter(std::sqrt(.5), 0));
+  EXPECT_EQ(referee(touch), RefereeVerdict::open);
+}
+
+TEST(Referee, LessDepthOnlyLeavesMoreOpen) {
+  Random random(31);
+  for (int i = 0; i < 300; ++i) {
+    const Points x = random_query(random, QueryKind::generic, 1);
+    const RefereeVerdict full = referee(vertex_face(x));
+    for (const int depth : {0, 3, 8}) {
+      const RefereeVerdict part = referee(vertex_face(x), {depth, 1000});
+      EXPECT_TRUE(part == full || part == RefereeVerdict::open) << i << " depth " << depth;
+    }
+    EXPECT_TRUE(referee(vertex_face(x), {60, 0}) == RefereeVerdict::open);
+  }
+}
+
+// ORACLE: every "no" of generic queries is confirmed at a depth of 17.
+TEST(Referee, DepthSeventeenConfirmsEveryNo) {
+  Random random(32);
+  int confirmed = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Points x = random_query(random, QueryKind::generic, 1 + i % 2);
+    const bool is_vertex_face = i % 2 == 0;
+    const bool contact =
+        (is_vertex_face ? vertex_face_contact(vertex_face(x), detector::Want::yes_no)
+                        : edge_edge_contact(edge_edge(x), detector::Want::yes_no))
+            .contact;
+    if (contact) continue;
+    const RefereeOptions options = {17, 1000};
+    EXPECT_EQ(is_vertex_face ? referee(vertex_face(x), options) : referee(edge_edge(x), options),
+              RefereeVerdict::no_contact)
+        << i;
+    ++confirmed;
+  }
+  std::printf("%d queries without contact confirmed at depth 17\n", confirmed);
+}
+
+struct Tally {
+  int queries = 0, contact = 0, no_contact = 0, open_contact = 0, open_none = 0;
+  double open_share() const { return static_cast<double>(open_contact + open_none) / queries; }
+};
+
+Tally compare_with_contact(QueryKind kind, std::uint64_t seed, int queries) {
+  Random random(seed);
+  Tally tally;
+  double microseconds = 0;
+  for (int i = 0; i < queries; ++i) {
+    const int first_group = 1 + i % 2;
+    const Points x = random_query(random, kind, first_group);
+    const auto begin = std::chrono::steady_clock::now();
+    const RefereeVerdict verdict =
+        first_group == 1 ? referee(vertex_face(x)) : referee(edge_edge(x));
+    microseconds +=
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count();
+    const bool contact =
+        (first_group == 1 ? vertex_face_contact(vertex_face(x), detector::Want::yes_no)
+                          : edge_edge_contact(edge_edge(x), detector::Want::yes_no))
+            .contact;
+    ++tally.queries;
+    if (verdict == RefereeVerdict::open) {
+      ++(contact ? tally.open_contact : tally.open_none);
+      continue;
+    }
+    ++(contact ? tally.contact : tally.no_contact);
+    EXPECT_EQ(verdict == RefereeVerdict::contact, contact)
+        << test::name_of(kind) << ", seed " << seed << ", query " << i;
+  }
+  std::printf("%-22s seed %llu: %d queries, %d contact, %d none, open %.2f %% (%d + %d), %.1f us\n",
+              test::name_of(kind), static_cast<unsigned long long>(seed), tally.queries,
+              tally.contact, tally.no_contact, 100 * tally.open_share(), tally.open_contact,
+              tally.open_none, microseconds / queries);
+  return tally;
+}
+
+TEST(Referee, AgreesAndLeavesLittleOpen) {
+  for (int k = 0; k < test::kQueryKinds; ++k) {
+    const auto kind = static_cast<QueryKind>(k);
+    const Tally tally = compare_with_contact(kind, 41 + static_cast<std::uint64_t>(k), 1500);
+    if (kind == QueryKind::generic || kind == QueryKind::mesh_like) {
+      EXPECT_LE(tally.open_share(), 0.05);
+    }
+    if (test::is_near_degenerate(kind)) {
+      EXPECT_LE(tally.open_share(), 0.5);
+    }
+    EXPECT_GT(tally.contact, 0);
+  }
+}
+
+TEST(Separation, ADirectionThatTurnsAndOneThatStays) {
+  // A vertex that passes over a face at a distance of 1: separated in one piece.
+  const VertexFace over = {{{0, 0, 1}, {4, 4, 1}},
+                           {rest(kFace[0]), rest(kFace[1]), rest(kFace[2])}};
+  EXPECT_EQ(separated_in_double(double_hull(over), 0, 1), Separation::separated);
+  EXPECT_TRUE(separated_in_integers(integer_hull(over), 0, 0));
+  const VertexFace through = {{{1, 1, 1}, {1, 1, -1}}, over.face};
+  EXPECT_EQ(separated_in_double(double_hull(through), 0, 1), Separation::not_found);
+  EXPECT_FALSE(separated_in_integers(integer_hull(through), 0, 0));
+  EXPECT_FALSE(separated_in_integers(integer_hull(through), 1, 1));  // touches at 1/2
+  EXPECT_TRUE(separated_in_integers(integer_hull(through), 3, 2));
+}
+
+TEST(Separation, DoublesDoNotClaimWhatTheyCannotTell) {
+  // One unit in the last place above the plane of a far face: only integers can tell.
+  const double z = std::nextafter(1e6, 2e6);
+  const VertexFace q = {rest({1e6 + 1, 1e6 + 1, z}),
+                        {rest({1e6, 1e6, 1e6}), rest({1e6 + 4, 1e6, 1e6}),
+                         MovingPoint{{1e6, 1e6 + 4, 1e6}, {1e6, 1e6 + 4, z}}}};
+  EXPECT_TRUE(separated_in_integers(integer_hull(q), 0, 0));
+}
+
+TEST(Existence, SimplestFractions) {
+  EXPECT_EQ(simplest_fraction(0, 0), (Fraction{0, 1}));
+  EXPECT_EQ(simplest_fraction(1, 1), (Fraction{1, 1}));
+  EXPECT_EQ(simplest_fraction(1, 2), (Fraction{1, 2}));
+  EXPECT_EQ(simplest_fraction(5, 4), (Fraction{1, 3}));        // [5/16, 6/16]
+  EXPECT_EQ(simplest_fraction(349525, 20), (Fraction{1, 3}));  // 349525.33 / 2^20
+  for (int depth = 1; depth <= 61; depth += 12) {
+    const std::int64_t k = (std::int64_t{1} << depth) / 7 * 5;
+    const Fraction f = simplest_fraction(k, depth);
+    const mpz_class scaled = mpz_class(static_cast<long>(f.p)) << static_cast<unsigned>(depth);
+    const mpz_class lower = mpz_class(static_cast<long>(k)) * static_cast<long>(f.q);
+    EXPECT_GE(scaled, lower);
+    EXPECT_LE(scaled, mpz_class(lower + static_cast<long>(f.q)));
+  }
+}
+
+TEST(Existence, OriginInDegenerateHulls) {
+  const auto holds = [](const std::array<Point, 3>& face) {
+    const VertexFace q = {rest({0, 0, 0}), {rest(face[0]), rest(face[1]), rest(face[2])}};
+    return contains_origin(integer_hull(q).t0);
+  };
+  EXPECT_TRUE(holds({{{-1, -1, 0}, {2, -1, 0}, {-1, 2, 0}}}));
+  EXPECT_TRUE(holds({{{0, -1, 0}, {0, 1, 0}, {5, 0, 0}}}));  // on an edge
+  EXPECT_FALSE(holds({{{-1, -1, 1}, {2, -1, 0}, {-1, 2, 0}}}));
+  EXPECT_TRUE(holds({{{-1, -1, -1}, {2, 2, 2}, {3, 3, 3}}}));  // a segment
+  EXPECT_FALSE(holds({{{1, 1, 1}, {2, 2, 2}, {3, 3, 3}}}));
+  EXPECT_TRUE(holds({{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}));  // a point
+  EXPECT_FALSE(holds({{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}}));
+}
+
+TEST(Existence, BoxesProveCrossingsAndNothingElse) {
+  const auto face = std::array{rest(kFace[0]), rest(kFace[1]), rest(kFace[2])};
+  const VertexFace through = {{{1, 1, 1}, {1.1, .9, -1.7}}, face};
+  const auto guess = guess_crossing(double_hull(through), 0, 1);
+  ASSERT_TRUE(guess.has_value());
+  EXPECT_TRUE(crossing_in_a_box(integer_hull(through), *guess));
+  const VertexFace beside = {{{3, 3, 1}, {3.1, 2.9, -1.7}}, face};
+  EXPECT_FALSE(guess_crossing(double_hull(beside), 0, 1).has_value());
+  // A wrong guess proves nothing.
+  EXPECT_FALSE(crossing_in_a_box(integer_hull(beside), *guess));
+  EXPECT_FALSE(crossing_in_a_box(integer_hull(through), {.9, .3, .3, 0}));
+}
+
+}  // namespace
+}  // namespace assay::oracle

@@ -1,0 +1,82 @@
+// What a run rests on: its binding, its canary, and laws that were met too seldom.
+#include "properties/campaign/stored/binding.h"
+
+#include <gtest/gtest.h>
+
+#include "properties/campaign/phases/canary.h"
+#include "properties/campaign/phases/trials.h"
+#include "properties/campaign/stored/count_names.h"
+#include "properties/laws/law.h"
+#include "tests/properties/campaign/campaign_request.h"
+#include "tests/properties/small_case.h"
+
+namespace assay::properties {
+namespace {
+
+using test::request_of;
+
+TEST(Binding, ChangesWithWhatTheTrialsAreOf) {
+  const auto request = request_of(10);
+  const std::string text = binding_of(request);
+  auto other = request;
+  other.seed = 4;
+  EXPECT_NE(binding_of(other), text);
+  other = request;
+  other.shard = {1, 2};
+  EXPECT_NE(binding_of(other), text);
+  other = request;
+  other.plan.strata[0].cases = 11;
+  EXPECT_NE(binding_of(other), text);
+  other = request;
+  other.plan.case_seconds = 11;
+  EXPECT_NE(binding_of(other), text);
+  other = request;
+  other.detector.configurations.pop_back();
+  EXPECT_NE(binding_of(other), text);
+  other = request;
+  other.worker = "/bin/true";
+  EXPECT_NE(binding_of(other), text);
+  other = request;
+  other.plugin = test::plugin("always_free");
+  const std::string free = binding_of(other);
+  EXPECT_NE(free, text);
+  other.plugin = test::plugin("always_collision");  // of the same name and version
+  EXPECT_NE(binding_of(other), free);
+  other = request;
+  other.plan.seconds = 7;  // a run that ran out of time may go on
+  other.jobs = 5;
+  EXPECT_EQ(binding_of(other), text);
+}
+
+TEST(Canary, IsRegisteredAndFound) {
+  const auto canary = meet_canary(request_of(1));
+  EXPECT_TRUE(find_fault(canary.fault)) << canary.fault;
+  EXPECT_TRUE(canary.found_after);
+  // Without a worker nothing can be found.
+  auto blind = request_of(1);
+  blind.worker = "/bin/true";
+  EXPECT_FALSE(meet_canary(blind).found_after);
+}
+
+TEST(Starved, LawsAreNamed) {
+  const std::string name(laws()[0].name);
+  Counts counts;
+  for (const auto& law : laws()) {
+    counts["law:" + std::string(law.name) + "/premise"] = 100;
+    counts["law:" + std::string(law.name) + "/close"] = 25;
+  }
+  EXPECT_TRUE(starved_laws(counts, 100).empty());
+  EXPECT_EQ(starved_laws(counts, 101).size(), laws().size());
+  counts["law:" + name + "/close"] = 24;
+  ASSERT_EQ(starved_laws(counts, 100).size(), 1u);
+  EXPECT_NE(starved_laws(counts, 100)[0].find(name), std::string::npos);
+  counts.erase("law:" + name + "/premise");
+  EXPECT_NE(starved_laws(counts, 1).at(0).find("held 0 times"), std::string::npos);
+  EXPECT_TRUE(starved_laws(counts, 0).empty());
+  EXPECT_EQ(broken_laws(counts), 0u);
+  counts["law:" + name + "/broken"] = 3;
+  EXPECT_EQ(broken_laws(counts), 1u);
+}
+
+}  // namespace
+}  // namespace assay::properties

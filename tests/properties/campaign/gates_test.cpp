@@ -1,0 +1,288 @@
+// Each gate fails for each of its reasons, and the first one that fails names the verdict.
+#include "properties/campaign/gates/gates.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "tests/properties/campaign/good_findings.h"
+
+namespace assay::properties {
+namespace {
+
+using test::failure;
+using test::good_findings;
+
+using Change = std::function<void(RunFindings&)>;
+
+Judgement judged_after(const std::vector<Change>& changes,
+                       const Asked& asked = asked_of_a_certificate()) {
+  auto findings = good_findings();
+  for (const auto& change : changes) change(findings);
+  return judge(findings, asked);
+}
+
+void expect(const Judgement& judgement, Gate gate, const char* word, int code) {
+  ASSERT_TRUE(judgement.failed) << judgement.verdict;
+  EXPECT_EQ(rule_of(*judgement.failed).name, rule_of(gate).name)
+      << judgement.of(*judgement.failed).reasons[0];
+  EXPECT_EQ(judgement.verdict, word);
+  EXPECT_EQ(judgement.exit_code, code);
+}
+
+void expect_certified(const std::vector<Change>& changes) {
+  const auto judgement = judged_after(changes);
+  EXPECT_EQ(judgement.verdict, "certified");
+  if (judgement.failed) ADD_FAILURE() << judgement.of(*judgement.failed).reasons[0];
+}
+
+// A defect of a trial with the failure that is stored of it.
+void add_defect(RunFindings& f, const std::string& signature = "free-sound: missing") {
+  auto& outcomes = f.tally.strata["broken"].by_configuration[0];
+  --outcomes.holds;
+  ++outcomes.defects;
+  ++f.met[signature];
+  f.failures.push_back(failure(signature));
+}
+
+TEST(Gates, StandInTheOrderOfTheExitCodes) {
+  const std::vector<int> order = {4, 1, 3};
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < gate_rules.size(); ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(gate_rules[i].gate), i);
+    while (place < order.size() && order[place] != gate_rules[i].exit_code) ++place;
+    EXPECT_LT(place, order.size()) << gate_rules[i].name << " stands too late";
+  }
+}
+
+TEST(Gates, AllHoldOnAGoodRun) {
+  const auto judgement = judged_after({});
+  for (const auto& result : judgement.gates) {
+    EXPECT_EQ(result.state, GateState::holds) << rule_of(result.gate).name;
+    EXPECT_TRUE(result.reasons.empty()) << result.reasons[0];
+  }
+  EXPECT_EQ(judgement.verdict, "certified");
+  EXPECT_EQ(judgement.exit_code, 0);
+  EXPECT_FALSE(judgement.failed);
+}
+
+TEST(Gates, WhatWasNotAskedForIsNotJudged) {
+  const std::vector<Change> wrong = {[](auto& f) {
+    f.evidence.corpus[0].failed = {{"A1", "s", "w"}};
+    f.evidence.speed.clear();
+  }};
+  const auto run = judged_after(wrong, asked_of_a_run());
+  EXPECT_EQ(run.verdict, "holds");
+  EXPECT_EQ(run.exit_code, 0);
+  for (const auto gate : {Gate::corpus, Gate::speed}) {
+    EXPECT_EQ(run.of(gate).state, GateState::not_judged);
+    EXPECT_EQ(run.of(gate).reasons.size(), 1u);
+  }
+  // Nor does a run owe what only `certify` does.
+  EXPECT_EQ(judged_after({[](auto& f) { f.evidence.self_test.clear(); }}, asked_of_a_run()).verdict,
+            "holds");
+  const auto nothing = judged_after({[](auto& f) { add_defect(f); }}, Asked{});
+  EXPECT_EQ(nothing.verdict, "not judged");
+  EXPECT_EQ(nothing.exit_code, 0);
+}
+
+TEST(Gates, AnUnsoundHarnessCertifiesNothing) {
+  const std::vector<Change> unsound = {
+      [](auto& f) { f.evidence.canaries[0].found_after.reset(); },
+      [](auto& f) { f.evidence.faults[1].curated = false; },
+      [](auto& f) { f.evidence.faults[2].needed = {3}; },
+      [](auto& f) {
+        f.evidence.problems = {{"1/1", "no worker"}};
+      },
+      [](auto& f) { f.evidence.self_test[0].contradictions = 1; },
+      [](auto& f) { f.tally.counts["law:" + std::string(laws()[0].name) + "/premise"] = 3; },
+      [](auto& f) { f.tally.counts["law:" + std::string(laws()[0].name) + "/close"] = 1; },
+      // A defect without a failure that was stored, and the other way round.
+      [](auto& f) { f.tally.strata["broken"].by_configuration[0].defects = 1; },
+      [](auto& f) { f.met["free-sound: missing"] = 1; }};
+  for (std::size_t i = 0; i < unsound.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect(judged_after({unsound[i]}), Gate::harness, "unsound-harness", 4);
+  }
+  // Half of the power is wanted, and there.
+  expect_certified({[](auto& f) {
+    f.evidence.faults[1].curated = false;
+    f.run.plan.policy.power = 0.5;
+  }});
+}
+
+TEST(Gates, ACheckOfTheHarnessThatLacksTrialsIsNotJudged) {
+  const Change starved = [](auto& f) {
+    f.tally.counts["law:" + std::string(laws()[0].name) + "/premise"] = 3;
+  };
+  const Change short_of_one = [](auto& f) { f.tally.strata["broken"].trials = 19; };
+  expect(judged_after({starved, short_of_one}), Gate::complete, "incomplete", 3);
+  const auto without_canary = judged_after({[](auto& f) { f.evidence.canaries.clear(); }});
+  EXPECT_EQ(without_canary.of(Gate::harness).state, GateState::not_judged);
+  expect(without_canary, Gate::complete, "incomplete", 3);
+  // The time was over: no proof against the harness.
+  expect(judged_after({[](auto& f) {
+           f.evidence.faults[1].curated = false;
+           f.evidence.faults[1].time_over = true;
+         }}),
+         Gate::complete, "incomplete", 3);
+}
+
+TEST(Gates, WhatIsAbsentIsIncomplete) {
+  const std::vector<Change> absent = {
+      [](auto& f) { f.tally.strata["broken"].trials = 19; },
+      [](auto& f) {
+        f.missing = {{2, 2}};
+      },
+      [](auto& f) { f.evidence.faults.erase(f.evidence.faults.begin()); },
+      [](auto& f) { f.evidence.corpus.clear(); }, [](auto& f) { f.evidence.self_test.clear(); },
+      [](auto& f) { f.evidence.self_test[0].complete = false; },
+      [](auto& f) {
+        f.evidence.power = {{"other", "built-in", 1, "another program", "", "", ""}};
+      },
+      // Found early, and not given all of its cases or seeds.
+      [](auto& f) { f.evidence.faults[0].time_over = true; },
+      [](auto& f) { f.evidence.faults[2].needed.clear(); },
+      [](auto& f) {
+        f.evidence.corpus[0].open = {{"A1", "", "no verdict: no answer in 60 s"}};
+      },
+      [](auto& f) { f.tally.strata["broken"].discards = 20; },
+      [](auto& f) { f.tally.strata["broken"].disturbed = 1; },  // one of twenty
+      [](auto& f) {
+        f.run.plan.strata.clear();
+        f.tally.strata.clear();
+      }};
+  for (std::size_t i = 0; i < absent.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect(judged_after({absent[i]}), Gate::complete, "incomplete", 3);
+  }
+  expect_certified({[](auto& f) {
+    f.run.plan.strata[0].cases = f.tally.strata["broken"].trials = 100;
+    f.tally.strata["broken"].disturbed = 1;
+  }});
+}
+
+TEST(Gates, CorpusAndWaivers) {
+  const Change failed = [](auto& f) { f.evidence.corpus[0].failed = {{"A1", "s", "w"}}; };
+  const auto waiver = [](bool expired) {
+    return [expired](auto& f) {
+      f.evidence.waivers = {{"s", "known", "link", "2026-01-31", expired}};
+    };
+  };
+  expect(judged_after({failed}), Gate::corpus, "defect", 1);
+  expect_certified({failed, waiver(false)});
+  expect_certified({waiver(false)});
+  expect(judged_after({waiver(true)}), Gate::corpus, "defect", 1);
+  expect(judged_after({failed, waiver(true)}), Gate::corpus, "defect", 1);
+}
+
+TEST(Gates, ABrokenClaimIsADefectUnlessWaived) {
+  const Change defect = [](auto& f) { add_defect(f); };
+  expect(judged_after({defect}), Gate::claims, "defect", 1);
+  expect_certified(
+      {defect, [](auto& f) {
+         f.evidence.waivers = {{"free-sound: missing", "known", "link", "2026-01-31", false}};
+       }});
+  // What the corpus alone shows is that gate's; any other counts, were it met in no trial.
+  const auto stored = [](const std::string& id) {
+    return [id](auto& f) { f.failures = {failure("late", id)}; };
+  };
+  expect(judged_after({stored("tiny:1:broken:3")}), Gate::claims, "defect", 1);
+  expect(judged_after({stored("corpus:1:broken:3")}), Gate::claims, "defect", 1);
+  expect_certified({stored("corpus/M_Leither")});
+  // A mesh of the corpus does not stand for trials of the same signature.
+  expect(judged_after({defect,
+                       [](auto& f) {
+                         f.failures.insert(f.failures.begin(),
+                                           failure("free-sound: missing", "corpus/A1"));
+                       }}),
+         Gate::claims, "defect", 1);
+  // A failure counts whether or not a mesh of it was kept.
+  expect(judged_after({defect, [](auto& f) { f.failures.clear(); }}), Gate::claims, "defect", 1);
+  // A law is no claim of a trial's outcome.
+  expect(judged_after({[](auto& f) {
+           f.met["law L3_X"] = 1;
+           f.failures = {failure("law L3_X")};
+         }}),
+         Gate::claims, "defect", 1);
+  expect(judged_after({[](auto& f) { f.evidence.worlds[0].counterexample = "pairs differ"; }}),
+         Gate::claims, "defect", 1);
+}
+
+TEST(Gates, ADefectGoesBeforeWhatIsMissing) {
+  expect(judged_after({[](auto& f) {
+           add_defect(f);
+           f.tally.strata["broken"].trials = 19;
+           f.missing = {{2, 2}};
+         }}),
+         Gate::claims, "defect", 1);
+}
+
+TEST(Gates, BoundsAndSpeed) {
+  const Change undecided = [](auto& f) {
+    f.tally.strata["broken"].by_configuration[0] = {19, 0, 1, 0};
+  };
+  expect(judged_after({[](auto& f) { f.run.plan.strata[0].wanted_bound = 0.01; }}), Gate::bounds,
+         "undecided", 3);
+  // Where no bound is wanted none may be left open; where one is, it counts against the bound.
+  expect_certified({undecided});
+  expect(judged_after({undecided, [](auto& f) { f.run.plan.strata[0].wanted_bound = 0; }}),
+         Gate::bounds, "undecided", 3);
+  // Wanted of all shards together.
+  const auto alone = judged_after({[](auto& f) {
+                                    f.run.plan.strata[0] = {"broken", 40, 0.01};
+                                    f.alone = Shard{1, 2};
+                                  }},
+                                  asked_of_a_run());
+  EXPECT_EQ(alone.of(Gate::bounds).state, GateState::not_judged);
+  EXPECT_EQ(alone.verdict, "holds");
+  expect(judged_after({[](auto& f) { f.evidence.speed[0].median = 1.31; }}), Gate::speed,
+         "undecided", 3);
+  expect(judged_after({[](auto& f) { f.evidence.speed.clear(); }}), Gate::speed, "undecided", 3);
+  for (const Change& no_limit : {Change([](auto& f) { f.run.detector.built_in = false; }),
+                                 Change([](auto& f) { f.run.plan.policy.speed_limits.clear(); })}) {
+    const auto judgement = judged_after({no_limit});
+    EXPECT_EQ(judgement.of(Gate::speed).state, GateState::not_judged);
+    EXPECT_EQ(judgement.verdict, "certified");
+  }
+}
+
+TEST(Gates, TheFirstThatFailsNamesTheVerdict) {
+  // Each gate broken in turn, from the last to the first.
+  const std::vector<Change> changes = {[](auto& f) { f.evidence.speed[0].median = 2; },
+                                       [](auto& f) { f.run.plan.strata[0].wanted_bound = 0.01; },
+                                       [](auto& f) {
+                                         f.missing = {{1, 2}};
+                                       },
+                                       [](auto& f) { f.evidence.worlds[0].counterexample = "c"; },
+                                       [](auto& f) {
+                                         f.evidence.corpus[0].failed = {{"A", "s", "w"}};
+                                       },
+                                       [](auto& f) {
+                                         f.evidence.problems = {{"1/1", "p"}};
+                                       }};
+  std::vector<Change> so_far;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    so_far.push_back(changes[i]);
+    const auto judgement = judged_after(so_far);
+    const auto gate = static_cast<Gate>(gate_rules.size() - 1 - i);
+    expect(judgement, gate, std::string(rule_of(gate).verdict).c_str(), rule_of(gate).exit_code);
+    // The later ones are still told.
+    for (std::size_t later = gate_rules.size() - 1 - i; later < gate_rules.size(); ++later)
+      EXPECT_EQ(judgement.gates[later].state, GateState::fails);
+  }
+}
+
+// No store can have a certificate issued with a gate left out.
+TEST(Gates, ACertificateAsksForEveryGate) {
+  const auto judgement =
+      judged_after({[](auto& f) { f.evidence.corpus.clear(); }}, Asked{{"harness"}, true});
+  for (const auto& result : judgement.gates) {
+    if (result.gate == Gate::corpus) continue;
+    EXPECT_NE(result.state, GateState::not_judged) << rule_of(result.gate).name;
+  }
+  EXPECT_EQ(judgement.verdict, "incomplete");
+}
+
+}  // namespace
+}  // namespace assay::properties

@@ -1,0 +1,219 @@
+// The trials of a campaign: the same for any jobs and shards, resumed, made again by their id;
+// their failures are kept, replayed and shrunk.
+#include "properties/campaign/phases/trials.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "properties/campaign/phases/canary.h"
+#include "properties/campaign/phases/case_tally.h"
+#include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/stored/count_names.h"
+#include "properties/generators/families.h"
+#include "properties/judging/case_check.h"
+#include "properties/worker/worker_process.h"
+#include "tests/properties/campaign/campaign_request.h"
+#include "tests/reports/program.h"
+
+namespace assay::properties {
+namespace {
+
+using test::faulty;
+using test::in_a_minute;
+using test::request_of;
+using tests::Scratch;
+
+class Trials : public testing::Test {
+ protected:
+  Store open(const std::string& name) const {
+    std::string problem;
+    auto store = Store::open(scratch / name, "b", problem);
+    EXPECT_TRUE(store) << problem;
+    return std::move(*store);
+  }
+  // Each trial in a line, without its times.
+  static std::vector<std::string> lines(const Store& store) {
+    std::vector<std::string> list;
+    store.for_each_trial([&](const TrialRecord& r) {
+      std::ostringstream line;
+      line << r.id << ' ' << r.family << ' ' << r.index << ' ' << r.outcomes << ' ' << r.triangles
+           << ' ' << r.steps << ' ' << r.collisions << ' ' << r.pairs << ' '
+           << counts_text(r.counts);
+      list.push_back(line.str());
+    });
+    return list;
+  }
+  std::vector<std::string> run(const std::string& name, const CampaignRequest& request) const {
+    Store store = open(name);
+    const auto end = run_trials(request, store, in_a_minute(), {});
+    EXPECT_TRUE(end.complete);
+    EXPECT_EQ(end.harness_problem, "");
+    return lines(store);
+  }
+  Scratch scratch;
+};
+
+TEST_F(Trials, DoNotDependOnJobsOrShards) {
+  const auto alone = run("one", request_of(20));
+  ASSERT_EQ(alone.size(), 30u);
+  EXPECT_NE(alone[0].find("test:3:broken:0"), std::string::npos);
+  EXPECT_EQ(run("three", request_of(20, 3)), alone);
+  std::vector<std::string> together;
+  for (std::uint64_t i = 1; i <= 3; ++i) {
+    const auto part = run("shard" + std::to_string(i), request_of(20, 2, {i, 3}));
+    EXPECT_EQ(part.size(), planned_trial_count(request_of(20).plan, {i, 3}));
+    together.insert(together.end(), part.begin(), part.end());
+  }
+  auto sorted = alone;
+  std::sort(sorted.begin(), sorted.end());
+  std::sort(together.begin(), together.end());
+  EXPECT_EQ(together, sorted);
+}
+
+TEST_F(Trials, GoOnWhereARunEnded) {
+  auto request = request_of(8);
+  Store store = open("store");
+  const auto none = run_trials(request, store, std::chrono::steady_clock::now(), {});
+  EXPECT_FALSE(none.complete);
+  EXPECT_EQ(none.trials, 0u);
+  std::uint64_t calls = 0;
+  TrialProgress last;
+  const auto whole = run_trials(request, store, in_a_minute(), [&](const TrialProgress& p) {
+    ++calls;
+    EXPECT_GT(p.done, last.done);
+    last = p;
+  });
+  EXPECT_TRUE(whole.complete);
+  EXPECT_EQ(whole.trials, 12u);
+  EXPECT_EQ(calls, 12u);
+  EXPECT_EQ(last.done, last.planned);
+  EXPECT_EQ(last.defects, 0u);
+  const auto again = run_trials(request, store, in_a_minute(), {});
+  EXPECT_TRUE(again.complete);
+  EXPECT_EQ(again.trials, 0u);
+}
+
+TEST_F(Trials, AreMadeAgainByTheirId) {
+  const auto request = request_of(6);
+  Store store = open("store");
+  run_trials(request, store, in_a_minute(), {});
+  std::uint64_t compared = 0;
+  store.for_each_trial([&](const TrialRecord& r) {
+    EXPECT_EQ(r.id, trial_id(request.plan, request.seed, r.family, r.index));
+    for (const auto& family : families()) {
+      if (family.name != r.family) continue;
+      const auto made = make_case(family, r.id);
+      EXPECT_EQ(corpus::case_text(made.c), corpus::case_text(make_case(family, r.id).c));
+      EXPECT_EQ(static_cast<std::uint64_t>(made.c.triangles.rows()), r.triangles);
+      std::uint64_t pairs = 0;
+      for (const auto& step : judge_case(made.c)) pairs += step.pairs.size();
+      EXPECT_EQ(pairs, r.pairs);
+      for (const auto& tag : made.tags) EXPECT_EQ(r.counts.at("tag:" + tag), 1u);
+      ++compared;
+    }
+  });
+  EXPECT_EQ(compared, 9u);
+  EXPECT_EQ(trial_id(request.plan, 7, "broken", 12), "test:7:broken:12");
+}
+
+TEST_F(Trials, WithoutAWorkerTheHarnessIsToBlame) {
+  auto request = request_of(4, 2);
+  request.worker = "/nowhere/assay-worker";
+  Store store = open("store");
+  const auto end = run_trials(request, store, in_a_minute(), {});
+  EXPECT_FALSE(end.complete);
+  EXPECT_EQ(end.trials, 0u);
+  EXPECT_NE(end.harness_problem.find("/nowhere/assay-worker"), std::string::npos);
+  EXPECT_EQ(store.trial_count(), 0u);
+}
+
+TEST_F(Trials, AFaultIsFoundKeptThriceAndReplays) {
+  const auto request = faulty("pair/zero-zero-dropped", 150);
+  Store store = open("store");
+  const auto end = run_trials(request, store, in_a_minute(), {});
+  ASSERT_TRUE(end.complete);
+  Tally tally;
+  store.for_each_trial([&](const TrialRecord& r) { tally.add(r); });
+  std::uint64_t defects = 0;
+  for (const auto& [family, stratum] : tally.strata) {
+    defects += stratum.by_configuration[0].defects;
+    EXPECT_EQ(stratum.by_configuration[1].holds, stratum.trials);
+  }
+  EXPECT_GT(defects, 3u);
+  const auto met = store.signatures();
+  Counts kept;
+  std::uint64_t of_claims = 0, of_laws = 0;
+  for (const auto& failure : store.failures()) {
+    ++kept[failure.signature];
+    EXPECT_FALSE(failure.flaky);
+    const auto c = corpus::parse_case(failure.mesh, failure.id);
+    ASSERT_TRUE(c) << c.error().message;
+    EXPECT_NE(c.value().source.find(failure.id), std::string::npos);
+    EXPECT_FALSE(c.value().options.empty());
+    const auto& configuration = request.detector.configurations[0];
+    if (failure.signature.starts_with("law ")) {
+      ++of_laws;
+      EXPECT_EQ(c.value().id, failure.id);
+      const Law* law = law_named(failure.signature.substr(4));
+      ASSERT_TRUE(law);
+      const auto finding = judge_of_law(*law, configuration)(c.value());
+      ASSERT_TRUE(finding) << failure.id << failure.signature;
+      EXPECT_EQ(finding->signature, failure.signature);
+      EXPECT_NE(c.value().about.find(law->name), std::string::npos);
+      continue;
+    }
+    ++of_claims;
+    EXPECT_EQ(c.value().id.find(':'), std::string::npos);
+    EXPECT_EQ(failure.configuration, "faulty");
+    EXPECT_NE(c.value().about.find(failure.signature), std::string::npos);
+    WorkerProcess worker(ASSAY_WORKER, std::nullopt);
+    const auto finding = judge_of_detector(request.detector, configuration, worker)(c.value());
+    ASSERT_TRUE(finding) << failure.id;
+    EXPECT_EQ(finding->signature, failure.signature);
+  }
+  EXPECT_GT(of_claims, 0u);
+  EXPECT_GT(of_laws, 0u);
+  EXPECT_GT(broken_laws(tally.counts), 0u);
+  for (const auto& [signature, count] : met) {
+    EXPECT_EQ(kept[signature], std::min<std::uint64_t>(count, 3)) << signature;
+  }
+}
+
+TEST_F(Trials, FailuresShrinkAndGoOnShrinking) {
+  const auto request = faulty("pair/zero-zero-dropped", 60);
+  Store store = open("store");
+  run_trials(request, store, in_a_minute(), {});
+  ASSERT_FALSE(store.failures().empty());
+  constexpr std::uint64_t few = 40, many = 400;
+  constexpr double seconds = 1000;  // beyond the deadline: more than a failure will have had
+  shrink_failures(request, store, {seconds, few}, in_a_minute(), {});
+  std::set<std::string> signatures, shrunk;
+  std::map<std::string, std::size_t> triangles;
+  for (const auto& failure : store.failures()) {
+    signatures.insert(failure.signature);
+    if (failure.smallest.empty()) continue;
+    EXPECT_TRUE(shrunk.insert(failure.signature).second) << "shrunk twice: " << failure.signature;
+    const auto whole = corpus::parse_case(failure.mesh, "mesh").value();
+    const auto small = corpus::parse_case(failure.smallest, "smallest").value();
+    EXPECT_LE(small.triangles.rows(), whole.triangles.rows());
+    triangles[failure.signature] = static_cast<std::size_t>(small.triangles.rows());
+  }
+  EXPECT_EQ(shrunk, signatures);  // one each, of laws as of claims
+  // Each had few calls only: the same again goes on from there, and never gets larger.
+  shrink_failures(request, store, {seconds, many}, in_a_minute(), {});
+  bool smaller = false;
+  for (const auto& failure : store.failures()) {
+    if (failure.smallest.empty()) continue;
+    const auto small = corpus::parse_case(failure.smallest, "smallest").value();
+    const auto before = triangles.at(failure.signature);
+    EXPECT_LE(static_cast<std::size_t>(small.triangles.rows()), before);
+    smaller |= static_cast<std::size_t>(small.triangles.rows()) < before;
+  }
+  EXPECT_TRUE(smaller);
+}
+
+}  // namespace
+}  // namespace assay::properties

@@ -1,0 +1,229 @@
+// A law that cannot fail proves nothing: each is put to results, or to a pair set, that are wrong,
+// and has to say so.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <map>
+
+#include "properties/laws/facts/exact_view_values.h"
+#include "properties/laws/law.h"
+#include "tests/properties/laws/judged_case.h"
+
+namespace assay::properties::test {
+namespace {
+
+using detector::Answer;
+using detector::StepResult;
+using detector::ViewSign;
+
+using Tamper = std::function<void(JudgedCase&)>;
+
+Tamper each_result(std::function<void(StepResult&)> change) {
+  return [change](JudgedCase& c) {
+    for (auto& result : c.results) change(result);
+  };
+}
+
+const Tamper turn_signs = each_result([](StepResult& r) {
+  for (auto& sign : r.signs) sign = static_cast<ViewSign>(-static_cast<int>(sign));
+});
+const Tamper all_positive = each_result(
+    [](StepResult& r) { std::fill(r.signs.begin(), r.signs.end(), ViewSign::positive); });
+const Tamper no_doubts = each_result(
+    [](StepResult& r) { std::fill(r.doubts.begin(), r.doubts.end(), std::uint8_t{0}); });
+const Tamper all_dirty = each_result(
+    [](StepResult& r) { std::fill(r.doubts.begin(), r.doubts.end(), detector::doubt::dirty); });
+const Tamper all_violated = each_result(
+    [](StepResult& r) { std::fill(r.doubts.begin(), r.doubts.end(), detector::doubt::violated); });
+const Tamper no_pairs = each_result([](StepResult& r) { r.pairs.clear(); });
+const Tamper wrong_size = each_result([](StepResult& r) { ++r.view_positive; });
+const Tamper free_component = each_result([](StepResult& r) { ++r.counts.free_components; });
+const Tamper always_free = each_result([](StepResult& r) {
+  r.answer = Answer::free;
+  r.pairs.clear();
+});
+const Tamper undecided = each_result([](StepResult& r) { r.answer = Answer::undecided; });
+const Tamper late = each_result([](StepResult& r) {
+  if (r.answer == Answer::collision) r.first = {1, 1};
+  for (auto& contact : r.pairs) contact.time = {1, 1};
+});
+const Tamper invented = each_result([](StepResult& r) {
+  r.answer = Answer::collision;
+  r.first = {0, 0};
+  if (r.doubts.size() > 1) r.pairs = {{{0, 1}, {0, 0}, {}}};
+});
+
+// The oracle finds one contact, of two triangles of one component and one strict sign.
+void meet_among_one_sign(JudgedCase& c) {
+  for (std::size_t s = 0; s < c.results.size(); ++s) {
+    auto& judgement = c.judgements[s];
+    const auto& signs = c.results[s].signs;
+    for (std::int32_t b = 1; b < static_cast<std::int32_t>(c.source.triangles.rows()); ++b) {
+      const auto i = static_cast<std::size_t>(b);
+      if (signs.size() <= i || signs[i] == ViewSign::zero || signs[i] != signs[i - 1]) continue;
+      judgement.answer = Answer::collision;
+      judgement.first = {0.5, 0.5};
+      judgement.pairs = {{{b - 1, b}, judgement.first, {}}};
+      break;
+    }
+  }
+}
+
+// Wrong on the side of positive x alone, so that it matters where the mesh is.
+class BlindBeyondOrigin : public detector::ElementaryTest {
+  detector::ContactResult test(const detector::FourPoints& query,
+                               detector::Want want) const override {
+    if (query.points[0].t0[0] > 0) return {};
+    return ElementaryTest::test(query, want);
+  }
+};
+
+// Sees nothing in the last part of a step.
+class BlindInTheEnd : public detector::ElementaryTest {
+  detector::ContactResult test(const detector::FourPoints& query,
+                               detector::Want want) const override {
+    const auto result = ElementaryTest::test(query, detector::Want::first_time);
+    if (result.contact && result.time.lo > 0.75) return {};
+    return want == detector::Want::first_time ? result : ElementaryTest::test(query, want);
+  }
+};
+
+template <class Elementary>
+detector::Stages with_fault(const detector::Options& options) {
+  auto stages = detector::standard_stages(options);
+  stages.elementary = std::make_shared<Elementary>();
+  return stages;
+}
+
+struct Wrong {
+  Tamper tamper = [](JudgedCase&) {};
+  StagesOf stages_of = detector::standard_stages;
+};
+
+const std::map<std::string, Wrong, std::less<>>& wrongs() {
+  static const std::map<std::string, Wrong, std::less<>> all = {
+      {"L1_SignsHoldAtEveryPoint", {turn_signs}},
+      {"L2_SignsAreTheOracles_Point", {turn_signs}},
+      {"L2_SignsAreTheOracles_Line", {turn_signs}},
+      {"L2_GhostSignsAreTheOracles_Point", {turn_signs}},
+      {"L2_GhostSignsAreTheOracles_Line", {turn_signs}},
+      {"Sets_AreDisjointAndCover", {wrong_size}},
+      {"L3_FirstContactIsACandidate", {meet_among_one_sign}},
+      {"L6_OutsideKSomethingMetBefore", {meet_among_one_sign}},
+      {"L4_AllPositiveIsCollisionFree_Point", {meet_among_one_sign}},
+      {"L4_AllPositiveIsCollisionFree_Line", {meet_among_one_sign}},
+      {"L4_AllPositiveIsCollisionFree_MovingLine", {meet_among_one_sign}},
+      {"L4_AllNegativeIsCollisionFree", {meet_among_one_sign}},
+      {"L5_AllPositiveAndWindingOneIsFree_Closed", {all_dirty}},
+      {"L5_AllPositiveAndWindingOneIsFree_Unclosed", {meet_among_one_sign}},
+      {"L5_TheFreePathIsTaken", {free_component}},
+      {"L7_ClosureIsThePairSet", {late}},
+      {"Claim_FreeSound", {always_free}},
+      {"Claim_NotLate", {late}},
+      {"Claim_FirstTime", {late}},
+      {"Claim_FirstPairs", {no_pairs}},
+      {"Claim_AllPairs", {no_pairs}},
+      {"Claim_NoSpurious", {invented}},
+      {"Claim_Total", {undecided}},
+      {"L8_CarriedCleanIsClean", {no_doubts}},
+      {"L8_WhatIsNotCleanStaysDirty", {no_doubts}},
+      {"L8_CleanAndUntouchedStaysClean", {no_doubts}},
+      {"L9_DirtyIsTheOraclesAccount", {all_dirty}},
+      {"L9_NewStartIsTheOraclesLayers", {no_doubts}},
+      {"L9_AllPositiveAtTheStartReleases", {all_dirty}},
+      {"L10_PairsOfTwoComponentsNeedNoSigns", {no_pairs}},
+      {"L10_ComponentsAreCleanByThemselves", {all_dirty}},
+      {"L10_EachComponentAsIfAlone", {no_pairs}},
+      {"L11_ViolatedIsWhatGhostsTouch", {all_violated}},
+      {"L11_VvHoldsWhatWasTouchedUntilClean", {no_doubts}},
+      {"L11_OrderOfHolesDoesNotMatter", {all_violated}},
+      {"L12_NeverFreeOnAGuess_BrokenEdges", {always_free}},
+      {"L12_NeverFreeOnAGuess_Collapsed", {always_free}},
+      {"L12_NeverFreeOnAGuess_SeveralLayers", {always_free}},
+      {"L12_ZeroAreaStaysInV0", {all_positive}},
+      {"L12_BadInputIsNamedAndChangesNothing", {wrong_size}},
+      {"Change_VertexNumbers", {late}},
+      {"Change_TriangleOrder", {no_pairs}},
+      {"Change_PowerOfTwo", {turn_signs}},
+      {"Change_Translation", {[](JudgedCase&) {}, with_fault<BlindBeyondOrigin>}},
+      {"Change_Mirror", {no_doubts}},
+      {"Change_AxesExchanged", {always_free}},
+      {"Change_InsideOutSwapsSigns", {all_positive}},
+      {"Change_StepHalved", {[](JudgedCase&) {}, with_fault<BlindInTheEnd>}},
+      {"Change_EqualEndsAreAPoint", {wrong_size}},
+      {"Change_RepeatedCall", {invented}},
+      {"Change_EvaluateChangesNothing", {wrong_size}},
+      {"Change_ResetStartsAnew", {wrong_size}},
+  };
+  return all;
+}
+
+// Pure statements about a formula: no result can refute them. See the test of exact values below.
+constexpr std::string_view about_formulas[] = {"L1_ClampFormIsRegionForm",
+                                               "L1_InnerValuesLieBetweenCornerValues"};
+
+TEST(LawsCanFail, EachNoticesWhatIsWrong) {
+  constexpr int most_cases = 600;
+  for (const auto& law : laws()) {
+    if (std::count(std::begin(about_formulas), std::end(about_formulas), law.name)) continue;
+    const auto wrong = wrongs().find(law.name);
+    ASSERT_NE(wrong, wrongs().end()) << law.name;
+    LawTally tally;
+    int cases = 0;
+    for (; cases < most_cases && tally.broken == 0; ++cases) {
+      const auto& family = families()[static_cast<std::size_t>(cases) % families().size()];
+      const std::string id = std::string(law.name) + ":20116:" + std::string(family.name) + ":" +
+                             std::to_string(cases);
+      auto c = make_case(family, id).c;
+      constexpr Eigen::Index most_triangles = 40;
+      if (c.triangles.rows() > most_triangles) continue;
+      Setting setting = setting_of(id);
+      setting.stages_of = wrong->second.stages_of;
+      JudgedCase judged(std::move(c), std::move(setting));
+      wrong->second.tamper(judged);
+      CaseFacts facts = judged.facts();
+      law.check(facts, tally);
+    }
+    EXPECT_GT(tally.broken, 0u) << law.name;
+    std::printf("%-46s after %3d cases: %s\n", std::string(law.name).c_str(), cases,
+                tally.first_broken.c_str());
+  }
+}
+
+detector::MovingPoint still(double x, double y, double z) { return {{x, y, z}, {x, y, z}}; }
+
+// Three corners, three signs: a corner's own nearest point decides, not that of another one.
+TEST(ExactView, L1_CornersOfATriangleMayHaveAllSigns) {
+  const ExactView view({still(0.5, 1, 0.125), still(-0.5, 1, 0.875), still(0, 5, 0.5)},
+                       {still(0, 0, 0), still(0, 0, 1)}, 0);
+  EXPECT_LT(view.by_clamp(view.corner(0)), 0);
+  EXPECT_GT(view.by_clamp(view.corner(1)), 0);
+  EXPECT_EQ(view.by_clamp(view.corner(2)), 0);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(view.region_of(view.corner(i)), Region::r2);
+    EXPECT_EQ(view.by_clamp(view.corner(i)), view.by_region(view.corner(i)));
+  }
+  const ExactView beyond({still(1, 0, 2), still(0, 1, 3), still(-1, -1, -2)},
+                         {still(0, 0, 0), still(0, 0, 1)}, 0);
+  EXPECT_EQ(beyond.region_of(beyond.corner(0)), Region::r1);
+  EXPECT_EQ(beyond.region_of(beyond.corner(2)), Region::r0);
+}
+
+TEST(ExactView, TimesAreEighthsAndWeightsSixteenths) {
+  detector::MovingPoint rising = still(0, 0, 1);
+  rising.t1[2] = 3;
+  const ExactView half({rising, still(1, 0, 2), still(0, 1, 2)}, {still(0, 0, 0), still(0, 0, 0)},
+                       4);
+  EXPECT_EQ(half.by_region(half.corner(0)), half.by_region(half.corner(1)));
+  EXPECT_EQ(half.by_region(half.inner_point({5, 5, 6})), half.by_region(half.corner(2)));
+  EXPECT_FALSE(half.has_zero_area());
+  const ExactView flat({rising, still(1, 0, 1), still(2, 0, 1)}, {still(0, 0, 0), still(0, 0, 0)},
+                       0);
+  EXPECT_TRUE(flat.has_zero_area());
+}
+
+}  // namespace
+}  // namespace assay::properties::test

@@ -1,0 +1,155 @@
+// Every law by rapidcheck, under its own name; and all of them over cases of all families.
+#include <fmt/format.h>
+
+#include <set>
+
+#include "properties/judging/case_check.h"
+#include "properties/laws/law_table.h"
+#include "tests/properties/laws/law_property.h"
+
+namespace assay::properties::test {
+namespace {
+
+// clang-format off
+LAW_TEST(L1_ClampFormIsRegionForm)
+LAW_TEST(L1_InnerValuesLieBetweenCornerValues)
+LAW_TEST(L1_SignsHoldAtEveryPoint)
+LAW_TEST(L2_SignsAreTheOracles_Point)
+LAW_TEST(L2_SignsAreTheOracles_Line)
+LAW_TEST(L2_GhostSignsAreTheOracles_Point)
+LAW_TEST(L2_GhostSignsAreTheOracles_Line)
+LAW_TEST(Sets_AreDisjointAndCover)
+LAW_TEST(L3_FirstContactIsACandidate)
+LAW_TEST(L6_OutsideKSomethingMetBefore)
+LAW_TEST(L4_AllPositiveIsCollisionFree_Point)
+LAW_TEST(L4_AllPositiveIsCollisionFree_Line)
+LAW_TEST(L4_AllPositiveIsCollisionFree_MovingLine)
+LAW_TEST(L4_AllNegativeIsCollisionFree)
+LAW_TEST(L5_AllPositiveAndWindingOneIsFree_Closed)
+LAW_TEST(L5_AllPositiveAndWindingOneIsFree_Unclosed)
+LAW_TEST(L5_TheFreePathIsTaken)
+LAW_TEST(L7_ClosureIsThePairSet)
+LAW_TEST(Claim_FreeSound)
+LAW_TEST(Claim_NotLate)
+LAW_TEST(Claim_FirstTime)
+LAW_TEST(Claim_FirstPairs)
+LAW_TEST(Claim_AllPairs)
+LAW_TEST(Claim_NoSpurious)
+LAW_TEST(Claim_Total)
+LAW_TEST(L8_CarriedCleanIsClean)
+LAW_TEST(L8_WhatIsNotCleanStaysDirty)
+LAW_TEST(L8_CleanAndUntouchedStaysClean)
+LAW_TEST(L9_DirtyIsTheOraclesAccount)
+LAW_TEST(L9_NewStartIsTheOraclesLayers)
+LAW_TEST(L9_AllPositiveAtTheStartReleases)
+LAW_TEST(L10_PairsOfTwoComponentsNeedNoSigns)
+LAW_TEST(L10_ComponentsAreCleanByThemselves)
+LAW_TEST(L10_EachComponentAsIfAlone)
+LAW_TEST(L11_ViolatedIsWhatGhostsTouch)
+LAW_TEST(L11_VvHoldsWhatWasTouchedUntilClean)
+LAW_TEST(L11_OrderOfHolesDoesNotMatter)
+LAW_TEST(L12_NeverFreeOnAGuess_BrokenEdges)
+LAW_TEST(L12_NeverFreeOnAGuess_Collapsed)
+LAW_TEST(L12_NeverFreeOnAGuess_SeveralLayers)
+LAW_TEST(L12_ZeroAreaStaysInV0)
+LAW_TEST(L12_BadInputIsNamedAndChangesNothing)
+LAW_TEST(Change_VertexNumbers)
+LAW_TEST(Change_TriangleOrder)
+LAW_TEST(Change_PowerOfTwo)
+LAW_TEST(Change_Translation)
+LAW_TEST(Change_Mirror)
+LAW_TEST(Change_AxesExchanged)
+LAW_TEST(Change_InsideOutSwapsSigns)
+LAW_TEST(Change_StepHalved)
+LAW_TEST(Change_EqualEndsAreAPoint)
+LAW_TEST(Change_RepeatedCall)
+LAW_TEST(Change_EvaluateChangesNothing)
+LAW_TEST(Change_ResetStartsAnew)
+// clang-format on
+
+TEST(Laws, EachHasATestOfItsName) {
+  std::set<std::string> tests;
+  const auto& program = *testing::UnitTest::GetInstance();
+  for (int s = 0; s < program.total_test_suite_count(); ++s) {
+    const auto& suite = *program.GetTestSuite(s);
+    if (std::string(suite.name()) != "Laws") continue;
+    for (int i = 0; i < suite.total_test_count(); ++i) tests.insert(suite.GetTestInfo(i)->name());
+  }
+  for (const auto& law : laws()) EXPECT_TRUE(tests.count(std::string(law.name))) << law.name;
+}
+
+TEST(Laws, EachNumberHasALawAndEachLawItsNumber) {
+  std::set<std::string> numbers, names;
+  for (const auto& law : laws()) {
+    numbers.insert(std::string(law.number));
+    EXPECT_TRUE(names.insert(std::string(law.name)).second) << law.name << " twice";
+    EXPECT_FALSE(law.statement.empty() || law.needs.empty()) << law.name;
+    if (law.number.front() == 'L') {
+      EXPECT_TRUE(law.name.starts_with(fmt::format("{}_", law.number))) << law.name;
+    }
+  }
+  for (int i = 1; i <= 12; ++i) EXPECT_TRUE(numbers.count(fmt::format("L{}", i))) << "L" << i;
+}
+
+// All sizes and families; dear laws have their share of the cases.
+TEST(LawTable, L1_to_L12_AllLawsHoldOverAllFamilies) {
+  constexpr int cases_of_family = 40;
+  LawTable table, odd;
+  for (const auto& family : families()) {
+    for (int i = 0; i < cases_of_family; ++i) {
+      const auto id = fmt::format("laws:20115:{}:{}", family.name, i);
+      const JudgedCase judged(make_case(family, id).c, setting_of(id));
+      CaseFacts facts = judged.facts();
+      (i % 2 ? odd : table).add(facts);
+    }
+  }
+  table.merge(odd);
+  std::printf("%zu cases\n%s", cases_of_family * families().size(), table.text().c_str());
+  EXPECT_EQ(table.broken(), 0u);
+  for (const Law* law : table.starved(1, 0)) ADD_FAILURE() << law->name << " was never met";
+}
+
+// Hand-made meshes, each with its own primitive, ends of sequences, and trust where none is due.
+TEST(LawTable, L1_to_L12_AllLawsHoldOfCuratedCases) {
+  const auto files = corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated");
+  ASSERT_TRUE(files);
+  std::uint64_t met = 0;
+  for (const auto& file : files.value()) {
+    const auto read = corpus::read_case(file);
+    ASSERT_TRUE(read) << file;
+    if (read.value().expected.answer == detector::Answer::error) continue;
+    for (const auto culling : {detector::Culling::view_point, detector::Culling::view_line}) {
+      Setting setting;
+      setting.options = options_of(read.value());
+      setting.options.culling = culling;
+      const JudgedCase judged(read.value(), setting);
+      CaseFacts facts = judged.facts();
+      for (const auto& law : laws()) {
+        LawTally tally;
+        law.check(facts, tally);
+        EXPECT_EQ(tally.broken, 0u) << law.name << ": " << tally.first_broken;
+        met += tally.premise;
+      }
+    }
+  }
+  std::printf("%zu cases, premises met %llu times\n", files.value().size(),
+              static_cast<unsigned long long>(met));
+  EXPECT_GT(met, files.value().size());
+}
+
+LawTally tally(std::uint64_t premise, std::uint64_t close, std::uint64_t broken,
+               std::string first_broken) {
+  return {premise, close, broken, std::move(first_broken)};
+}
+
+TEST(LawTable, TalliesAddUpInAnyOrder) {
+  const LawTally a = tally(3, 1, 1, "case 7"), b = tally(5, 2, 0, ""), c = tally(1, 1, 1, "case 4");
+  LawTally forward = a, backward = c;
+  (forward += b) += c;
+  (backward += b) += a;
+  EXPECT_EQ(forward, backward);
+  EXPECT_EQ(forward, tally(9, 4, 2, "case 4"));
+}
+
+}  // namespace
+}  // namespace assay::properties::test

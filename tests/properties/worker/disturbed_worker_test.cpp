@@ -1,0 +1,231 @@
+// What is a neighbour's doing and what is the detector's own: workers killed from outside, and
+// plug-ins that end their process.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <thread>
+
+#include "properties/judging/run_verdict.h"
+#include "properties/worker/worker_process.h"
+#include "tests/properties/small_case.h"
+#include "tests/properties/worker/children.h"
+
+namespace assay::properties {
+namespace {
+
+using test::children;
+using test::plugin;
+using test::small_case;
+
+const std::vector<Configuration> one = {{"plug-in", {}}};
+
+// The first small case that is, or is not, one on which self_kill.cpp kills itself.
+corpus::Case fatal_case(bool is_fatal = true) {
+  for (std::uint64_t i = 0;; ++i) {
+    auto c = small_case(31, i);
+    if ((c.triangles.rows() % 5 == 0) == is_fatal) return c;
+  }
+}
+
+// A case on which burns_time.cpp uses so much processor time.
+corpus::Case burning_case(double seconds) {
+  auto c = small_case(31, 0);
+  for (auto& frame : c.frames) frame(0, 0) = seconds;
+  return c;
+}
+
+double processor_seconds(pid_t process) {
+  clockid_t clock;
+  timespec now = {};
+  if (clock_getcpuclockid(process, &clock) == 0) clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Kills the worker, `times` times, when it has used so much processor time: then a case is under
+// way that takes more.
+std::thread neighbour(int signal, int times, double seconds) {
+  return std::thread([=] {
+    int last = 0;
+    for (int killed = 0; killed < times;) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      const auto found = children();
+      if (found.empty() || found[0] == last || processor_seconds(found[0]) < seconds) continue;
+      last = found[0];
+      kill(last, signal);
+      ++killed;
+    }
+  });
+}
+
+TEST(DisturbedWorker, ARunIsRepeatedAndIsAsIfNothingHadBeen) {
+  const auto c = burning_case(.6);
+  WorkerProcess undisturbed(ASSAY_WORKER, plugin("burns_time"));
+  const auto expected = undisturbed.run(c, one)[0];
+  ASSERT_EQ(expected.end, RunEnd::completed) << expected.what;
+  EXPECT_EQ(expected.disturbances, 0u);
+  EXPECT_EQ(undisturbed.disturbances(), 0u);
+  { const WorkerProcess ended = std::move(undisturbed); }
+  std::uint64_t times = 1;
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    WorkerProcess worker(ASSAY_WORKER, plugin("burns_time"));
+    auto killer = neighbour(signal, static_cast<int>(times), .2);
+    const auto runs = worker.run(c, one);
+    killer.join();
+    EXPECT_EQ(runs[0].end, RunEnd::completed) << runs[0].what;
+    EXPECT_TRUE(same_answers(runs[0], expected));
+    EXPECT_EQ(runs[0].disturbances, times);
+    EXPECT_EQ(worker.disturbances(), times);
+    EXPECT_EQ(worker.starts(), times + 1);
+    EXPECT_GE(runs[0].processor_seconds, .6);
+    ++times;
+  }
+}
+
+TEST(DisturbedWorker, ThreeTimesInARowIsTheDetectorsDoing) {
+  const std::map<std::string, std::string> ends = {
+      {"kills_itself", "killed by signal 9 (Killed), three times in a row"},
+      {"terminates_itself", "killed by signal 15 (Terminated), three times in a row"}};
+  const auto fatal = fatal_case(), harmless = fatal_case(false);
+  for (const auto& [name, what] : ends) {
+    WorkerProcess worker(ASSAY_WORKER, plugin(name));
+    const auto run = worker.run(fatal, one)[0];
+    EXPECT_EQ(run.end, RunEnd::crashed);
+    EXPECT_EQ(run.what, what);
+    EXPECT_EQ(run.disturbances, 0u);
+    EXPECT_EQ(worker.starts(), 3u);
+    const auto verdict = judge_run(fatal, run, {}, {.total = true}, {});
+    EXPECT_EQ(verdict.broken, std::vector<Claim>{Claim::total});
+    EXPECT_EQ(verdict.what, what);
+    EXPECT_TRUE(same_answers(worker.run(fatal, one)[0], run));
+    // The next case begins to count anew.
+    EXPECT_EQ(worker.run(harmless, one)[0].end, RunEnd::completed);
+    EXPECT_EQ(worker.disturbances(), 0u);
+    EXPECT_EQ(worker.starts(), 7u);
+  }
+}
+
+// As `assay run` does, and a shell that starts it in the background.
+TEST(DisturbedWorker, WhatItsHostBlocksOrIgnoresEndsItAllTheSame) {
+  sigset_t blocked, before;
+  sigemptyset(&blocked);
+  sigaddset(&blocked, SIGTERM);
+  ASSERT_EQ(pthread_sigmask(SIG_BLOCK, &blocked, &before), 0);
+  const auto quit_before = signal(SIGQUIT, SIG_IGN);
+  {
+    WorkerProcess worker(ASSAY_WORKER, std::nullopt);
+    worker.run(small_case(31, 0), one);
+    for (const int one_signal : {SIGTERM, SIGQUIT}) {
+      kill(children().at(0), one_signal);
+      EXPECT_EQ(worker.run(small_case(31, 1), one)[0].disturbances, 1u) << one_signal;
+    }
+  }
+  WorkerProcess worker(ASSAY_WORKER, plugin("terminates_itself"));
+  EXPECT_EQ(worker.run(fatal_case(), one)[0].what,
+            "killed by signal 15 (Terminated), three times in a row");
+  signal(SIGQUIT, quit_before);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+TEST(DisturbedWorker, OtherSignalsAndExitsAreCrashesAtOnce) {
+  const std::map<std::string, std::string> ends = {
+      {"segfaults", "killed by signal 11 (Segmentation fault)"},
+      {"aborts", "killed by signal 6 (Aborted)"},
+      {"exit", "exited with code 0"}};
+  const auto c = fatal_case();
+  for (const auto& [name, what] : ends) {
+    WorkerProcess worker(ASSAY_WORKER, plugin(name));
+    const auto runs = worker.run(c, std::vector<Configuration>(2, one[0]));
+    for (const auto& run : runs) {
+      EXPECT_EQ(run.end, RunEnd::crashed);
+      EXPECT_EQ(run.what, what);
+      EXPECT_EQ(run.disturbances, 0u);
+    }
+    EXPECT_EQ(worker.starts(), 2u) << name;
+    EXPECT_EQ(worker.disturbances(), 0u);
+  }
+}
+
+TEST(DisturbedWorker, RandomDeathsAreCountedAndChangeNoAnswer) {
+  WorkerProcess worker(ASSAY_WORKER, plugin("killed_at_random"));
+  WorkerProcess undisturbed(ASSAY_WORKER, plugin("wrapped_builtin"));
+  std::uint64_t disturbances = 0, crashes = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const auto c = small_case(31, i);
+    const auto run = worker.run(c, one)[0];
+    disturbances += run.disturbances;
+    if (run.end == RunEnd::crashed) {
+      EXPECT_NE(run.what.find("three times in a row"), std::string::npos) << run.what;
+      ++crashes;
+    } else {
+      EXPECT_TRUE(same_answers(run, undisturbed.run(c, one)[0])) << c.id;
+    }
+  }
+  EXPECT_GT(disturbances, 0u);
+  EXPECT_EQ(worker.disturbances(), disturbances);
+  EXPECT_EQ(worker.starts(), 1 + disturbances + 3 * crashes);
+  EXPECT_LE(crashes, 5u);  // one time in 8,000 is expected
+}
+
+TEST(DisturbedWorker, ADeathBetweenTwoCasesIsCountedToo) {
+  WorkerProcess worker(ASSAY_WORKER, std::nullopt);
+  ASSERT_EQ(worker.run(small_case(31, 0), one)[0].end, RunEnd::completed);
+  const int id = children().at(0);
+  kill(id, SIGKILL);
+  siginfo_t seen = {};
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(id), &seen, WEXITED | WNOWAIT), 0);
+  const auto runs = worker.run(small_case(31, 1), std::vector<Configuration>(2, one[0]));
+  EXPECT_EQ(runs[0].end, RunEnd::completed);
+  EXPECT_EQ(runs[0].disturbances, 1u);
+  EXPECT_EQ(runs[1].disturbances, 0u);
+  EXPECT_EQ(worker.disturbances(), 1u);
+  EXPECT_EQ(worker.starts(), 2u);
+}
+
+TEST(DisturbedWorker, WithTheThreadThatStartedItItEndsUndisturbed) {
+  WorkerProcess worker(ASSAY_WORKER, std::nullopt);
+  std::thread([&] { worker.run(small_case(31, 0), one); }).join();
+  siginfo_t seen = {};
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(children().at(0)), &seen, WEXITED | WNOWAIT), 0);
+  EXPECT_EQ(worker.run(small_case(31, 1), one)[0].disturbances, 0u);
+  EXPECT_EQ(worker.disturbances(), 0u);
+}
+
+TEST(DisturbedWorker, LoadingIsTriedThreeTimes) {
+  WorkerProcess worker(ASSAY_WORKER, plugin("kills_itself_while_loaded"));
+  const auto description = worker.describe();
+  ASSERT_FALSE(description);
+  EXPECT_NE(description.error().message.find("ended while it was loaded: killed by signal 9 "
+                                             "(Killed), three times in a row"),
+            std::string::npos)
+      << description.error().message;
+  EXPECT_EQ(worker.starts(), 3u);
+  EXPECT_EQ(worker.disturbances(), 0u);
+  EXPECT_EQ(worker.run(small_case(31, 0), one)[0].end, RunEnd::not_run);
+}
+
+// It was loaded before, so that it dies now is its own doing and no fault of the harness.
+TEST(DisturbedWorker, APlugInThatDiesWhenItIsLoadedAgainHasCrashed) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("assay-loaded-" + std::to_string(::getpid()));
+  ::setenv("ASSAY_TEST_FILE", file.c_str(), 1);
+  WorkerProcess worker(ASSAY_WORKER, plugin("crashes_when_loaded_again"));
+  ASSERT_TRUE(worker.describe());
+  std::ofstream(file) << "loaded";
+  ::kill(children().at(0), SIGKILL);
+  const auto run = worker.run(small_case(31, 0), one)[0];
+  ::unsetenv("ASSAY_TEST_FILE");
+  std::filesystem::remove(file);
+  EXPECT_EQ(run.end, RunEnd::crashed);
+  EXPECT_NE(run.what.find("ended while it was loaded: killed by signal 11"), std::string::npos)
+      << run.what;
+}
+
+}  // namespace
+}  // namespace assay::properties

@@ -1,0 +1,294 @@
+// The worker: the same answers as in this process, and what it is for: whatever a detector does to
+// its process, the host goes on.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "detector/detector.h"
+#include "properties/judging/run_verdict.h"
+#include "properties/worker/wire_fields.h"
+#include "properties/worker/worker_process.h"
+#include "tests/properties/small_case.h"
+#include "tests/properties/worker/children.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Answer;
+using test::children;
+using test::plugin;
+using test::small_case;
+
+const std::vector<Configuration> four = {
+    {"view-point", {detector::Culling::view_point}},
+    {"view-line", {detector::Culling::view_line}},
+    {"bvh", {detector::Culling::bvh}},
+    {"first", {detector::Culling::view_point, detector::Start::verified, detector::Pairs::first}}};
+const std::vector<Configuration> one = {{"plug-in", {}}};
+
+TEST(Worker, AnswersAsThisProcessDoes) {
+  WorkerProcess worker(ASSAY_WORKER, std::nullopt);
+  std::size_t pairs = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const auto c = small_case(31, i);
+    const auto runs = worker.run(c, four);
+    ASSERT_EQ(runs.size(), four.size());
+    for (std::size_t k = 0; k < four.size(); ++k) {
+      ASSERT_EQ(runs[k].end, RunEnd::completed) << c.id << ": " << runs[k].what;
+      ASSERT_TRUE(same_answers(runs[k], run_case(c, four[k]))) << c.id << " " << four[k].name;
+      pairs += runs[k].steps[0].pairs.size();
+    }
+  }
+  EXPECT_GT(pairs, 1000u);
+  EXPECT_EQ(worker.starts(), 1u);
+}
+
+TEST(Worker, TheScriptOfACaseIsFollowed) {
+  // A collision is answered twice from the same state, then committed; the last step goes back.
+  auto c = small_case(31, 0);
+  for (std::uint64_t i = 0; run_case(c, one[0]).steps[0].answer != Answer::collision; ++i) {
+    c = small_case(31, i);
+  }
+  c.script = {{0, 1, false}, {0, 1, false}, {0, 1, true}, {1, 0, true}};
+  const auto runs = WorkerProcess(ASSAY_WORKER, std::nullopt).run(c, one);
+  ASSERT_EQ(runs[0].steps.size(), 4u);
+  EXPECT_TRUE(same_answers(runs[0], run_case(c, one[0])));
+  const auto& steps = runs[0].steps;
+  for (std::size_t s : {1u, 2u}) EXPECT_EQ(steps[s].dirty, steps[0].dirty);
+  for (std::size_t s : {1u, 2u}) EXPECT_EQ(steps[s].first, steps[0].first);
+}
+
+TEST(Worker, AViewOfTheCaseIsGivenWhereTheCullingIsOneOfViews) {
+  auto c = corpus::read_case(std::string(ASSAY_SOURCE_DIR) +
+                             "/corpus/curated/B1_one_vertex_own_nearest.json");
+  ASSERT_TRUE(c);
+  ASSERT_TRUE(c.value().view && !c.value().view->q1.empty());
+  const auto runs = WorkerProcess(ASSAY_WORKER, std::nullopt).run(c.value(), four);
+  const auto line = corpus::view_of_step(c.value(), 0);
+  const auto &seen_from_point = runs[0].steps[0].primitives[0],
+             &seen_from_line = runs[1].steps[0].primitives[0];
+  EXPECT_EQ(seen_from_line.q1.t0, line->q1.t0);
+  EXPECT_EQ(seen_from_point.q0.t0, line->q0.t0);
+  EXPECT_EQ(seen_from_point.q1.t0, line->q0.t0);
+}
+
+TEST(Worker, ExpectedFactsStayWithTheHost) {
+  auto c = small_case(31, 5);
+  c.expected.answer = Answer::error;
+  c.expected.steps.resize(1);
+  RunRequest arrived;
+  ASSERT_TRUE(decode(encode(c, four), arrived));
+  EXPECT_EQ(arrived.c.frames, c.frames);
+  EXPECT_EQ(arrived.c.triangles, c.triangles);
+  EXPECT_EQ(arrived.c.expected.answer, Answer::free);
+  EXPECT_TRUE(arrived.c.expected.steps.empty());
+}
+
+TEST(Worker, ACutMessageIsNoMessage) {
+  const CaseRun run = run_case(small_case(31, 5), four[0]);
+  const std::string whole = encode(run);
+  CaseRun read;
+  ASSERT_TRUE(decode(whole, read));
+  EXPECT_TRUE(same_answers(run, read));
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    CaseRun cut;
+    ASSERT_FALSE(decode(whole.substr(0, size), cut)) << size;
+  }
+  EXPECT_FALSE(decode(whole + '\0', read));
+}
+
+TEST(Worker, AMeshThatIsRefusedHasAReason) {
+  auto c = small_case(31, 0);
+  c.triangles(0, 1) = c.triangles(0, 0);
+  const auto runs = WorkerProcess(ASSAY_WORKER, std::nullopt).run(c, four);
+  for (const auto& run : runs) {
+    EXPECT_EQ(run.end, RunEnd::refused);
+    EXPECT_NE(run.what.find("triangle 0"), std::string::npos) << run.what;
+  }
+}
+
+TEST(Worker, AHangEndsAtTheLimitAndTheOthersRun) {
+  WorkerProcess worker(ASSAY_WORKER, plugin("hang"), {.seconds = .2});
+  const auto begin = std::chrono::steady_clock::now();
+  const auto runs = worker.run(small_case(31, 0), std::vector<Configuration>(3, one[0]));
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  ASSERT_EQ(runs.size(), 3u);
+  for (const auto& run : runs) EXPECT_EQ(run.end, RunEnd::hung);
+  EXPECT_EQ(worker.starts(), 3u);
+  EXPECT_GE(took.count(), .6);
+  EXPECT_TRUE(children().empty());
+}
+
+TEST(Worker, AnExitIsACrash) {
+  WorkerProcess worker(ASSAY_WORKER, plugin("exit"));
+  const auto runs = worker.run(small_case(31, 0), one);
+  EXPECT_EQ(runs[0].end, RunEnd::crashed);
+  EXPECT_EQ(runs[0].what, "exited with code 0");
+}
+
+TEST(Worker, MemoryEndsInUndecided) {
+  // 10^6 triangles need more than the limit leaves.
+  corpus::Case c;
+  const std::int32_t n = 1'000'000;
+  c.triangles.resize(n, 3);
+  detector::Positions x = detector::Positions::Random(n + 2, 3);
+  for (std::int32_t t = 0; t < n; ++t) c.triangles.row(t) << t, t + 1, t + 2;
+  c.frames = {x, x};
+  constexpr std::uint64_t limit = std::uint64_t{400} << 20;
+  WorkerProcess worker(ASSAY_WORKER, std::nullopt, {.seconds = 60, .bytes = limit});
+  const auto runs = worker.run(c, std::vector<Configuration>(2, four[2]));
+  for (const auto& run : runs) {
+    EXPECT_EQ(run.end, RunEnd::out_of_memory) << run.what;
+    const auto verdict = judge_run(c, run, {}, {.total = true}, {});
+    EXPECT_EQ(verdict.outcome, Outcome::undecided);
+    EXPECT_EQ(verdict.what, "out of memory");
+  }
+  EXPECT_EQ(worker.run(small_case(31, 0), one)[0].end, RunEnd::completed);
+
+  // Of a plug-in that says so, in a step.
+  const auto step = WorkerProcess(ASSAY_WORKER, plugin("no_memory")).run(small_case(31, 0), one)[0];
+  const auto truth = judge_case(small_case(31, 0));
+  const auto verdict = judge_run(small_case(31, 0), step, truth, {.total = true}, {});
+  EXPECT_EQ(verdict.outcome, Outcome::undecided);
+  EXPECT_EQ(verdict.what, "step 1: out of memory");
+}
+
+TEST(Worker, OneThatDiedBetweenCasesIsReplaced) {
+  WorkerProcess worker(ASSAY_WORKER, std::nullopt);
+  ASSERT_EQ(worker.run(small_case(31, 0), one)[0].end, RunEnd::completed);
+  ASSERT_EQ(children().size(), 1u);
+  kill(children()[0], SIGKILL);
+  for (int i = 0; i < 1000; ++i) {  // until it has closed its channel
+    std::ifstream stat("/proc/" + std::to_string(children()[0]) + "/stat");
+    std::stringstream text;
+    text << stat.rdbuf();
+    if (text.str().find(") Z ") != std::string::npos) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(worker.run(small_case(31, 1), one)[0].end, RunEnd::completed);
+  EXPECT_EQ(worker.starts(), 2u);
+}
+
+TEST(Worker, NoneIsLeftBehind) {
+  {
+    WorkerProcess worker(ASSAY_WORKER, std::nullopt);
+    worker.run(small_case(31, 0), one);
+    EXPECT_EQ(children().size(), 1u);
+  }
+  EXPECT_TRUE(children().empty());
+}
+
+TEST(Worker, DiesWithItsHost) {
+  // A host that starts a worker on a hanging plug-in and is killed.
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t host = fork();
+  if (host == 0) {
+    WorkerProcess worker(ASSAY_WORKER, plugin("hang"), {.seconds = 60});
+    const int started = worker.describe() ? children()[0] : 0;
+    if (write(ready[1], &started, sizeof started) < 0) _exit(1);
+    worker.run(small_case(31, 0), one);
+    _exit(0);
+  }
+  int worker = 0;
+  ASSERT_EQ(read(ready[0], &worker, sizeof worker), static_cast<ssize_t>(sizeof worker));
+  ASSERT_GT(worker, 0);
+  ASSERT_TRUE(std::filesystem::exists("/proc/" + std::to_string(worker)));
+  kill(host, SIGKILL);
+  waitpid(host, nullptr, 0);
+  const auto is_gone = [&] {
+    std::ifstream stat("/proc/" + std::to_string(worker) + "/stat");
+    std::stringstream text;
+    text << stat.rdbuf();
+    return text.str().empty() || text.str().find(") Z ") != std::string::npos;
+  };
+  for (int i = 0; i < 5000 && !is_gone(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_TRUE(is_gone());
+}
+
+TEST(Worker, WithoutAProgramNothingIsRun) {
+  WorkerProcess worker("/nowhere/assay-worker", std::nullopt);
+  ASSERT_FALSE(worker.describe());
+  EXPECT_NE(worker.describe().error().message.find("cannot start /nowhere/assay-worker"),
+            std::string::npos);
+  const auto runs = worker.run(small_case(31, 0), four);
+  ASSERT_EQ(runs.size(), 4u);
+  for (const auto& run : runs) EXPECT_EQ(run.end, RunEnd::not_run);
+  // Another program is no worker.
+  EXPECT_FALSE(WorkerProcess("/bin/true", std::nullopt).describe());
+}
+
+std::string output_of(const std::string& command) {
+  std::string text;
+  FILE* out = popen(command.c_str(), "r");
+  char line[4096];
+  while (out && fgets(line, sizeof line, out)) text += line;
+  if (out) pclose(out);
+  return text;
+}
+
+TEST(Worker, HoldsNoOracle) {
+  const std::string libraries = output_of("ldd " ASSAY_WORKER);
+  ASSERT_NE(libraries.find("libc.so"), std::string::npos) << libraries;
+  for (const char* foreign : {"gmp", "mpfr", "mpfi", "CGAL", "libz.", "fmt"}) {
+    EXPECT_EQ(libraries.find(foreign), std::string::npos) << libraries;
+  }
+  const std::string symbols = output_of("nm -C " ASSAY_WORKER);
+  ASSERT_NE(symbols.find("assay::detector::Detector::evaluate"), std::string::npos);
+  EXPECT_EQ(symbols.find("assay::oracle"), std::string::npos);
+  EXPECT_EQ(symbols.find("CGAL"), std::string::npos);
+}
+
+TEST(Worker, RoundTripsASecond) {
+  // A bipyramid of 20 triangles that bulges: free.
+  constexpr std::int32_t sides = 10;
+  corpus::Case c;
+  c.triangles.resize(2 * sides, 3);
+  detector::Positions x(sides + 2, 3);
+  for (std::int32_t i = 0; i < sides; ++i) {
+    const double angle = 2 * 3.14159265358979323846 * i / sides;
+    x.row(i) << std::cos(angle), std::sin(angle), 0;
+    const std::int32_t j = (i + 1) % sides;
+    c.triangles.row(2 * i) << i, j, sides;
+    c.triangles.row(2 * i + 1) << j, i, sides + 1;
+  }
+  x.row(sides) << 0, 0, 1;
+  x.row(sides + 1) << 0, 0, -1;
+  c.frames = {x, 1.125 * x};
+  WorkerProcess worker(ASSAY_WORKER, std::nullopt);
+  worker.run(c, four);
+  // The best of several batches: the machine may be busy.
+  const auto seconds = [](auto work) {
+    constexpr int batches = 10, repeats = 30;
+    double best = 1;
+    for (int batch = 0; batch < batches; ++batch) {
+      const auto begin = std::chrono::steady_clock::now();
+      for (int i = 0; i < repeats; ++i) work();
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+      best = std::min(best, took.count() / repeats);
+    }
+    return best;
+  };
+  const double through_worker = seconds([&] { worker.run(c, four); });
+  const double here = seconds([&] {
+    for (const auto& configuration : four) run_case(c, configuration);
+  });
+  std::printf("a case of 20 triangles in 4 configurations: %.0f a second, %.0f in this process\n",
+              1 / through_worker, 1 / here);
+  EXPECT_LT(through_worker - here, 1e-3);
+}
+
+}  // namespace
+}  // namespace assay::properties

@@ -1,0 +1,146 @@
+// The worker's limits of time: processor time wherever it is used, and wider nets of wall clock for
+// what uses none. No test here asks that something be over soon.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "properties/worker/worker_process.h"
+#include "tests/properties/small_case.h"
+#include "tests/properties/worker/children.h"
+
+namespace assay::properties {
+namespace {
+
+using test::children;
+using test::plugin;
+using test::small_case;
+using Clock = std::chrono::steady_clock;
+
+const std::vector<Configuration> one = {{"plug-in", {}}};
+
+// A case on which burns_time.cpp uses so much processor time.
+corpus::Case burning_case(double seconds) {
+  auto c = small_case(31, 0);
+  for (auto& frame : c.frames) frame(0, 0) = seconds;
+  return c;
+}
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// Threads that use all processors that they get, until the end of its life.
+class BusyLoops {
+ public:
+  explicit BusyLoops(int count) {
+    for (int i = 0; i < count; ++i) {
+      threads_.emplace_back([this] {
+        const auto longest = Clock::now() + std::chrono::minutes(1);
+        while (!ended_ && Clock::now() < longest) {
+        }
+      });
+    }
+  }
+  ~BusyLoops() {
+    ended_ = true;
+    for (auto& thread : threads_) thread.join();
+  }
+
+ private:
+  std::atomic<bool> ended_ = false;
+  std::vector<std::thread> threads_;
+};
+
+TEST(WorkerTime, ProcessorTimeIsLimitedWhereverItIsUsed) {
+  constexpr double limit = .3, much = 1e6;
+  for (const char* name : {"burns_time", "burns_in_thread", "burns_in_child"}) {
+    WorkerProcess worker(ASSAY_WORKER, plugin(name), {.seconds = limit});
+    const auto run = worker.run(burning_case(much), one)[0];
+    EXPECT_EQ(run.end, RunEnd::hung) << name;
+    EXPECT_EQ(run.what, "no answer in 0.3 s of processor time") << name;
+    EXPECT_GE(run.processor_seconds, limit) << name;
+    std::printf("%s: ended at %.3f s of processor time, limit %g s\n", name, run.processor_seconds,
+                limit);
+    EXPECT_TRUE(children().empty());
+    // The limit is for each case alone.
+    for (int i = 0; i < 4; ++i) {
+      const auto enough = worker.run(burning_case(limit / 2), one)[0];
+      EXPECT_EQ(enough.end, RunEnd::completed) << name << ": " << enough.what;
+    }
+    EXPECT_EQ(worker.starts(), 2u);
+  }
+}
+
+TEST(WorkerTime, TheLimitIsReachedNoSoonerBesideBusyLoops) {
+  constexpr double limit = .6, needed = .4;
+  const BusyLoops neighbours(6);
+  for (const char* name : {"burns_time", "burns_in_thread", "burns_in_child"}) {
+    WorkerProcess worker(ASSAY_WORKER, plugin(name), {.seconds = limit});
+    const auto begin = Clock::now();
+    const auto run = worker.run(burning_case(needed), one)[0];
+    EXPECT_EQ(run.end, RunEnd::completed) << name << ": " << run.what;
+    std::printf("%s: %.3f s of processor time in %.3f s, limit %g s\n", name, run.processor_seconds,
+                seconds_since(begin), limit);
+    EXPECT_LT(run.processor_seconds, limit);
+  }
+}
+
+TEST(WorkerTime, AShortRunSaysWhatItTook) {
+  constexpr double used = .02;
+  WorkerProcess worker(ASSAY_WORKER, plugin("burns_time"));
+  const auto runs = worker.run(burning_case(used), std::vector<Configuration>(3, one[0]));
+  for (const auto& run : runs) {
+    // The host reads the clock when it has the answer, and the worker goes on meanwhile: a part may
+    // count for the run before.
+    EXPECT_GT(run.processor_seconds, 0);
+  }
+  EXPECT_GE(runs[0].processor_seconds + runs[1].processor_seconds + runs[2].processor_seconds,
+            3 * used);
+}
+
+TEST(WorkerTime, WhatSleepsIsCaughtByTheWallClock) {
+  constexpr double limit = .1;
+  WorkerProcess worker(ASSAY_WORKER, plugin("hang"), {.seconds = limit});
+  const auto begin = Clock::now();
+  const auto run = worker.run(small_case(31, 0), one)[0];
+  EXPECT_EQ(run.end, RunEnd::hung);
+  EXPECT_EQ(run.what, "no answer in 0.1 s of processor time: asleep for 1 s");
+  EXPECT_GE(seconds_since(begin), 10 * limit);
+  EXPECT_LT(run.processor_seconds, limit);
+}
+
+TEST(WorkerTime, WhatIsStoppedIsNotAsleepAndSendingEndsToo) {
+  // A request that no socket takes at once, to a worker that does not read.
+  corpus::Case c = small_case(31, 0);
+  c.triangles.resize(1'000'000, 3);
+  c.triangles.setZero();
+  constexpr double limit = .05;
+  WorkerProcess worker(ASSAY_WORKER, std::nullopt, {.seconds = limit});
+  ASSERT_TRUE(worker.describe());
+  kill(children().at(0), SIGSTOP);
+  const auto begin = Clock::now();
+  const auto run = worker.run(c, one)[0];
+  EXPECT_EQ(run.end, RunEnd::hung);
+  EXPECT_EQ(run.what, "no answer in 0.05 s of processor time, nor in 5 s");
+  EXPECT_GE(seconds_since(begin), 100 * limit);
+  EXPECT_EQ(run.disturbances, 0u);
+}
+
+TEST(WorkerTime, LoadingIsLimitedToo) {
+  WorkerProcess worker(ASSAY_WORKER, plugin("hang_while_loaded"), {.seconds = .1});
+  const auto description = worker.describe();
+  ASSERT_FALSE(description);
+  EXPECT_EQ(description.error().message,
+            plugin("hang_while_loaded") +
+                ": hung while it was loaded: no answer in 0.1 s of processor time: asleep for 1 s");
+  EXPECT_EQ(worker.starts(), 1u);
+  EXPECT_TRUE(children().empty());
+}
+
+}  // namespace
+}  // namespace assay::properties

@@ -1,0 +1,179 @@
+// `assay run` whose workers somebody else kills: it comes to the same and says that it was
+// disturbed.
+#include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "properties/random.h"
+#include "tests/reports/campaign/started.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Whether a process is an assay-worker of that host and still alive.
+bool is_worker_of(pid_t host, const std::string& process) {
+  std::ifstream status("/proc/" + process + "/status");
+  bool is_worker = false, is_alive = true, is_child = false;
+  for (std::string line; std::getline(status, line);) {
+    is_worker |= line == "Name:\tassay-worker";
+    is_alive &= !line.starts_with("State:\tZ") && !line.starts_with("State:\tX");
+    is_child |= line == "PPid:\t" + std::to_string(host);
+  }
+  return is_worker && is_alive && is_child;
+}
+
+std::vector<std::string> workers_of(pid_t host) {
+  std::vector<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") == std::string::npos && is_worker_of(host, name))
+      found.push_back(name);
+  }
+  return found;
+}
+
+// Signals one of the host's workers and never anything else: the descriptor stands for one process,
+// which is looked at once more when it is held. False where there was none to signal.
+bool signal_a_worker(pid_t host, int signal, properties::Random& random) {
+  const auto workers = workers_of(host);
+  if (workers.empty()) return false;
+  const auto& worker =
+      workers[static_cast<std::size_t>(random.below(static_cast<int>(workers.size())))];
+  const auto process = static_cast<int>(syscall(SYS_pidfd_open, std::stoi(worker), 0));
+  if (process < 0) return false;
+  const bool sent = is_worker_of(host, worker) &&
+                    syscall(SYS_pidfd_send_signal, process, signal, nullptr, 0) == 0;
+  close(process);
+  return sent;
+}
+
+// From the gates to the verdict, without the seconds behind it.
+std::string judged_part(const std::string& text) {
+  const auto from = text.find("\ngate "), to = text.rfind(", in ");
+  return from == std::string::npos || to < from ? "" : text.substr(from, to - from);
+}
+
+struct Disturbed {
+  std::uint64_t trials = 0, times = 0;
+};
+
+Disturbed disturbed_in(const std::string& out) {
+  std::string problem;
+  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
+  EXPECT_TRUE(store) << problem;
+  Disturbed sum;
+  if (!store) return sum;
+  store->for_each_trial([&](const properties::TrialRecord& trial) {
+    sum.trials += trial.disturbed > 0 ? 1 : 0;
+    sum.times += trial.disturbed;
+  });
+  return sum;
+}
+
+// None while there is no store yet.
+std::uint64_t stored_trials(const std::string& out) {
+  std::string problem;
+  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
+  return store ? store->trial_count() : 0;
+}
+
+// A family of so many cases and two of half as many; without laws, for a plug-in has none.
+std::string long_plan(int cases) {
+  auto text = plan_text(cases, R"(, "laws_every": 0)");
+  const std::string limit = R"("seconds": 60)";
+  return text.replace(text.find(limit), limit.size(), R"("seconds": null)");
+}
+
+// ASSAY_KILLS=300 for the long form; the campaign grows with it, for more than 1 % of disturbed
+// trials would rightly not hold.
+TEST(RunDisturbed, WorkersKilledAtRandomMomentsChangeNeitherVerdictNorTallies) {
+  const char* asked = std::getenv("ASSAY_KILLS");
+  const int kills = asked ? std::max(1, std::atoi(asked)) : 30;
+  const char* chosen = std::getenv("ASSAY_SEED");
+  const std::string seed = chosen ? chosen : "1";
+  const std::string replay = "ASSAY_SEED=" + seed + " ASSAY_KILLS=" + std::to_string(kills) + " " +
+                             program_invocation_name + " --gtest_filter='RunDisturbed.Workers*'";
+  SCOPED_TRACE("replay: " + replay);
+  properties::Random random(std::strtoull(seed.c_str(), nullptr, 10), 0);
+
+  const Scratch scratch;
+  constexpr int cases_a_kill = 100;  // in all families together 200
+  const auto plan = scratch.write("plan.json", long_plan(std::max(4000, cases_a_kill * kills)));
+  const std::string out = scratch / "out", undisturbed = scratch / "undisturbed";
+  const auto words = [&](const std::string& folder) {
+    return std::vector<std::string>{
+        "run",   "--campaign", plan, "--jobs", "2", "--detector", plugin("wrapped_builtin"),
+        "--out", folder};
+  };
+  const auto begin = Clock::now();
+  Started reference(words(undisturbed), scratch / "reference");
+  const int expected = reference.end();
+  const std::chrono::duration<double> whole = Clock::now() - begin;
+  const auto expected_text = read_text(scratch / "reference");
+  ASSERT_TRUE(WIFEXITED(expected) && WEXITSTATUS(expected) == 0) << expected_text;
+  EXPECT_FALSE(contains(expected_text, " ran again")) << "somebody else disturbs this machine";
+
+  // Moments of the run, by its progress and so whatever else the machine does: a number of stored
+  // trials, and some milliseconds more.
+  constexpr double last_share = 0.9;
+  std::vector<double> moments;
+  const auto expected_trials = trials_of(undisturbed);
+  for (int i = 0; i < kills; ++i)
+    moments.push_back(last_share * random.unit() * static_cast<double>(expected_trials.size()));
+  std::sort(moments.begin(), moments.end());
+  Started started(words(out), scratch / "text");
+  std::uint64_t killed = 0, terminated = 0;
+  for (const double moment : moments) {
+    while (!started.has_ended() && static_cast<double>(stored_trials(out)) < moment)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(random.below(20)));
+    constexpr int terminated_of = 3;  // one of so many by SIGTERM, as a batch system does
+    const int signal = random.one_in(terminated_of) ? SIGTERM : SIGKILL;
+    // Just now there may be none: the next one starts soon.
+    bool sent = false;
+    while (!sent && !started.has_ended()) {
+      sent = signal_a_worker(started.id(), signal, random);
+      if (!sent) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    killed += sent ? 1 : 0;
+    terminated += sent && signal == SIGTERM ? 1 : 0;
+  }
+  const int status = started.end();
+  const auto text = read_text(scratch / "text");
+  const auto disturbed = disturbed_in(out);
+  std::printf(
+      "%llu workers killed, %llu of them by SIGTERM; %llu trials disturbed %llu times; "
+      "undisturbed %.1f s\nreplay: %s\n",
+      static_cast<unsigned long long>(killed), static_cast<unsigned long long>(terminated),
+      static_cast<unsigned long long>(disturbed.trials),
+      static_cast<unsigned long long>(disturbed.times), whole.count(), replay.c_str());
+  EXPECT_EQ(killed, static_cast<std::uint64_t>(kills)) << text;
+
+  ASSERT_TRUE(WIFEXITED(status)) << text;
+  EXPECT_EQ(WEXITSTATUS(status), 0) << text;
+  EXPECT_EQ(trials_of(out), expected_trials);
+  EXPECT_TRUE(signatures_of(out).empty());
+  EXPECT_TRUE(contains(judged_part(text), "\nholds: 0 trials with a defect, 0 undecided")) << text;
+  EXPECT_EQ(judged_part(text), judged_part(expected_text));
+  for (const std::string file : {"/summary.md", "/junit.xml"})
+    EXPECT_EQ(read_text(out + file), read_text(undisturbed + file)) << file;
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: holds\n"));
+
+  // What hit the canary, or a worker that had nothing left to do, disturbed no trial.
+  EXPECT_GE(disturbed.times, 1u);
+  EXPECT_LE(disturbed.times, killed);
+  EXPECT_TRUE(contains(text, "\n" + std::to_string(disturbed.trials) +
+                                 " trials ran again: their worker was killed from outside (" +
+                                 std::to_string(disturbed.times) + " times)\n"))
+      << text;
+}
+
+}  // namespace
+}  // namespace assay::tests

@@ -1,0 +1,195 @@
+// `assay run` that is killed, interrupted, or started twice: what is stored stays, and the same
+// again goes on.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "properties/random.h"
+#include "tests/reports/campaign/started.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+class Interrupted : public testing::Test {
+ protected:
+  const Scratch scratch;
+  std::vector<std::string> words(const std::string& out_folder) const {
+    std::vector<std::string> list = {"run", "--campaign", plan, "--out", out_folder};
+    if (!library.empty()) list.insert(list.end(), {"--detector", library});
+    return list;
+  }
+  Outcome run(const std::string& out_folder) const {
+    std::string line;
+    for (const auto& word : words(out_folder)) line += word + " ";
+    return run_assay(line);
+  }
+  // Waits until the run has stored something, or fails.
+  void wait_for_trials(const std::string& out_folder, std::size_t least) const {
+    for (int i = 0; i < 3000; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      std::string problem;
+      const auto store = properties::Store::read(out_folder + "/shard-1-of-1.sqlite", problem);
+      if (store && store->trial_count() >= least) return;
+    }
+    FAIL() << "nothing was stored";
+  }
+  // How many meshes of each signature are kept: which ones depends on which threads were first.
+  static properties::Counts failures_of(const std::string& out_folder) {
+    std::string problem;
+    const auto store = properties::Store::read(out_folder + "/shard-1-of-1.sqlite", problem);
+    EXPECT_TRUE(store) << problem;
+    properties::Counts kept;
+    if (!store) return kept;
+    for (const auto& failure : store->failures()) {
+      ++kept[failure.signature];
+      EXPECT_FALSE(failure.mesh.empty());
+    }
+    return kept;
+  }
+  std::string plan = scratch.write("plan.json", plan_text(400, R"(, "shrink_share": 0.03)"));
+  std::string out = scratch / "out", undisturbed = scratch / "undisturbed", library;
+  std::string text = scratch / "text";
+};
+
+TEST_F(Interrupted, KilledAtAnyMomentItComesToTheSame) {
+  library = plugin("always_free");
+  const auto reference = run(undisturbed);
+  ASSERT_EQ(reference.exit_code, 1) << reference.out << reference.err;
+  int killed = 0;
+  for (const int milliseconds : {5, 40, 90, 150, 230, 60, 310, 20}) {
+    Started started(words(out), text);
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    started.send(SIGKILL);
+    killed += WIFSIGNALED(started.end());
+  }
+  EXPECT_GE(killed, 4);
+  const auto last = run(out);
+  EXPECT_EQ(last.exit_code, 1) << last.out << last.err;
+  EXPECT_EQ(trials_of(out), trials_of(undisturbed));
+  EXPECT_EQ(signatures_of(out), signatures_of(undisturbed));
+}
+
+// ASSAY_KILLS=50 for the long form. A run that comes to its end before it is killed is compared,
+// and another is begun in an empty folder: all kills hit a run at work.
+TEST_F(Interrupted, KilledAtRandomMomentsNothingReportedIsLost) {
+  const char* asked = std::getenv("ASSAY_KILLS");
+  const int kills = asked ? std::atoi(asked) : 6;
+  const char* seed = std::getenv("ASSAY_SEED");
+  properties::Random random(seed ? std::strtoull(seed, nullptr, 10) : 1, 0);
+  library = plugin("always_free");
+  plan = scratch.write("plan.json", plan_text(360, R"(, "shrink_share": 0.03)"));
+  const auto begin = std::chrono::steady_clock::now();
+  const auto reference = run(undisturbed);
+  const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
+  ASSERT_EQ(reference.exit_code, 1) << reference.out << reference.err;
+  const auto expected = trials_of(undisturbed);
+  const auto expect_all = [&] {
+    EXPECT_EQ(trials_of(out), expected);
+    EXPECT_EQ(signatures_of(out), signatures_of(undisturbed));
+    EXPECT_EQ(failures_of(out), failures_of(undisturbed));
+  };
+  std::vector<std::string> reported;
+  int killed = 0, ended = 0;
+  std::size_t between = 0, after_trials = 0;
+  while (killed < kills) {
+    ASSERT_LT(ended, 20 * kills) << "hardly ever at work when killed";
+    Started started(words(out), text);
+    constexpr double longest_share = 0.3;
+    std::this_thread::sleep_for(longest_share * random.unit() * whole);
+    started.send(SIGKILL);
+    const int status = started.end();
+    if (!WIFSIGNALED(status)) {
+      EXPECT_EQ(WEXITSTATUS(status), 1) << read_text(text);
+      expect_all();
+      std::filesystem::remove_all(out);
+      reported.clear();
+      ++ended;
+      continue;
+    }
+    ++killed;
+    // A run killed before its store was bound has reported nothing.
+    std::string problem;
+    if (!std::filesystem::exists(out + "/shard-1-of-1.sqlite")) continue;
+    if (!properties::Store::read(out + "/shard-1-of-1.sqlite", problem)) continue;
+    const auto now = trials_of(out);
+    between += !now.empty() && now.size() < expected.size() ? 1 : 0;
+    after_trials += now.size() == expected.size() ? 1 : 0;
+    EXPECT_TRUE(std::includes(now.begin(), now.end(), reported.begin(), reported.end())) << killed;
+    reported = now;
+  }
+  std::printf(
+      "%d kills: %zu among the trials, %zu after them; %d runs came to their end between; seed %s, "
+      "undisturbed %.1f s\n",
+      killed, between, after_trials, ended, seed ? seed : "1", whole.count());
+  const auto last = run(out);
+  EXPECT_EQ(last.exit_code, 1) << last.out << last.err;
+  expect_all();
+}
+
+TEST_F(Interrupted, CtrlCEndsItWithALineAndIsNoCrash) {
+  plan = scratch.write("plan.json", plan_text(4000));
+  for (const int signal : {SIGINT, SIGTERM}) {
+    // New ones: the second run starts with those of the first.
+    const std::size_t before = std::filesystem::exists(out) ? trials_of(out).size() : 0;
+    Started started(words(out), text);
+    wait_for_trials(out, before + 20);
+    started.send(signal);
+    const int status = started.end();
+    ASSERT_TRUE(WIFEXITED(status)) << read_text(text);
+    EXPECT_EQ(WEXITSTATUS(status), 3) << read_text(text);
+    EXPECT_TRUE(contains(read_text(text), "interrupted: what was judged is stored in " + out +
+                                              "; run the same again to go on\n"))
+        << read_text(text);
+  }
+  const auto trials = trials_of(out);
+  EXPECT_GE(trials.size(), 20u);
+  EXPECT_LT(trials.size(), 8000u);
+  for (const auto& line : trials) EXPECT_TRUE(contains(line, " HHHHHHHHH ")) << line;
+  EXPECT_TRUE(signatures_of(out).empty());
+}
+
+TEST_F(Interrupted, ASecondRunInTheSameFolderIsRefused) {
+  plan = scratch.write("plan.json", plan_text(4000));
+  Started started(words(out), text);
+  wait_for_trials(out, 1);
+  expect_refused(run(out), "another run is writing it");
+  EXPECT_EQ(run_assay("list failures " + out).out, "no failures\n");
+  started.send(SIGKILL);
+  started.end();
+  // The dead one does not lock.
+  const auto next = run_assay("run --campaign " + plan + " --time 0.5 --out " + out);
+  EXPECT_EQ(next.exit_code, 3) << next.out << next.err;
+}
+
+TEST_F(Interrupted, ShrinkingLeavesTheBestSoFar) {
+  library = plugin("always_free");
+  plan = scratch.write("plan.json", plan_text(24, R"(, "shrink_share": 0)"));
+  const auto whole = run(out);
+  ASSERT_EQ(whole.exit_code, 1) << whole.out << whole.err;
+  const auto lines = replay_lines(whole.out);
+  ASSERT_FALSE(lines.empty());
+  const std::string file = lines[0].substr(7, lines[0].find(' ', 7) - 7);
+  ASSERT_TRUE(contains(file, "-original.json")) << lines[0];
+  const std::string small = scratch / "small.json";
+  for (const int signal : {SIGINT, SIGKILL}) {
+    std::filesystem::remove(small);
+    Started started({"shrink", file, "--out", small, "--detector", library}, text);
+    for (int i = 0; i < 3000 && !std::filesystem::exists(small); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    started.send(signal);
+    const int status = started.end();
+    EXPECT_EQ(run_assay("replay " + small + " --detector " + library).exit_code, 1);
+    // It may have been done already.
+    if (signal == SIGINT && WIFEXITED(status) && WEXITSTATUS(status) == 3) {
+      EXPECT_TRUE(contains(read_text(text), "interrupted: the smallest so far is in " + small))
+          << read_text(text);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace assay::tests
