@@ -1,52 +1,29 @@
-// The command line. Options are checked in verb_options_*.cpp; the verbs are in *_command.cpp.
+// The command line: finds the verb, and turns what goes wrong into one line and an exit code.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
-#include <functional>
 #include <iostream>
-#include <memory>
 #include <sstream>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/exit_code.h"
-#include "reports/verbs/commands.h"
-#include "reports/verbs/verb_options.h"
+#include "reports/terminal/version.h"
+#include "reports/verbs/verbs.h"
 
 namespace {
 
 using namespace assay;
 
-// Each verb with its request, which holds what was said on the command line.
-class Verbs {
- public:
-  explicit Verbs(CLI::App& app) : app_(app) {}
-
-  template <class Request>
-  void add(void (*add_options)(CLI::App&, Request&), int (*run)(const Request&)) {
-    auto request = std::make_shared<Request>();
-    if constexpr (requires { request->jobs; }) {
-      request->jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    }
-    add_options(app_, *request);
-    runs_.push_back([request, run] { return run(*request); });
-  }
-
-  int run_chosen() const {
-    const auto all = app_.get_subcommands({});
-    const auto chosen =
-        std::find_if(all.begin(), all.end(), [](auto* verb) { return verb->parsed(); });
-    return runs_[static_cast<std::size_t>(chosen - all.begin())]();
-  }
-
- private:
-  CLI::App& app_;
-  std::vector<std::function<int()>> runs_;  // in the order of the verbs
-};
+// In the order of `assay --help`.
+constexpr reports::Action (*verbs[])(CLI::App&) = {
+    reports::add_check,  reports::add_check_queries, reports::add_scene,  reports::add_self_test,
+    reports::add_run,    reports::add_replay,        reports::add_shrink, reports::add_bench,
+    reports::add_report, reports::add_merge,         reports::add_verify, reports::add_list,
+    reports::add_certify};
 
 int run(int argc, char** argv) {
   CLI::App app(
@@ -54,20 +31,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", [] { return reports::version_text(); });
   app.require_subcommand(1);
 
-  Verbs verbs(app);
-  verbs.add(reports::add_check, reports::run_check);
-  verbs.add(reports::add_check_queries, reports::run_check_queries);
-  verbs.add(reports::add_scene, reports::run_scene);
-  verbs.add(reports::add_self_test, reports::run_self_test);
-  verbs.add(reports::add_run, reports::run_campaign);
-  verbs.add(reports::add_replay, reports::run_replay);
-  verbs.add(reports::add_shrink, reports::run_shrink);
-  verbs.add(reports::add_bench, reports::run_bench);
-  verbs.add(reports::add_report, reports::run_report);
-  verbs.add(reports::add_merge, reports::run_merge);
-  verbs.add(reports::add_verify, reports::run_verify);
-  verbs.add(reports::add_list, reports::run_list);
-  verbs.add(reports::add_certify, reports::run_certify);
+  std::vector<reports::Action> actions;
+  for (const auto add_verb : verbs) actions.push_back(add_verb(app));
 
   try {
     app.parse(argc, argv);
@@ -86,7 +51,10 @@ int run(int argc, char** argv) {
                                 : fmt::format("unknown verb '{}'", first)) +
                            " (assay --help lists verbs and options)");
   }
-  return verbs.run_chosen();
+  const auto all = app.get_subcommands({});
+  const auto chosen =
+      std::find_if(all.begin(), all.end(), [](auto* verb) { return verb->parsed(); });
+  return actions[static_cast<std::size_t>(chosen - all.begin())]();
 }
 
 }  // namespace

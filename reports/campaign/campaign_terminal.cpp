@@ -6,13 +6,9 @@
 #include "properties/campaign/gates/findings.h"
 #include "properties/campaign/phases/phases.h"
 #include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/power_proof.h"
-#include "properties/worker/worker_process.h"
-#include "reports/campaign/detector_choice.h"
 #include "reports/campaign/failure_text.h"
-#include "reports/campaign/plugin_text.h"
+#include "reports/check/plugin_text.h"
 #include "reports/terminal/exit_code.h"
-#include "reports/terminal/interruption.h"
 #include "reports/terminal/plain_progress.h"
 
 namespace assay::reports {
@@ -79,7 +75,7 @@ class CampaignTerminal : public properties::CampaignObserver {
         write_failures(store_, out_, request_.plugin ? request_.plugin->string() : "");
     fmt::print("{}", failures.text);
     std::fflush(stdout);
-    problem_ = failures.problem;
+    written_ = failures.written;
   }
 
   void on_hunt(const properties::HuntProgress& state) override {
@@ -99,8 +95,8 @@ class CampaignTerminal : public properties::CampaignObserver {
     progress_->show(fmt::format("{}: every motion of a tetrahedron on a small grid", world));
   }
 
-  // Why a failing mesh could not be written.
-  const std::optional<std::string>& problem() const { return problem_; }
+  // Whether every failing mesh could be written.
+  const Expected<void>& written() const { return written_; }
 
  private:
   void announce() const {
@@ -139,41 +135,17 @@ class CampaignTerminal : public properties::CampaignObserver {
   const std::string out_;
   Clock::time_point phase_began_;
   std::optional<PlainProgress> progress_;
-  std::optional<std::string> problem_;
+  Expected<void> written_ = outcome::success();
 };
 
 }  // namespace
 
-std::optional<std::string> ask_for_campaign(const CampaignWords& words,
-                                            properties::CampaignRequest& request) {
-  end_when_interrupted(fmt::format("interrupted: what was judged is stored in {}; run the same "
-                                   "again to go on",
-                                   words.out),
-                       exit_undecided);
-  auto plan = properties::find_plan(words.campaign);
-  if (!plan) return plan.error().message;
-  request.plan = std::move(plan.value());
-  if (words.time_limit) request.plan.seconds = *words.time_limit;
-  request.seed = words.seed;
-  request.jobs = words.jobs;
-  request.worker = properties::worker_program();
-  // Before the first code of a plug-in runs.
-  if (!words.power.empty()) {
-    if (auto problem = properties::take_power(words.power, words.out, request)) return problem;
-  }
-  if (auto problem = choose_detector(words.detector, request)) return problem;
-  std::error_code error;
-  std::filesystem::create_directories(words.out, error);
-  if (error) return fmt::format("{}: cannot be made: {}", words.out, error.message());
-  return std::nullopt;
-}
-
-std::optional<std::string> run_on_terminal(const properties::CampaignRequest& request,
-                                           properties::Store& store, const std::string& out) {
+Expected<void> run_on_terminal(const properties::CampaignRequest& request, properties::Store& store,
+                               const std::string& out) {
   note_library(store, request);
   CampaignTerminal terminal(request, store, out);
   properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal);
-  return terminal.problem();
+  return terminal.written();
 }
 
 }  // namespace assay::reports

@@ -41,7 +41,8 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    report.problem = fmt::format("{}: cannot be made: {}", folder.string(), error.message());
+    report.written =
+        Refusal(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
     return report;
   }
   SceneMaker scenes(plugin);
@@ -53,7 +54,7 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
           std::pair(out / failure_file(failure, true), failure.smallest)}) {
       if (text.empty()) continue;
       if (const auto written = corpus::write_file_atomically(path, text); !written) {
-        report.problem = written.error().message;
+        report.written = Refusal(written.error());
         return report;
       }
     }
@@ -63,9 +64,9 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
     const auto shown =
         corpus::parse_case(is_shrunk ? failure.smallest : failure.mesh, "stored failure");
     if (shown) {
-      report.problem = scenes.write_picture((out / shown_file).string(), shown.value(),
+      report.written = scenes.write_picture((out / shown_file).string(), shown.value(),
                                             failure.configuration, failure.signature);
-      if (report.problem) return report;
+      if (!report.written) return report;
     }
     const auto count = met.find(failure.signature);
     report.text += fmt::format(

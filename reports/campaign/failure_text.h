@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "properties/campaign/stored/store.h"
+#include "reports/terminal/complaint.h"
 
 namespace assay::reports {
 
@@ -14,8 +14,8 @@ std::string replay_line(const std::filesystem::path& out, const std::filesystem:
                         const std::string& plugin);
 
 struct FailureReport {
-  std::string text;                    // a paragraph for each signature; empty without failures
-  std::optional<std::string> problem;  // what could not be written
+  std::string text;  // a paragraph for each signature; empty without failures
+  Expected<void> written = outcome::success();
 };
 
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,

@@ -121,12 +121,11 @@ corpus::Expected<corpus::Case> case_of_scene(std::string_view name) {
 
 }  // namespace
 
-std::optional<std::string> check_corpus(const properties::CampaignRequest& request,
-                                        const std::filesystem::path& corpus,
-                                        const OnCorpusRow& on_row,
-                                        const OnCorpusFailure& on_failure) {
+Expected<void> check_corpus(const properties::CampaignRequest& request,
+                            const std::filesystem::path& corpus, const OnCorpusRow& on_row,
+                            const OnCorpusFailure& on_failure) {
   const auto cases = curated(corpus);
-  if (!cases) return cases.error().message;
+  if (!cases) return Refusal(cases.error());
   if (request.detector.built_in) {
     for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
                                Culling::normal_cone, Culling::bvh})
@@ -141,12 +140,12 @@ std::optional<std::string> check_corpus(const properties::CampaignRequest& reque
   }
   for (const auto& scene : corpus::scenes()) {
     const auto c = case_of_scene(scene.name);
-    if (!c) return c.error().message;
+    if (!c) return Refusal(c.error());
     JudgedRows judged(request, std::string(scene.name), on_failure);
     judged.add(c.value());
     for (const auto& row : judged.rows()) on_row(row);
   }
-  return std::nullopt;
+  return outcome::success();
 }
 
 std::string corpus_heading() {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "properties/campaign/request.h"
 #include "properties/campaign/stored/evidence.h"
+#include "reports/terminal/complaint.h"
 
 namespace assay::reports {
 
@@ -19,11 +19,10 @@ using OnCorpusRow = std::function<void(const properties::CorpusRow&)>;
 // Expected facts that the built-in detector fails are told in the row alone.
 using OnCorpusFailure = std::function<void(const properties::StoredFailure&)>;
 
-// A line for the user when the corpus cannot be read. corpus: folder of the curated cases.
-std::optional<std::string> check_corpus(const properties::CampaignRequest& request,
-                                        const std::filesystem::path& corpus,
-                                        const OnCorpusRow& on_row,
-                                        const OnCorpusFailure& on_failure);
+// Refused when the corpus cannot be read. corpus: folder of the curated cases.
+Expected<void> check_corpus(const properties::CampaignRequest& request,
+                            const std::filesystem::path& corpus, const OnCorpusRow& on_row,
+                            const OnCorpusFailure& on_failure);
 
 // A row as the terminal shows it, with a line for each case that fails, and what stands above.
 std::string corpus_heading();

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/certificate/junit.h"
-#include "reports/steps/json_output.h"
+#include "reports/terminal/text_file.h"
 
 namespace assay::reports {
 namespace {
@@ -102,11 +102,10 @@ std::string summary_text(const Json& p) {
   return out;
 }
 
-std::optional<std::string> write_for_ci(const Json& predicate, const std::filesystem::path& out,
-                                        const std::string& part) {
-  if (auto wrong =
-          write_text_file((out / ("junit" + part + ".xml")).string(), junit_text(predicate)))
-    return wrong;
+Expected<void> write_for_ci(const Json& predicate, const std::filesystem::path& out,
+                            const std::string& part) {
+  auto written = write_text_file((out / ("junit" + part + ".xml")).string(), junit_text(predicate));
+  if (!written) return written;
   return write_text_file((out / ("summary" + part + ".md")).string(), summary_text(predicate));
 }
 

@@ -3,8 +3,9 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
+
+#include "reports/terminal/complaint.h"
 
 namespace assay::reports {
 
@@ -15,10 +16,9 @@ std::string summary_text(const nlohmann::ordered_json& predicate);
 // Of one of `failures`: "met 3 times", or that no trial showed it.
 std::string met_text(const nlohmann::ordered_json& failure);
 
-// OUT/junit.xml and OUT/summary.md, for CI systems; `part` stands behind their names. A line for
-// the user where one cannot be written.
-std::optional<std::string> write_for_ci(const nlohmann::ordered_json& predicate,
-                                        const std::filesystem::path& out,
-                                        const std::string& part = "");
+// OUT/junit.xml and OUT/summary.md, for CI systems; `part` stands behind their names. Refused
+// where one cannot be written.
+Expected<void> write_for_ci(const nlohmann::ordered_json& predicate,
+                            const std::filesystem::path& out, const std::string& part = "");
 
 }  // namespace assay::reports

@@ -11,12 +11,12 @@ namespace {
 
 using detector::StepResult;
 
-detector::Options options_of(const CheckRequest& request, const CheckInput& input) {
+detector::Options options_of(const BuiltInChoice& choice, const CheckInput& input) {
   detector::Options options = properties::options_of(input.c);
-  options.culling = request.culling.value_or(options.culling);
-  options.start = request.start.value_or(options.start);
-  options.pairs = request.pairs.value_or(options.pairs);
-  options.arithmetic = request.arithmetic.value_or(options.arithmetic);
+  options.culling = choice.culling.value_or(options.culling);
+  options.start = choice.start.value_or(options.start);
+  options.pairs = choice.pairs.value_or(options.pairs);
+  options.arithmetic = choice.arithmetic.value_or(options.arithmetic);
   return options;
 }
 
@@ -73,11 +73,13 @@ class BuiltIn : public Subject {
 
 }  // namespace
 
-MadeSubject make_built_in(const CheckRequest& request, const CheckInput& input, Limits& limits) {
-  const detector::Options options = options_of(request, input);
+Expected<std::unique_ptr<Subject>> make_built_in(const BuiltInChoice& choice,
+                                                 const CheckInput& input, Limits& limits) {
+  const detector::Options options = options_of(choice, input);
   auto made = properties::CasePlayer::make(input.c, options);
-  if (!made) return fmt::format("{}: {}", request.files[0], made.error().message);
-  return std::make_unique<BuiltIn>(std::move(made.value()), options, input.c, limits);
+  if (!made) return Refusal(fmt::format("{}: {}", input.file, made.error().message));
+  return std::unique_ptr<Subject>(
+      std::make_unique<BuiltIn>(std::move(made.value()), options, input.c, limits));
 }
 
 }  // namespace assay::reports

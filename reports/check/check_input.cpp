@@ -8,13 +8,15 @@ namespace assay::reports {
 
 corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files) {
   CheckInput input;
+  input.file = files[0];
   if (files.size() == 1 && std::filesystem::path(files[0]).extension() == ".json") {
     auto c = corpus::read_case(files[0]);
     if (!c) return c.error();
     if (auto wrong = properties::wrong_option(c.value())) {
       return corpus::problem_in(corpus::FileProblem::wrong_type, files[0], *wrong);
     }
-    input = {std::move(c.value()), true};
+    input.c = std::move(c.value());
+    input.is_case_file = true;
   } else {
     const std::vector<std::filesystem::path> paths(files.begin(), files.end());
     auto sequence = corpus::read_sequence(paths);

@@ -10,7 +10,8 @@
 namespace assay::reports {
 
 struct CheckInput {
-  corpus::Case c;  // of frames: one without a view, options or expected facts
+  corpus::Case c;    // of frames: one without a view, options or expected facts
+  std::string file;  // the first
   bool is_case_file = false;
 };
 

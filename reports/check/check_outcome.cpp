@@ -10,7 +10,7 @@ namespace assay::reports {
 
 using properties::Outcome;
 
-std::string CheckOutcome::summary(const CheckRequest& request) const {
+std::string CheckOutcome::summary() const {
   std::string text = undecided || !ended.empty() ? "no collision found so far" : "no collision";
   if (collision_step) {
     text = fmt::format("collision at t = {} of step {}", time_text(collision_time),
@@ -26,7 +26,7 @@ std::string CheckOutcome::summary(const CheckRequest& request) const {
     text += fmt::format("; undecided: {}\n", !ended.empty()          ? ended
                                              : limit_reached.empty() ? "a limit reached"
                                                                      : limit_reached + " reached");
-  } else if (!request.use_oracle) {
+  } else if (!is_judged) {
     text += "; not judged\n";
   } else if (!judged_by_claims) {
     text += "; detector and oracle agree\n";
@@ -40,18 +40,18 @@ std::string CheckOutcome::summary(const CheckRequest& request) const {
   return text;
 }
 
-const char* CheckOutcome::word(const CheckRequest& request) const {
+const char* CheckOutcome::word() const {
   if (unsound) return "unsound";
   if (defect) return name_of(Outcome::defect);
-  if (!request.use_oracle) return "not judged";
+  if (!is_judged) return "not judged";
   return name_of(undecided ? Outcome::undecided : Outcome::holds);
 }
 
-int CheckOutcome::exit_code(const CheckRequest& request) const {
+int CheckOutcome::exit_code(bool fail_on_collision) const {
   if (unsound) return exit_unsound;
   if (defect) return exit_defect;
   if (undecided) return exit_undecided;
-  if (request.fail_on_collision && collision_step) return exit_collision;
+  if (fail_on_collision && collision_step) return exit_collision;
   return exit_holds;
 }
 

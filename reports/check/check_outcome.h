@@ -5,11 +5,11 @@
 #include <string>
 
 #include "detector/mesh/step_types.h"
-#include "reports/verbs/commands.h"
 
 namespace assay::reports {
 
 struct CheckOutcome {
+  bool is_judged = true;  // by the oracle
   bool defect = false, undecided = false;
   bool unsound = false;       // a second opinion contradicts the oracle
   bool facts_differ = false;  // of a case file
@@ -21,9 +21,9 @@ struct CheckOutcome {
   detector::TimeEnclosure collision_time;
 
   // One line or two, each with its end.
-  std::string summary(const CheckRequest& request) const;
-  const char* word(const CheckRequest& request) const;
-  int exit_code(const CheckRequest& request) const;
+  std::string summary() const;
+  const char* word() const;
+  int exit_code(bool fail_on_collision) const;
 };
 
 }  // namespace assay::reports

@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "properties/worker/worker_process.h"
-#include "reports/campaign/plugin_text.h"
+#include "reports/check/plugin_text.h"
 #include "reports/check/subject.h"
 
 namespace assay::reports {
@@ -12,9 +10,6 @@ namespace {
 
 using detector::StepResult;
 using properties::Claim;
-
-// A week: nobody waits longer for one mesh.
-constexpr double no_limit_seconds = 7 * 24 * 3600.0;
 
 class Plugin : public Subject {
  public:
@@ -90,20 +85,21 @@ class Plugin : public Subject {
 
 }  // namespace
 
-MadeSubject make_plugin_subject(const CheckRequest& request, CheckInput& input) {
-  properties::WorkerProcess worker(
-      properties::worker_program(), request.plugin_library,
-      {request.time_limit.value_or(no_limit_seconds), request.memory_limit.value_or(0)});
+Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& library,
+                                                       const properties::WorkerLimits& limits,
+                                                       CheckInput& input) {
+  properties::WorkerProcess worker(properties::worker_program(), library, limits);
   auto description = worker.describe();
-  if (!description) return description.error().message;
+  if (!description) return Refusal(description.error());
   auto seen = properties::contracted(input.c, description.value().contract);
   if (!seen) {
-    return fmt::format("{}: a coordinate is beyond {}, which {} takes", request.files[0],
-                       name_of(description.value().contract.coordinates), description.value().name);
+    return Refusal(fmt::format("{}: a coordinate is beyond {}, which {} takes", input.file,
+                               name_of(description.value().contract.coordinates),
+                               description.value().name));
   }
   input.c = std::move(*seen);
-  return std::make_unique<Plugin>(std::move(worker), std::move(description.value()),
-                                  request.plugin_library, input.c);
+  return std::unique_ptr<Subject>(std::make_unique<Plugin>(
+      std::move(worker), std::move(description.value()), library, input.c));
 }
 
 }  // namespace assay::reports

@@ -3,12 +3,14 @@
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
-#include <variant>
+#include <optional>
 
+#include "detector/options.h"
 #include "properties/judging/run_verdict.h"
+#include "properties/worker/worker_process.h"
 #include "reports/check/check_input.h"
+#include "reports/terminal/complaint.h"
 #include "reports/terminal/limits.h"
-#include "reports/verbs/commands.h"
 
 namespace assay::reports {
 
@@ -42,11 +44,20 @@ class Subject {
   virtual std::string stage_that_lost(std::size_t step, detector::TrianglePair pair) const = 0;
 };
 
-using MadeSubject = std::variant<std::unique_ptr<Subject>, std::string>;  // or a line for the user
+// What the user says of the built-in detector; the rest is as the case states it, else the default.
+struct BuiltInChoice {
+  std::optional<detector::Culling> culling;
+  std::optional<detector::Start> start;
+  std::optional<detector::Pairs> pairs;
+  std::optional<detector::Arithmetic> arithmetic;
+};
 
 // `input` outlives the subject; its coordinates are rounded where the plug-in's contract says so.
-// A plug-in's worker ends what takes longer or more memory than the request allows.
-MadeSubject make_built_in(const CheckRequest& request, const CheckInput& input, Limits& limits);
-MadeSubject make_plugin_subject(const CheckRequest& request, CheckInput& input);
+// A plug-in's worker ends what takes longer or more memory than `limits`.
+Expected<std::unique_ptr<Subject>> make_built_in(const BuiltInChoice& choice,
+                                                 const CheckInput& input, Limits& limits);
+Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& library,
+                                                       const properties::WorkerLimits& limits,
+                                                       CheckInput& input);
 
 }  // namespace assay::reports

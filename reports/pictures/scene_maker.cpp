@@ -1,9 +1,9 @@
 #include "reports/pictures/scene_maker.h"
 
 #include "properties/judging/case_check.h"
-#include "reports/campaign/detector_choice.h"
+#include "reports/check/detector_choice.h"
 #include "reports/pictures/mesh_svg.h"
-#include "reports/steps/json_output.h"
+#include "reports/terminal/text_file.h"
 
 namespace assay::reports {
 namespace {
@@ -21,8 +21,8 @@ SceneMaker::SceneMaker(const std::optional<std::string>& library)
   }
   properties::CampaignRequest request;
   request.worker = properties::worker_program();
-  if (auto problem = choose_detector(*library, request)) {
-    absent_ = *problem;
+  if (auto chosen = choose_detector(*library, request); !chosen) {
+    absent_ = chosen.error().line;
     return;
   }
   detector_ = request.detector;
@@ -40,13 +40,12 @@ std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,
   return scene;
 }
 
-std::optional<std::string> SceneMaker::write_picture(const std::string& case_file,
-                                                     const corpus::Case& c,
-                                                     const std::string& configuration,
-                                                     const std::string& title) {
-  if (c.triangles.rows() > most_shown_triangles) return std::nullopt;
+Expected<void> SceneMaker::write_picture(const std::string& case_file, const corpus::Case& c,
+                                         const std::string& configuration,
+                                         const std::string& title) {
+  if (c.triangles.rows() > most_shown_triangles) return outcome::success();
   const auto scene = scene_of(c, configuration);
-  if (!scene) return std::nullopt;
+  if (!scene) return outcome::success();
   return write_text_file(picture_file(case_file), mesh_svg(*scene, title));
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "reports/pictures/case_scene.h"
+#include "reports/terminal/complaint.h"
 
 namespace assay::reports {
 
@@ -18,11 +19,10 @@ class SceneMaker {
   // coordinate is beyond the detector's contract.
   std::optional<CaseScene> scene_of(const corpus::Case& c, const std::string& configuration);
 
-  // One line for the user when the picture of a case could not be written beside its file, as
-  // .svg in place of .json.
-  std::optional<std::string> write_picture(const std::string& case_file, const corpus::Case& c,
-                                           const std::string& configuration,
-                                           const std::string& title);
+  // Writes the picture of a case beside its file, as .svg in place of .json; none of a mesh that is
+  // too large for one, or that has no scene.
+  Expected<void> write_picture(const std::string& case_file, const corpus::Case& c,
+                               const std::string& configuration, const std::string& title);
 
  private:
   properties::DetectorUnderTest detector_;

@@ -116,22 +116,23 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
 
 }  // namespace
 
-std::optional<std::string> export_case(const std::filesystem::path& folder, const corpus::Case& c,
-                                       const properties::DetectorUnderTest& detector,
-                                       const std::vector<oracle::StepJudgement>& truth) {
+Expected<void> export_case(const std::filesystem::path& folder, const corpus::Case& c,
+                           const properties::DetectorUnderTest& detector,
+                           const std::vector<oracle::StepJudgement>& truth) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return fmt::format("{}: cannot be made: {}", folder.string(), error.message());
-  const auto write = [&](const std::string& name,
-                         const std::string& text) -> std::optional<std::string> {
+  if (error)
+    return Refusal(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  const auto write = [&](const std::string& name, const std::string& text) -> Expected<void> {
     const auto written = corpus::write_file_atomically(folder / name, text);
-    return written ? std::nullopt : std::optional(written.error().message);
+    if (!written) return Refusal(written.error());
+    return outcome::success();
   };
   for (std::size_t f = 0; f < c.frames.size(); ++f) {
-    if (auto problem = write(fmt::format("frame_{:04}.obj", f), obj_text(c.frames[f], c.triangles)))
-      return problem;
+    const auto name = fmt::format("frame_{:04}.obj", f);
+    if (auto written = write(name, obj_text(c.frames[f], c.triangles)); !written) return written;
   }
-  if (auto problem = write("case.json", corpus::case_text(c))) return problem;
+  if (auto written = write("case.json", corpus::case_text(c)); !written) return written;
   const detector::Options options =
       detector.built_in ? detector.configurations.front().options : detector::Options{};
   return write("case_test.cpp", test_text(c, options, truth));

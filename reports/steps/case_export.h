@@ -2,20 +2,20 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "properties/campaign/phases/trial.h"
+#include "reports/terminal/complaint.h"
 
 namespace assay::reports {
 
 // Writes FOLDER/frame_0000.obj ... (shortest decimals that read back to the same doubles),
 // FOLDER/case.json and FOLDER/case_test.cpp, a test of the built-in detector against what the
-// oracle found; it needs GoogleTest and the library assay::detector. One line for the user when
-// that fails.
-std::optional<std::string> export_case(const std::filesystem::path& folder, const corpus::Case& c,
-                                       const properties::DetectorUnderTest& detector,
-                                       const std::vector<oracle::StepJudgement>& truth);
+// oracle found; it needs GoogleTest and the library assay::detector. Refused where a file cannot
+// be written.
+Expected<void> export_case(const std::filesystem::path& folder, const corpus::Case& c,
+                           const properties::DetectorUnderTest& detector,
+                           const std::vector<oracle::StepJudgement>& truth);
 
 }  // namespace assay::reports

@@ -6,12 +6,19 @@
 #include "reports/bench/suites.h"
 #include "reports/pictures/gnuplot.h"
 #include "reports/pictures/pictures.h"
-#include "reports/steps/json_output.h"
 #include "reports/terminal/complaint.h"
-#include "reports/verbs/commands.h"
+#include "reports/terminal/text_file.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
+
+struct BenchRequest {
+  std::string suite;                          // one of `suites`
+  std::string data;                           // folder of the public data
+  std::string json_file, csv_file, svg_file;  // empty: none
+};
 
 struct Suite {
   std::string_view name;
@@ -43,14 +50,10 @@ std::string no_picture(const BenchRequest& request, const Suite& suite) {
   return cannot_draw();
 }
 
-}  // namespace
-
-bool is_bench_suite(std::string_view name) { return suite_named(name) != nullptr; }
-
 int run_bench(const BenchRequest& request) try {
   const Suite& suite = *suite_named(request.suite);
   for (const auto* file : {&request.json_file, &request.csv_file, &request.svg_file}) {
-    if (auto problem = cannot_write(*file, {})) return refuse(*problem);
+    if (auto may = may_write(*file, {}); !may) return refuse(may.error());
   }
   if (const auto problem = no_picture(request, suite); !problem.empty()) return refuse(problem);
   BenchReport report;
@@ -60,25 +63,47 @@ int run_bench(const BenchRequest& request) try {
   }
   fmt::print("suite {}, data {}\n{}", report.suite, request.data, text_of(report));
   const auto write = [](const std::string& file, const std::string& text) {
-    const auto problem = write_text_file(file, text);
-    if (!problem) fmt::print("wrote {}\n", file);
-    return problem;
+    auto written = write_text_file(file, text);
+    if (written) fmt::print("wrote {}\n", file);
+    return written;
   };
   if (!request.json_file.empty()) {
     const auto text = to_json(report).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (auto problem = write(request.json_file, text + "\n")) return refuse(*problem);
+    if (auto done = write(request.json_file, text + "\n"); !done) return refuse(done.error());
   }
   if (!request.csv_file.empty()) {
-    if (auto problem = write(request.csv_file, csv_of(report))) return refuse(*problem);
+    if (auto done = write(request.csv_file, csv_of(report)); !done) return refuse(done.error());
   }
   if (!request.svg_file.empty()) {
     const auto drawing = draw(suite.picture(report));
     if (!drawing.problem.empty()) return refuse(drawing.problem);
-    if (auto problem = write(request.svg_file, drawing.svg)) return refuse(*problem);
+    if (auto done = write(request.svg_file, drawing.svg); !done) return refuse(done.error());
   }
   return report.wrong_answers.empty() ? exit_holds : exit_defect;
 } catch (const UnusableData& problem) {
   return refuse(problem.what());
 }
+
+void add_options(CLI::App& app, BenchRequest& request) {
+  const char* data = std::getenv("ASSAY_DATA");
+  request.data = data && *data ? data : "../shared/data";
+  auto* verb = app.add_subcommand("bench", "Speeds and memory beside what is wanted");
+  verb->add_option("--suite", request.suite, "What to measure")
+      ->check(
+          one_of("elementary, view, growth, claims, stability, speed-error, harness", suite_named))
+      ->required();
+  verb->add_option("--data", request.data,
+                   "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
+                   "what is not there say so");
+  verb->add_option("--json", request.json_file, "Write all figures here (assay-bench/1)");
+  verb->add_option("--csv", request.csv_file, "Write the raw samples here");
+  verb->add_option(
+      "--svg", request.svg_file,
+      "Draw the suite's picture here (growth, claims, stability, speed-error; needs gnuplot)");
+}
+
+}  // namespace
+
+Action add_bench(CLI::App& app) { return make_verb(app, add_options, run_bench); }
 
 }  // namespace assay::reports

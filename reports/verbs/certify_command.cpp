@@ -9,6 +9,7 @@
 #include "corpus/digest.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/run_folder.h"
+#include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
@@ -18,11 +19,12 @@
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/certificate/waivers.h"
-#include "reports/steps/json_output.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/shell_word.h"
-#include "reports/verbs/commands.h"
-#include "reports/version.h"
+#include "reports/terminal/text_file.h"
+#include "reports/terminal/version.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
@@ -45,25 +47,25 @@ bool holds_shards(const std::filesystem::path& out) {
 
 class Certification {
  public:
-  Certification(const CertifyRequest& command, const properties::CampaignRequest& request,
+  Certification(const CampaignWords& words, const properties::CampaignRequest& request,
                 Store checks)
-      : command_(command),
+      : words_(words),
         request_(request),
-        out_(command.out),
+        out_(words.out),
         checks_(std::move(checks)),
         begin_(Clock::now()) {}
 
   // Exit code of the verdict, or of what kept it from being reached.
   int run() {
-    if (const auto wrong = write_text_file(properties::campaign_file(out_).string(),
-                                           properties::plan_text(request_.plan) + "\n"))
-      return refuse(*wrong);
-    store_subject();
-    if (const auto wrong = store_waivers()) return refuse(*wrong);
-    if (const auto wrong = run_corpus()) return refuse(*wrong);
-    forget_corpus_failures();
-    if (const auto wrong = holds_shards(out_) ? take_shards() : run_trials()) return refuse(*wrong);
-    if (const auto wrong = show_corpus_failures()) return refuse(*wrong);
+    auto done = write_text_file(properties::campaign_file(out_).string(),
+                                properties::plan_text(request_.plan) + "\n");
+    if (done) store_subject();
+    if (done) done = store_waivers();
+    if (done) done = run_corpus();
+    if (done) forget_corpus_failures();
+    if (done) done = holds_shards(out_) ? take_shards() : run_trials();
+    if (done) done = show_corpus_failures();
+    if (!done) return refuse(done.error());
     run_self_test();
     if (request_.detector.built_in) run_speed();
     return issue();
@@ -74,7 +76,7 @@ class Certification {
     const auto commit = commit_text();
     keep(properties::Versions{ASSAY_VERSION, commit.empty() ? std::nullopt : std::optional(commit),
                               version_text()});
-    keep(properties::Paths{command_.out, command_.detector});
+    keep(properties::Paths{words_.out, words_.detector});
     const auto waivers = corpus::sha256_of_file(known_failures);
     keep(properties::InputDigests{corpus_digest(ASSAY_CORPUS_DIR),
                                   waivers ? std::optional(waivers.value()) : std::nullopt});
@@ -86,18 +88,18 @@ class Certification {
     checks_.set(to_row(evidence));
   }
 
-  std::optional<std::string> store_waivers() {
+  Expected<void> store_waivers() {
     const auto waivers = read_waivers(known_failures);
-    if (!waivers) return waivers.error().message;
+    if (!waivers) return Refusal(waivers.error());
     const auto today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
     drop(checks_, DroppedKind::waiver);
     for (const auto& waiver : waivers.value())
       keep(properties::StoredWaiver{waiver.signature, waiver.reason, waiver.link, waiver.expires,
                                     is_expired(waiver, today)});
-    return std::nullopt;
+    return outcome::success();
   }
 
-  std::optional<std::string> run_corpus() {
+  Expected<void> run_corpus() {
     fmt::print("{}", corpus_heading());
     drop(checks_, DroppedKind::corpus);
     const auto on_row = [&](const properties::CorpusRow& row) {
@@ -116,45 +118,45 @@ class Certification {
     checks_.keep_failures(signatures);
   }
 
-  std::optional<std::string> show_corpus_failures() {
-    if (corpus_failures_.empty()) return std::nullopt;
+  Expected<void> show_corpus_failures() {
+    if (corpus_failures_.empty()) return outcome::success();
     keep_corpus_failures(request_, corpus_failures_, signatures_of_trials(out_), checks_);
-    const auto shown = write_failures(checks_, out_, command_.detector);
+    const auto shown = write_failures(checks_, out_, words_.detector);
     fmt::print("{}", shown.text);
-    return shown.problem;
+    return shown.written;
   }
 
-  std::optional<std::string> run_trials() {
+  Expected<void> run_trials() {
     fmt::print("\n");
     std::string problem;
     auto store = Store::open(properties::store_file(out_, request_.shard),
                              properties::binding_of(request_), problem);
-    if (!store) return problem;
-    const auto wrong = run_on_terminal(request_, *store, command_.out);
+    if (!store) return Refusal(problem);
+    auto done = run_on_terminal(request_, *store, words_.out);
     store->seal();
-    return wrong;
+    return done;
   }
 
   // What `run` stored, or `merge`: read, and made whole files of.
-  std::optional<std::string> take_shards() {
+  Expected<void> take_shards() {
     std::string problem;
     for (const auto& file : stored_shards(out_, problem)) {
       auto bound = Store::read(file, problem);
-      if (!bound) return problem;
+      if (!bound) return Refusal(problem);
       const std::string binding = bound->binding();
       const auto difference = properties::difference_of(binding, properties::binding_of(request_));
       if (!difference.empty())
-        return fmt::format("{}: of another run: {}", file.string(), difference);
-      const auto failures = write_failures(*bound, out_, command_.detector);
-      if (failures.problem) return failures.problem;
+        return Refusal(fmt::format("{}: of another run: {}", file.string(), difference));
+      const auto failures = write_failures(*bound, out_, words_.detector);
+      if (!failures.written) return failures.written;
       // Nobody else may hold the file when it is sealed.
       bound.reset();
       auto store = Store::open(file, binding, problem);
-      if (!store) return problem;
+      if (!store) return Refusal(problem);
       store->seal();
       fmt::print("{}: {} trials\n", file.filename().string(), store->trial_count());
     }
-    return std::nullopt;
+    return outcome::success();
   }
 
   void run_self_test() {
@@ -193,9 +195,9 @@ class Certification {
     const auto findings = statement ? properties::read_findings(out_, problem) : std::nullopt;
     if (!findings) return refuse(problem);
     const auto certificate = properties::certificate_file(out_).string();
-    if (const auto wrong = write_text_file(certificate, statement_text(*statement)))
-      return refuse(*wrong);
-    if (const auto wrong = write_for_ci((*statement)["predicate"], out_)) return refuse(*wrong);
+    auto written = write_text_file(certificate, statement_text(*statement));
+    if (written) written = write_for_ci((*statement)["predicate"], out_);
+    if (!written) return refuse(written.error());
     const auto judgement = judge(*findings);
     fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nnext: assay verify {}\n",
                findings_text(*findings), gates_text(judgement), judgement.verdict, seconds,
@@ -203,7 +205,7 @@ class Certification {
     return judgement.exit_code;
   }
 
-  const CertifyRequest& command_;
+  const CampaignWords& words_;
   const properties::CampaignRequest& request_;
   const std::filesystem::path out_;
   Store checks_;
@@ -211,33 +213,43 @@ class Certification {
   const Clock::time_point begin_;
 };
 
-}  // namespace
-
-int run_certify(const CertifyRequest& command) {
-  properties::CampaignRequest request;
-  if (const auto wrong =
-          ask_for_campaign({command.campaign, command.seed, command.jobs, command.detector,
-                            command.out, command.power, command.time_limit},
-                           request)) {
-    return refuse(*wrong);
-  }
-  if (request.power && holds_shards(command.out))
+int run_certify(const CampaignWords& words) {
+  const auto asked = ask_for_campaign(words);
+  if (!asked) return refuse(asked.error());
+  const auto& request = asked.value();
+  if (request.power && holds_shards(words.out))
     return refuse(
         fmt::format("{}: its shards are judged by their own planted faults: give --power "
                     "to the run of each",
-                    command.out));
+                    words.out));
   std::string problem;
   auto checks = Store::open(
-      properties::checks_file(command.out),
+      properties::checks_file(words.out),
       *properties::with_shard(properties::binding_of(request), properties::checks_shard), problem);
   if (!checks) return refuse(problem);
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
-             command.out);
+             words.out);
   try {
-    return Certification(command, request, std::move(*checks)).run();
+    return Certification(words, request, std::move(*checks)).run();
   } catch (const properties::StoreProblem& broken) {
     return refuse(broken.what());
   }
 }
+
+void add_options(CLI::App& app, CampaignWords& words) {
+  auto* verb = app.add_subcommand(
+      "certify", "Corpus, campaign, planted faults, self-test, speed: a certificate, or a defect");
+  words.campaign = "smoke";
+  verb->add_option("--campaign", words.campaign,
+                   "smoke, quick, nightly, release, or a campaign file (.json)")
+      ->capture_default_str();
+  add_campaign_options(verb, words);
+  verb->add_option("--out", words.out, "Folder for the certificate; shards that it holds are taken")
+      ->required();
+}
+
+}  // namespace
+
+Action add_certify(CLI::App& app) { return make_verb(app, add_options, run_certify); }
 
 }  // namespace assay::reports

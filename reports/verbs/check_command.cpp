@@ -2,8 +2,7 @@
 // unless left out, the oracle, and the two are compared.
 #include <fmt/format.h>
 
-#include <chrono>
-#include <new>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "detector/mesh/mesh_checks.h"
@@ -11,16 +10,36 @@
 #include "reports/check/check_input.h"
 #include "reports/check/check_outcome.h"
 #include "reports/check/subject.h"
-#include "reports/steps/json_output.h"
+#include "reports/check/timed_oracle.h"
 #include "reports/steps/second_opinion_text.h"
+#include "reports/steps/step_json.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/limits.h"
 #include "reports/terminal/progress.h"
-#include "reports/verbs/commands.h"
+#include "reports/terminal/text_file.h"
+#include "reports/terminal/version.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
+
+struct CheckRequest {
+  std::vector<std::string> files;  // frames of one mesh, or one case file
+  BuiltInChoice built_in;
+  std::string plugin_library;  // empty: the built-in detector
+  bool use_oracle = true;
+  std::optional<double> second_opinion;  // share in (0,1]; needs the oracle
+  int jobs = 1;
+  std::optional<double> time_limit;           // seconds
+  std::optional<std::uint64_t> memory_limit;  // bytes
+  bool fail_on_collision = false;
+  std::string json_file;  // empty: none
+};
+
+// A week: nobody waits longer for one mesh.
+constexpr double no_limit_seconds = 7 * 24 * 3600.0;
 
 using detector::Answer;
 using properties::Outcome;
@@ -35,7 +54,9 @@ class Check {
         mesh_(std::move(mesh)),
         subject_(subject),
         script_(corpus::steps_of(input.c)),
-        limits_(limits) {
+        limits_(limits),
+        oracle_(request.jobs, limits) {
+    outcome_.is_judged = request.use_oracle;
     outcome_.judged_by_claims = subject.judged_by_claims();
   }
 
@@ -51,11 +72,11 @@ class Check {
       if (has_facts() && !outcome_.undecided) check_facts();
     }
     outcome_.limit_reached = limits_.reached();
-    fmt::print("{}", outcome_.summary(request_));
+    fmt::print("{}", outcome_.summary());
     if (!request_.json_file.empty()) {
-      if (auto problem = write_json(std::move(steps))) return refuse(*problem);
+      if (auto written = write_json(std::move(steps)); !written) return refuse(written.error());
     }
-    return outcome_.exit_code(request_);
+    return outcome_.exit_code(request_.fail_on_collision);
   }
 
  private:
@@ -127,8 +148,7 @@ class Check {
     }
 
     progress.phase("oracle");
-    double oracle_ms = 0;
-    const oracle::StepJudgement judgement = judge(x_t0, x_t1, stop, oracle_ms);
+    const auto [judgement, oracle_ms] = oracle_.judge(x_t0, x_t1, case_.triangles, stop);
     const auto diff = subject_.judge(result, judgement);
     progress.finish();
     outcome_.defect |= diff.outcome == Outcome::defect;
@@ -149,17 +169,9 @@ class Check {
                                             const detector::StopFunction& stop,
                                             Progress& progress) {
     const double share = *request_.second_opinion;
-    const auto begin = std::chrono::steady_clock::now();
-    oracle::SecondOpinion opinion;
-    try {
-      opinion =
-          oracle::second_opinion(start_of(case_, script_[s]), end_of(case_, script_[s]),
-                                 case_.triangles, judgement, {share, request_.jobs, stop, {}});
-    } catch (const std::bad_alloc&) {
-      limits_.memory_failed();
-    }
-    const double milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    const auto [opinion, milliseconds] =
+        oracle_.second_opinion(start_of(case_, script_[s]), end_of(case_, script_[s]),
+                               case_.triangles, judgement, share, stop);
     progress.finish();
     fmt::print("{}", second_opinion_text(opinion, milliseconds));
     outcome_.undecided |= !opinion.complete;
@@ -180,20 +192,6 @@ class Check {
     return fmt::format("assay check{} --second-opinion {}", input, *request_.second_opinion);
   }
 
-  oracle::StepJudgement judge(const detector::Positions& x_t0, const detector::Positions& x_t1,
-                              const detector::StopFunction& stop, double& milliseconds) {
-    const auto begin = std::chrono::steady_clock::now();
-    oracle::StepJudgement judgement;
-    try {
-      judgement = oracle::judge_step(x_t0, x_t1, case_.triangles, {request_.jobs, stop});
-    } catch (const std::bad_alloc&) {
-      limits_.memory_failed();
-    }
-    milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-    return judgement;
-  }
-
   void print_defect(std::size_t s, const properties::StepDiff& diff) const {
     if (diff.missing.empty()) return;
     const auto& lost = diff.missing.front();
@@ -209,14 +207,14 @@ class Check {
 
   // A case states what is true of it: an answer that differs is a defect.
   void check_facts() {
-    const auto report =
-        properties::check_case(case_, request_.culling, request_.jobs, request_.arithmetic);
+    const auto report = properties::check_case(case_, request_.built_in.culling, request_.jobs,
+                                               request_.built_in.arithmetic);
     for (const auto& line : report.failed) fmt::print("expected facts: {}\n", line);
     outcome_.facts_differ = !report.failed.empty();
     outcome_.defect |= outcome_.facts_differ;
   }
 
-  std::optional<std::string> write_json(nlohmann::ordered_json steps) const {
+  Expected<void> write_json(nlohmann::ordered_json steps) const {
     const auto or_null = [](const std::string& text) {
       return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
     };
@@ -231,7 +229,7 @@ class Check {
                                            {"detector", tested["detector"]},
                                            {"detector_ended", or_null(outcome_.ended)},
                                            {"judged", request_.use_oracle},
-                                           {"outcome", outcome_.word(request_)},
+                                           {"outcome", outcome_.word()},
                                            {"limit_reached", or_null(limits_.reached())},
                                            {"peak_memory_bytes", peak_resident_bytes()},
                                            {"steps", std::move(steps)}};
@@ -245,29 +243,89 @@ class Check {
   Subject& subject_;
   std::vector<corpus::CaseStep> script_;
   Limits& limits_;
+  TimedOracle oracle_;
   std::optional<std::string> refused_;
   CheckOutcome outcome_;
 };
 
-}  // namespace
-
 int run_check(const CheckRequest& request) {
   // Before the work, not after it.
-  if (auto problem = cannot_write(request.json_file, request.files)) return refuse(*problem);
+  if (auto may = may_write(request.json_file, request.files); !may) return refuse(may.error());
   auto input = read_check_input(request.files);
-  if (!input) return refuse(input.error().message);
+  if (!input) return refuse(Refusal(input.error()));
   auto& c = input.value().c;
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) {
     return refuse(fmt::format("{}: {}", request.files[0], bad->message));
   }
   Limits limits(request.time_limit, request.memory_limit);
-  auto made = request.plugin_library.empty() ? make_built_in(request, input.value(), limits)
-                                             : make_plugin_subject(request, input.value());
-  if (const auto* problem = std::get_if<std::string>(&made)) return refuse(*problem);
+  auto subject = request.plugin_library.empty()
+                     ? make_built_in(request.built_in, input.value(), limits)
+                     : make_plugin_subject(request.plugin_library,
+                                           {request.time_limit.value_or(no_limit_seconds),
+                                            request.memory_limit.value_or(0)},
+                                           input.value());
+  if (!subject) return refuse(subject.error());
   auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());
-  return Check(request, input.value(), std::move(mesh), *std::get<std::unique_ptr<Subject>>(made),
-               limits)
-      .run();
+  return Check(request, input.value(), std::move(mesh), *subject.value(), limits).run();
 }
+
+// "6GB", "512MB", "1000" (bytes); KB, MB, GB are 2^10, 2^20, 2^30 bytes. Nothing for other words.
+std::optional<std::uint64_t> parse_size(const std::string& word) {
+  const auto digits = word.find_first_not_of("0123456789");
+  const std::string number = word.substr(0, digits);
+  const std::string unit = digits == std::string::npos ? "" : word.substr(digits);
+  constexpr std::size_t most_digits = 9;
+  if (number.empty() || number.size() > most_digits) return std::nullopt;
+  const std::array<std::pair<const char*, int>, 5> shifts = {
+      {{"", 0}, {"B", 0}, {"KB", 10}, {"MB", 20}, {"GB", 30}}};
+  for (const auto& [name, shift] : shifts) {
+    if (unit != name) continue;
+    const std::uint64_t bytes = std::stoull(number) << shift;
+    return bytes > 0 ? std::optional(bytes) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void add_options(CLI::App& app, CheckRequest& request) {
+  auto* verb = app.add_subcommand("check", "Detector against oracle on the steps of one mesh");
+  verb->add_option("frames", request.files,
+                   "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)")
+      ->required();
+  auto* plugin = verb->add_option("--detector", request.plugin_library,
+                                  "Judge this plug-in (.so) by its claims, not the built-in");
+  add_choice(verb, "--culling", request.built_in.culling,
+             "view-auto, view-point, view-line, normal-cone, bvh, none", properties::culling_named,
+             "How the detector culls (default view-auto)");
+  add_choice(verb, "--start", request.built_in.start, "verified, clean, unknown",
+             properties::start_named, "What is known of the first frame (default verified)");
+  add_choice(verb, "--pairs", request.built_in.pairs, "all, first", properties::pairs_named,
+             "Which pairs are asked for (default all)");
+  add_choice(verb, "--arithmetic", request.built_in.arithmetic, "exact, bounded, double, float",
+             properties::arithmetic_named, "What the detector computes in (default exact)");
+  for (const char* of_the_built_in : {"--culling", "--start", "--pairs", "--arithmetic"}) {
+    plugin->excludes(verb->get_option(of_the_built_in));
+  }
+  auto* no_oracle = verb->add_flag_callback(
+      "--no-oracle", [&request] { request.use_oracle = false; },
+      "Detector only; prints `not judged`");
+  verb->add_option("--second-opinion", request.second_opinion,
+                   "Check the oracle itself by other methods, on this share of its questions")
+      ->check(share())
+      ->excludes(no_oracle);
+  add_jobs(verb, request.jobs);
+  verb->add_option("--time", request.time_limit,
+                   "Limit in seconds of processor time, all threads together; what is left is "
+                   "undecided")
+      ->check(positive());
+  add_choice(verb, "--memory", request.memory_limit, "a number above 0 with B, KB, MB or GB",
+             parse_size, "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
+  verb->add_flag("--fail-on-collision", request.fail_on_collision,
+                 "Exit code 5 when they agree on a collision");
+  verb->add_option("--json", request.json_file, "Write the report here (assay-check/1)");
+}
+
+}  // namespace
+
+Action add_check(CLI::App& app) { return make_verb(app, add_options, run_check); }
 
 }  // namespace assay::reports

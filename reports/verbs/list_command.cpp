@@ -1,14 +1,32 @@
-// `assay list`: laws, planted faults, campaigns, and the failures of a run.
+// `assay list`: scenes, laws, planted faults, campaigns, and the failures of a run.
 #include <fmt/format.h>
 
+#include "corpus/scenes/scenes.h"
 #include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "reports/terminal/complaint.h"
-#include "reports/verbs/commands.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
+
+struct ListRequest {
+  std::string what = "scenes";  // scenes, laws, faults, campaigns, failures
+  std::string folder;           // of a run, for failures
+};
+
+int list_scenes() {
+  fmt::print("{:<20} {:>9} {:>7}  {:<6} {:<6} {}\n", "scene", "triangles", "frames", "closed",
+             "--mesh", "what it is");
+  for (const auto& scene : corpus::scenes()) {
+    fmt::print("{:<20} {:>9} {:>7}  {:<6} {:<6} {}\n", scene.name, scene.default_size,
+               scene.default_frames, scene.closed ? "yes" : "no", scene.takes_mesh ? "yes" : "no",
+               scene.about);
+  }
+  return exit_holds;
+}
 
 int list_laws() {
   for (const auto& law : properties::laws()) {
@@ -54,8 +72,6 @@ int list_failures(const std::string& folder) {
   return exit_holds;
 }
 
-}  // namespace
-
 int run_list(const ListRequest& request) {
   const auto& [what, folder] = request;
   if (what == "failures") {
@@ -66,7 +82,18 @@ int run_list(const ListRequest& request) {
   if (what == "laws") return list_laws();
   if (what == "faults") return list_faults();
   if (what == "campaigns") return list_campaigns();
-  return run_list_scenes();
+  return list_scenes();
 }
+
+void add_options(CLI::App& app, ListRequest& request) {
+  auto* verb = app.add_subcommand("list", "List scenes, laws, faults, campaigns, or failures");
+  verb->add_option("what", request.what, "scenes, laws, faults, campaigns, failures")
+      ->check(CLI::IsMember({"scenes", "laws", "faults", "campaigns", "failures"}));
+  verb->add_option("folder", request.folder, "Of a run, for failures");
+}
+
+}  // namespace
+
+Action add_list(CLI::App& app) { return make_verb(app, add_options, run_list); }
 
 }  // namespace assay::reports

@@ -9,10 +9,16 @@
 #include "reports/campaign/failure_text.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/shell_word.h"
-#include "reports/verbs/commands.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
+
+struct MergeRequest {
+  std::vector<std::string> folders;
+  std::string out;
+};
 
 // Nothing, and `problem` set, where a folder holds no store.
 std::vector<std::filesystem::path> stores_of(const std::vector<std::string>& folders,
@@ -25,8 +31,6 @@ std::vector<std::filesystem::path> stores_of(const std::vector<std::string>& fol
   }
   return stores;
 }
-
-}  // namespace
 
 int run_merge(const MergeRequest& request) {
   std::string problem;
@@ -59,5 +63,17 @@ int run_merge(const MergeRequest& request) {
   // That they are one now: whether it holds is for certify to say.
   return exit_holds;
 }
+
+void add_options(CLI::App& app, MergeRequest& request) {
+  auto* verb = app.add_subcommand("merge", "The stores of several shards become one");
+  verb->add_option("folders", request.folders, "Folders of `assay run`, or of `assay merge`")
+      ->required();
+  verb->add_option("--out", request.out, "Folder for merged.sqlite and the failing meshes")
+      ->required();
+}
+
+}  // namespace
+
+Action add_merge(CLI::App& app) { return make_verb(app, add_options, run_merge); }
 
 }  // namespace assay::reports

@@ -1,8 +1,10 @@
 #include "reports/verbs/option_words.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
+#include <thread>
 
 namespace assay::reports {
 
@@ -45,6 +47,7 @@ CLI::Validator share() {
 }
 
 void add_jobs(CLI::App* verb, int& jobs) {
+  jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   verb->add_option("--jobs", jobs, "Threads of the oracle; the result does not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -52,6 +55,10 @@ void add_jobs(CLI::App* verb, int& jobs) {
 
 void add_seed(CLI::App* verb, std::uint64_t& seed, const std::string& about) {
   verb->add_option("--seed", seed, about)->check(whole_number())->capture_default_str();
+}
+
+void add_detector(CLI::App* verb, std::string& library) {
+  verb->add_option("--detector", library, "A plug-in's library (default: the built-in)");
 }
 
 }  // namespace assay::reports

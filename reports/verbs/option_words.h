@@ -32,8 +32,9 @@ CLI::Validator positive();      // a number above 0
 CLI::Validator whole_number();  // 0 .. 2^64-1
 CLI::Validator share();         // a number above 0, at most 1
 
-// --jobs, --seed
+// --jobs (all cores, unless told otherwise), --seed, --detector
 void add_jobs(CLI::App* verb, int& jobs);
 void add_seed(CLI::App* verb, std::uint64_t& seed, const std::string& about);
+void add_detector(CLI::App* verb, std::string& library);
 
 }  // namespace assay::reports

@@ -13,15 +13,23 @@
 #include "properties/judging/case_check.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/worker_process.h"
-#include "reports/campaign/detector_choice.h"
+#include "reports/check/detector_choice.h"
 #include "reports/steps/case_export.h"
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/complaint.h"
-#include "reports/verbs/commands.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
+
+struct ReplayRequest {
+  std::string id_or_file;
+  std::string export_folder;  // empty: none
+  std::optional<detector::TrianglePair> why;
+  std::string detector;
+};
 
 using properties::Outcome;
 
@@ -137,8 +145,6 @@ bool print_broken_laws(const corpus::Case& c, const properties::DetectorUnderTes
   return !tally.broken.empty();
 }
 
-}  // namespace
-
 int run_replay(const ReplayRequest& request) {
   auto made = case_of(request.id_or_file);
   if (!made) {
@@ -151,7 +157,8 @@ int run_replay(const ReplayRequest& request) {
   const auto& trial = made.value().trial;
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
-  if (auto problem = choose_detector(request.detector, subject)) return refuse(*problem);
+  if (auto chosen = choose_detector(request.detector, subject); !chosen)
+    return refuse(chosen.error());
   if (auto problem = choose_configurations(c, subject.detector)) {
     return refuse(fmt::format("{}: {}", request.id_or_file, *problem));
   }
@@ -175,9 +182,8 @@ int run_replay(const ReplayRequest& request) {
     if (run.end == properties::RunEnd::not_run) return refuse(run.what);
   }
   if (!request.export_folder.empty()) {
-    if (auto problem = export_case(request.export_folder, *seen, subject.detector, truth)) {
-      return refuse(*problem);
-    }
+    const auto written = export_case(request.export_folder, *seen, subject.detector, truth);
+    if (!written) return refuse(written.error());
   }
   fmt::print("{}: {}{}\n", c.id, properties::size_text(properties::size_of(c)),
              c.about.empty() ? "" : "; " + c.about);
@@ -204,5 +210,33 @@ int run_replay(const ReplayRequest& request) {
   if (!request.export_folder.empty()) fmt::print("exported to {}\n", request.export_folder);
   return code;
 }
+
+// "3,17"
+std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
+  detector::TrianglePair pair;
+  const auto comma = word.find(',');
+  if (comma == std::string::npos) return std::nullopt;
+  if (!CLI::detail::lexical_cast(word.substr(0, comma), pair.a) ||
+      !CLI::detail::lexical_cast(word.substr(comma + 1), pair.b) || pair.a == pair.b) {
+    return std::nullopt;
+  }
+  if (pair.a > pair.b) std::swap(pair.a, pair.b);
+  return pair;
+}
+
+void add_options(CLI::App& app, ReplayRequest& request) {
+  auto* verb = app.add_subcommand("replay", "One case of a campaign again, or a case file");
+  verb->add_option("case", request.id_or_file, "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file")
+      ->required();
+  verb->add_option("--export", request.export_folder,
+                   "Write frames as OBJ and a ready GoogleTest into this folder");
+  add_choice(verb, "--why", request.why, "A,B: two triangles", parse_pair,
+             "A,B: why this pair of triangles was or was not tested");
+  add_detector(verb, request.detector);
+}
+
+}  // namespace
+
+Action add_replay(CLI::App& app) { return make_verb(app, add_options, run_replay); }
 
 }  // namespace assay::reports

@@ -6,14 +6,21 @@
 #include "reports/page/data/failure_scenes.h"
 #include "reports/page/data/page_file.h"
 #include "reports/page/data/run_json.h"
-#include "reports/steps/json_output.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/plain_progress.h"
-#include "reports/verbs/commands.h"
+#include "reports/terminal/text_file.h"
+#include "reports/terminal/version.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 
 namespace {
+
+struct ReportRequest {
+  std::vector<std::string> folders;  // of runs, oldest first
+  std::string out;                   // one HTML file
+};
 
 using Json = nlohmann::ordered_json;
 
@@ -40,10 +47,8 @@ std::optional<Json> describe_run(const std::string& folder, PlainProgress& progr
   return json;
 }
 
-}  // namespace
-
 int run_report(const ReportRequest& request) {
-  if (auto problem = cannot_write(request.out, {})) return refuse(*problem);
+  if (auto may = may_write(request.out, {}); !may) return refuse(may.error());
   Json runs = Json::array();
   PlainProgress progress("report");
   for (const auto& folder : request.folders) {
@@ -55,8 +60,8 @@ int run_report(const ReportRequest& request) {
   progress.finish();
   const Json data = {
       {"schema", "assay-report/2"}, {"version", version_text()}, {"runs", std::move(runs)}};
-  if (auto problem = write_text_file(request.out, page_text(page_template(), data)))
-    return refuse(*problem);
+  const auto written = write_text_file(request.out, page_text(page_template(), data));
+  if (!written) return refuse(written.error());
   for (const auto& run : data["runs"]) {
     fmt::print("{}: {}; {}\n", run["folder"].get<std::string>(), run["verdict"].get<std::string>(),
                run["why"].get<std::string>());
@@ -64,5 +69,15 @@ int run_report(const ReportRequest& request) {
   fmt::print("page {}: opens in a browser, without a network\n", request.out);
   return exit_holds;
 }
+
+void add_options(CLI::App& app, ReportRequest& request) {
+  auto* verb = app.add_subcommand("report", "Runs as one HTML page that works offline");
+  verb->add_option("folders", request.folders, "Folders of runs, the oldest first")->required();
+  verb->add_option("--out", request.out, "The page (.html)")->required();
+}
+
+}  // namespace
+
+Action add_report(CLI::App& app) { return make_verb(app, add_options, run_report); }
 
 }  // namespace assay::reports

@@ -3,75 +3,109 @@
 
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/run_folder.h"
+#include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/shell_word.h"
-#include "reports/verbs/commands.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
 
+struct RunRequest {
+  CampaignWords words{.campaign = "quick"};
+  properties::Shard shard;
+};
+
 constexpr const char* go_on = "; what is stored stays: run the same again to go on";
 
 // junit.xml and summary.md; of a shard of several junit-shard-I-of-N.xml and so on.
-std::optional<std::string> write_files(const properties::CampaignRequest& request,
-                                       const properties::RunFindings& findings,
-                                       const properties::Judgement& judgement) {
+Expected<void> write_files(const properties::CampaignRequest& request,
+                           const properties::RunFindings& findings,
+                           const properties::Judgement& judgement) {
   const auto& shard = request.shard;
   const auto part =
       shard.count == 1 ? std::string() : fmt::format("-shard-{}-of-{}", shard.index, shard.count);
   return write_for_ci(make_predicate(findings, judgement, request.plan, ""), findings.folder, part);
 }
 
-int conclude(const RunCommandRequest& command, const properties::CampaignRequest& request,
-             const properties::RunFindings& findings, double seconds) {
+int conclude(const properties::CampaignRequest& request, const properties::RunFindings& findings,
+             const std::string& out, double seconds) {
   const auto judgement = judge(findings, properties::asked_of_a_run());
   fmt::print("{}\n{}\n{}, in {:.0f} s\n", findings_text(findings), gates_text(judgement),
              verdict_text(findings, judgement), seconds);
   const bool is_complete = !findings.has_more_to_do();
   if (!findings.failures.empty()) {
-    fmt::print("next: assay list failures {}\n", shell_word(command.out));
+    fmt::print("next: assay list failures {}\n", shell_word(out));
   } else if (!is_complete) {
     fmt::print("next: run the same again to go on, with --time for another limit\n");
   } else if (judgement.exit_code != exit_holds) {
-    fmt::print("next: assay report {} --out {}\n", shell_word(command.out),
+    fmt::print("next: assay report {} --out {}\n", shell_word(out),
                shell_word((findings.folder / "report.html").string()));
   }
   // The exit code may be of a defect as well: who waits for all shards reads this.
   fmt::print("shard {}: {}\n", text_of(request.shard), is_complete ? "complete" : "not complete");
-  if (const auto wrong = write_files(request, findings, judgement)) return refuse(*wrong);
+  if (const auto written = write_files(request, findings, judgement); !written)
+    return refuse(written.error());
   return judgement.exit_code;
 }
 
-}  // namespace
-
-int run_campaign(const RunCommandRequest& command) {
+int run_campaign(const RunRequest& command) {
   const auto begin = std::chrono::steady_clock::now();
-  properties::CampaignRequest request;
-  if (const auto wrong =
-          ask_for_campaign({command.campaign, command.seed, command.jobs, command.detector,
-                            command.out, command.power, command.time_limit},
-                           request)) {
-    return refuse(*wrong);
-  }
+  const auto& out = command.words.out;
+  auto asked = ask_for_campaign(command.words);
+  if (!asked) return refuse(asked.error());
+  auto& request = asked.value();
   request.shard = command.shard;
-  const auto file = properties::store_file(command.out, request.shard);
+  const auto file = properties::store_file(out, request.shard);
   std::string problem;
   auto store = properties::Store::open(file, properties::binding_of(request), problem);
   if (!store) return refuse(problem);
   try {
-    if (const auto wrong = run_on_terminal(request, *store, command.out))
-      return refuse(*wrong + go_on);
+    if (const auto done = run_on_terminal(request, *store, out); !done)
+      return refuse(done.error().line + go_on);
   } catch (const properties::StoreProblem& broken) {
     return refuse(std::string(broken.what()) + go_on);
   }
   const auto findings = properties::read_one_store(file, problem);
   if (!findings) return refuse(problem + go_on);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  return conclude(command, request, *findings, took.count());
+  return conclude(request, *findings, out, took.count());
 }
+
+// "2/8"
+std::optional<properties::Shard> parse_shard(const std::string& word) {
+  properties::Shard shard;
+  const auto slash = word.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  if (!CLI::detail::lexical_cast(word.substr(0, slash), shard.index) ||
+      !CLI::detail::lexical_cast(word.substr(slash + 1), shard.count)) {
+    return std::nullopt;
+  }
+  return shard.index >= 1 && shard.index <= shard.count ? std::optional(shard) : std::nullopt;
+}
+
+void add_options(CLI::App& app, RunRequest& request) {
+  auto* verb = app.add_subcommand(
+      "run", "A campaign of random cases: detector against oracle, laws, planted faults");
+  verb->add_option("--campaign", request.words.campaign,
+                   "smoke, quick, nightly, release, faults, or a campaign file (.json)")
+      ->capture_default_str();
+  add_campaign_options(verb, request.words);
+  verb->add_option_function<std::string>(
+          "--shard", [&request](const std::string& word) { request.shard = *parse_shard(word); },
+          "I/N: the part of the cases that this run makes (default 1/1)")
+      ->check(one_of("I/N with 1 <= I <= N", parse_shard));
+  verb->add_option("--out", request.words.out, "Folder for the store and the failing meshes")
+      ->required();
+}
+
+}  // namespace
+
+Action add_run(CLI::App& app) { return make_verb(app, add_options, run_campaign); }
 
 }  // namespace assay::reports

@@ -1,4 +1,4 @@
-// `assay scene` and `assay list scenes`.
+// `assay scene`: the frames of a kinematic scene.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -6,10 +6,18 @@
 #include "corpus/formats/mesh_writer.h"
 #include "corpus/scenes/scenes.h"
 #include "reports/terminal/complaint.h"
-#include "reports/verbs/commands.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
+
+struct SceneRequest {
+  std::string name;
+  std::string mesh_file;  // empty: the scene's own shape
+  int size = 0, frames = 0;
+  std::string out;
+};
 
 int refuse(const corpus::Problem& problem) { return reports::refuse(problem.message); }
 
@@ -21,19 +29,6 @@ std::optional<std::string> stale_frame(const std::string& folder, std::size_t fr
   return fmt::format(
       "{} holds more frames of an earlier run ({}): remove them or choose another folder", folder,
       next.filename().string());
-}
-
-}  // namespace
-
-int run_list_scenes() {
-  fmt::print("{:<20} {:>9} {:>7}  {:<6} {:<6} {}\n", "scene", "triangles", "frames", "closed",
-             "--mesh", "what it is");
-  for (const auto& scene : corpus::scenes()) {
-    fmt::print("{:<20} {:>9} {:>7}  {:<6} {:<6} {}\n", scene.name, scene.default_size,
-               scene.default_frames, scene.closed ? "yes" : "no", scene.takes_mesh ? "yes" : "no",
-               scene.about);
-  }
-  return exit_holds;
 }
 
 int run_scene(const SceneRequest& request) {
@@ -61,5 +56,18 @@ int run_scene(const SceneRequest& request) {
   }
   return exit_holds;
 }
+
+void add_options(CLI::App& app, SceneRequest& request) {
+  auto* verb = app.add_subcommand("scene", "Write the frames of a kinematic scene");
+  verb->add_option("name", request.name, "One of `assay list scenes`")->required();
+  verb->add_option("--mesh", request.mesh_file, "Deform this mesh instead of the scene's own");
+  verb->add_option("--size", request.size, "Triangles wanted")->check(positive());
+  verb->add_option("--frames", request.frames, "Frames")->check(positive());
+  verb->add_option("--out", request.out, "Folder for frame_0000.ply, ...")->required();
+}
+
+}  // namespace
+
+Action add_scene(CLI::App& app) { return make_verb(app, add_options, run_scene); }
 
 }  // namespace assay::reports

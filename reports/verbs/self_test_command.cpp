@@ -8,10 +8,19 @@
 #include "properties/queries/self_test_run.h"
 #include "reports/terminal/exit_code.h"
 #include "reports/terminal/progress.h"
-#include "reports/verbs/commands.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
+
+struct SelfTestRequest {
+  std::uint64_t seed = 1;
+  std::uint64_t queries = 20'000;    // random small-integer queries
+  std::optional<double> time_limit;  // seconds
+  int jobs = 1;
+  std::string replay;  // "family:seed:index"; empty: the whole self-test
+};
 
 using properties::FamilyResult;
 using properties::QueryTally;
@@ -78,8 +87,6 @@ void announce(const SelfTestRequest& request) {
   std::fflush(stdout);
 }
 
-}  // namespace
-
 int run_self_test(const SelfTestRequest& request) {
   if (!request.replay.empty()) return replay(request);
   announce(request);
@@ -127,5 +134,23 @@ int run_self_test(const SelfTestRequest& request) {
   fmt::print("self-test: no contradiction in {} queries, seed {}\n", total.queries, request.seed);
   return exit_holds;
 }
+
+void add_options(CLI::App& app, SelfTestRequest& request) {
+  auto* verb = app.add_subcommand("self-test",
+                                  "The oracle against every other method on elementary queries");
+  add_seed(verb, request.seed, "Of all random queries");
+  verb->add_option("--queries", request.queries,
+                   "Random small-integer queries; the other families follow this number")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+      ->capture_default_str();
+  verb->add_option("--time", request.time_limit, "Limit in seconds; what is left is undecided")
+      ->check(positive());
+  add_jobs(verb, request.jobs);
+  verb->add_option("--replay", request.replay, "One case again, by its name family:seed:index");
+}
+
+}  // namespace
+
+Action add_self_test(CLI::App& app) { return make_verb(app, add_options, run_self_test); }
 
 }  // namespace assay::reports

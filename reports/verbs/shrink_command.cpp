@@ -5,17 +5,24 @@
 #include "properties/campaign/phases/shrink.h"
 #include "properties/judging/case_check.h"
 #include "properties/reducer/mesh_size.h"
-#include "reports/campaign/detector_choice.h"
+#include "reports/check/detector_choice.h"
 #include "reports/pictures/scene_maker.h"
-#include "reports/steps/json_output.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/interruption.h"
 #include "reports/terminal/plain_progress.h"
 #include "reports/terminal/shell_word.h"
-#include "reports/verbs/commands.h"
+#include "reports/terminal/text_file.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
+
+struct ShrinkRequest {
+  std::string file, out;
+  double seconds = 60;
+  std::string detector;
+};
 
 // How the case fails.
 struct Failing {
@@ -45,11 +52,9 @@ std::optional<Failing> find_failure(const corpus::Case& c,
   return std::nullopt;
 }
 
-}  // namespace
-
 int run_shrink(const ShrinkRequest& request) {
   end_when_interrupted("interrupted: the smallest so far is in " + request.out, exit_undecided);
-  if (auto problem = cannot_write(request.out, {request.file})) return refuse(*problem);
+  if (auto may = may_write(request.out, {request.file}); !may) return refuse(may.error());
   auto read = corpus::read_case(request.file);
   if (!read) return refuse(read.error().message);
   const corpus::Case& c = read.value();
@@ -58,7 +63,8 @@ int run_shrink(const ShrinkRequest& request) {
   }
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
-  if (auto problem = choose_detector(request.detector, subject)) return refuse(*problem);
+  if (auto chosen = choose_detector(request.detector, subject); !chosen)
+    return refuse(chosen.error());
   if (subject.detector.built_in && !c.options.empty()) {
     subject.detector.configurations = {{"the case's own", properties::options_of(c)}};
   }
@@ -73,11 +79,11 @@ int run_shrink(const ShrinkRequest& request) {
              request.seconds, request.out);
   std::fflush(stdout);
   PlainProgress progress("shrinking");
-  std::optional<std::string> problem;
+  Expected<void> written = outcome::success();
   const properties::ReduceLimits limits{request.seconds, 10'000'000};
   const properties::OnBetter keep = [&](const corpus::Case& better) {
     progress.show(properties::size_text(properties::size_of(better)));
-    problem = write_text_file(request.out, corpus::case_text(better));
+    written = write_text_file(request.out, corpus::case_text(better));
   };
   keep(c);
   const auto reduction =
@@ -87,20 +93,32 @@ int run_shrink(const ShrinkRequest& request) {
           : properties::shrink_case(c, subject.detector, failing->configuration, worker, limits,
                                     keep);
   progress.finish();
-  if (!problem) {
-    problem = write_text_file(request.out, corpus::case_text(reduction.smallest));
-  }
-  if (!problem) {
+  if (written) written = write_text_file(request.out, corpus::case_text(reduction.smallest));
+  if (written) {
     SceneMaker scenes(request.detector);
-    problem = scenes.write_picture(request.out, reduction.smallest, failing->configuration.name,
+    written = scenes.write_picture(request.out, reduction.smallest, failing->configuration.name,
                                    failing->signature);
   }
-  if (problem) return refuse(*problem);
+  if (!written) return refuse(written.error());
   fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: assay replay {}{}\n",
              properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
              reduction.calls, reduction.seconds, reduction.fixed_point ? "" : "; the time was over",
              picture_file(request.out), shell_word(request.out), detector_words(request.detector));
   return exit_defect;
 }
+
+void add_options(CLI::App& app, ShrinkRequest& request) {
+  auto* verb = app.add_subcommand("shrink", "The smallest case that fails as a given one does");
+  verb->add_option("file", request.file, "A case file (.json)")->required();
+  verb->add_option("--out", request.out, "Where the smallest case goes")->required();
+  verb->add_option("--time", request.seconds, "Seconds at most")
+      ->check(positive())
+      ->capture_default_str();
+  add_detector(verb, request.detector);
+}
+
+}  // namespace
+
+Action add_shrink(CLI::App& app) { return make_verb(app, add_options, run_shrink); }
 
 }  // namespace assay::reports

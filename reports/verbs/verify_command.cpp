@@ -6,10 +6,15 @@
 #include "reports/certificate/pooling.h"
 #include "reports/certificate/verify.h"
 #include "reports/terminal/complaint.h"
-#include "reports/verbs/commands.h"
+#include "reports/verbs/option_words.h"
+#include "reports/verbs/verbs.h"
 
 namespace assay::reports {
 namespace {
+
+struct VerifyRequest {
+  std::vector<std::string> certificates;  // several: nights, pooled
+};
 
 using Json = nlohmann::ordered_json;
 
@@ -27,8 +32,6 @@ int print_pooled(const std::vector<Json>& predicates) {
   }
   return exit_holds;
 }
-
-}  // namespace
 
 int run_verify(const VerifyRequest& request) {
   std::error_code ignored;
@@ -56,5 +59,16 @@ int run_verify(const VerifyRequest& request) {
   if (code == exit_holds && predicates.size() > 1) return print_pooled(predicates);
   return code;
 }
+
+void add_options(CLI::App& app, VerifyRequest& request) {
+  auto* verb = app.add_subcommand("verify", "A certificate against the files beside it");
+  verb->add_option("certificate", request.certificates,
+                   "OUT/certificate.json; several nights of one detector are pooled")
+      ->required();
+}
+
+}  // namespace
+
+Action add_verify(CLI::App& app) { return make_verb(app, add_options, run_verify); }
 
 }  // namespace assay::reports

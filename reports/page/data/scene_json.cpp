@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reports/steps/json_output.h"
 #include "reports/pictures/contact_point.h"
 #include "reports/pictures/view_set.h"
+#include "reports/steps/step_json.h"
 
 namespace assay::reports {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/version.h"
+#include "reports/terminal/version.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 
 #include "commit.h"
 #include "oracle/versions.h"
-#include "reports/verbs/commands.h"
 
 namespace assay::reports {
 

@@ -1,24 +1,23 @@
-#include "reports/campaign/detector_choice.h"
+#include "reports/check/detector_choice.h"
 
 #include "properties/worker/worker_process.h"
 
 namespace assay::reports {
 
-std::optional<std::string> choose_detector(const std::string& library,
-                                           properties::CampaignRequest& request) {
+Expected<void> choose_detector(const std::string& library, properties::CampaignRequest& request) {
   request.detector = properties::built_in_detector();
-  if (library.empty()) return std::nullopt;
+  if (library.empty()) return outcome::success();
   request.plugin = library;
   properties::WorkerProcess worker(request.worker, request.plugin);
   const auto description = worker.describe();
-  if (!description) return description.error().message;
+  if (!description) return Refusal(description.error());
   const auto& plugin = description.value();
   request.detector = {plugin.name + " " + plugin.version,
                       false,
                       plugin.claims,
                       plugin.contract,
                       {{plugin.name, {}}}};
-  return std::nullopt;
+  return outcome::success();
 }
 
 }  // namespace assay::reports

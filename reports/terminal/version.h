@@ -1,4 +1,4 @@
-// Which state of the source this program was built from.
+// Which program this is.
 #pragma once
 
 #include <string>
@@ -8,5 +8,9 @@ namespace assay::reports {
 // The commit, 40 hexadecimal digits; "-dirty" behind it where tracked files were changed. Empty
 // where it was built outside of a git repository.
 std::string commit_text();
+
+// "assay 0.1.0 (CGAL 5.5.1, GMP ..., ...)": this program and the libraries that its answers rest
+// on.
+std::string version_text();
 
 }  // namespace assay::reports

@@ -1,14 +1,6 @@
-#include "reports/steps/json_output.h"
+#include "reports/steps/step_json.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-
-#include "corpus/atomic_file.h"
 
 namespace assay::reports {
 
@@ -137,45 +129,6 @@ Json step_json(const detector::StepResult& result, const oracle::StepJudgement* 
       {"time_ms", oracle_ms}};
   step["diff"] = to_json(*diff);
   return step;
-}
-
-std::optional<std::string> cannot_write(const std::string& path,
-                                        const std::vector<std::string>& inputs) {
-  namespace fs = std::filesystem;
-  if (path.empty()) return std::nullopt;
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored)) return path + ": is a directory";
-  if (fs::exists(path, ignored)) {
-    if (!fs::is_regular_file(path, ignored)) return path + ": is not a regular file";
-    for (const auto& input : inputs) {
-      if (fs::equivalent(path, input, ignored)) return path + ": is an input too";
-    }
-    if (access(path.c_str(), W_OK) != 0) return path + ": no permission to write it";
-  }
-  const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
-  if (!fs::is_directory(parent, ignored)) return path + ": its folder does not exist";
-  // Some folders and names take no file whatever their permissions say.
-  const std::string probe = path + ".part";
-  const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  if (file < 0) return path + ": cannot be written: " + std::strerror(errno);
-  close(file);
-  fs::remove(probe, ignored);
-  return std::nullopt;
-}
-
-std::optional<std::string> write_text_file(const std::string& path, const std::string& text) {
-  // Through a symbolic link to the file behind it.
-  std::error_code ignored;
-  const auto target = std::filesystem::is_symlink(path, ignored)
-                          ? std::filesystem::canonical(path, ignored)
-                          : std::filesystem::path(path);
-  auto written = corpus::write_file_atomically(target, text);
-  if (!written) return written.error().message;
-  return std::nullopt;
-}
-
-std::optional<std::string> write_json_file(const std::string& path, const Json& json) {
-  return write_text_file(path, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace assay::reports

@@ -1,4 +1,4 @@
-#include "reports/campaign/plugin_text.h"
+#include "reports/check/plugin_text.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,53 @@
+#include "reports/campaign/campaign_options.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "properties/campaign/stored/power_proof.h"
+#include "properties/worker/worker_process.h"
+#include "reports/check/detector_choice.h"
+#include "reports/terminal/interruption.h"
+#include "reports/verbs/option_words.h"
+
+namespace assay::reports {
+
+void add_campaign_options(CLI::App* verb, CampaignWords& words) {
+  add_seed(verb, words.seed, "Of all random cases; a fresh one a night");
+  verb->add_option("--time", words.time_limit,
+                   "Seconds by the clock for the campaign, in place of its own limit; what is left "
+                   "over then is incomplete")
+      ->check(positive());
+  verb->add_option("--power", words.power,
+                   "Folder of a run or certificate of this build: planted faults are proved by it, "
+                   "not again");
+  add_detector(verb, words.detector);
+  add_jobs(verb, words.jobs);
+}
+
+Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words) {
+  end_when_interrupted(fmt::format("interrupted: what was judged is stored in {}; run the same "
+                                   "again to go on",
+                                   words.out),
+                       exit_undecided);
+  auto plan = properties::find_plan(words.campaign);
+  if (!plan) return Refusal(plan.error());
+  properties::CampaignRequest request;
+  request.plan = std::move(plan.value());
+  if (words.time_limit) request.plan.seconds = *words.time_limit;
+  request.seed = words.seed;
+  request.jobs = words.jobs;
+  request.worker = properties::worker_program();
+  // Before the first code of a plug-in runs.
+  if (!words.power.empty()) {
+    if (auto problem = properties::take_power(words.power, words.out, request))
+      return Refusal(*problem);
+  }
+  if (auto chosen = choose_detector(words.detector, request); !chosen) return chosen.error();
+  std::error_code error;
+  std::filesystem::create_directories(words.out, error);
+  if (error) return Refusal(fmt::format("{}: cannot be made: {}", words.out, error.message()));
+  return request;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,32 @@
+// What `run` and `certify` are asked of a campaign, and its options.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "properties/campaign/request.h"
+#include "reports/terminal/complaint.h"
+
+namespace assay::reports {
+
+// In the user's words.
+struct CampaignWords {
+  std::string campaign;  // a name or a file
+  std::uint64_t seed = 1;
+  std::optional<double> time_limit;  // seconds of the clock, in place of the campaign's own
+  std::string power;                 // a folder with the proof of planted faults; empty: none
+  std::string detector;              // a plug-in's library; empty: the built-in detector
+  std::string out;
+  int jobs = 1;
+};
+
+// Adds an option for each of them but --campaign and --out, which say what they are of the verb.
+void add_campaign_options(CLI::App* verb, CampaignWords& words);
+
+// The request for all of a campaign as one shard; `out` is made. ctrl-C leaves from then on with
+// what is stored. Refused where a name, a file or a library is wrong.
+Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words);
+
+}  // namespace assay::reports

@@ -1,0 +1,40 @@
+// The oracle as `check` asks it: within the user's limits, and timed.
+#pragma once
+
+#include <optional>
+
+#include "oracle/mesh/step.h"
+#include "oracle/referee/second_opinion.h"
+#include "reports/terminal/limits.h"
+
+namespace assay::reports {
+
+template <class Answer>
+struct Timed {
+  Answer answer;
+  double milliseconds = 0;  // by the clock
+};
+
+class TimedOracle {
+ public:
+  // `jobs` threads. Where memory fails, the limits remember it and the answer is not complete.
+  TimedOracle(int jobs, Limits& limits) : jobs_(jobs), limits_(limits) {}
+
+  Timed<oracle::StepJudgement> judge(const detector::Positions& x_t0,
+                                     const detector::Positions& x_t1,
+                                     const detector::Triangles& triangles,
+                                     const detector::StopFunction& stop) const;
+
+  // Other methods on that share of the questions behind a judgement.
+  Timed<oracle::SecondOpinion> second_opinion(const detector::Positions& x_t0,
+                                              const detector::Positions& x_t1,
+                                              const detector::Triangles& triangles,
+                                              const oracle::StepJudgement& judgement, double share,
+                                              const detector::StopFunction& stop) const;
+
+ private:
+  int jobs_;
+  Limits& limits_;
+};
+
+}  // namespace assay::reports

@@ -1,0 +1,44 @@
+// The verbs of the command line.
+//
+// One file a verb: NAME_command.cpp holds what is asked of it (its request), its options and what
+// it does, so that a new option is a change of one file.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace CLI {
+class App;
+}
+
+namespace assay::reports {
+
+// What a verb does once its command line is parsed. Returns the exit code.
+using Action = std::function<int()>;
+
+// Each adds its verb, with all its options, to the command line.
+Action add_bench(CLI::App& app);
+Action add_certify(CLI::App& app);
+Action add_check(CLI::App& app);
+Action add_check_queries(CLI::App& app);
+Action add_list(CLI::App& app);
+Action add_merge(CLI::App& app);
+Action add_replay(CLI::App& app);
+Action add_report(CLI::App& app);
+Action add_run(CLI::App& app);
+Action add_scene(CLI::App& app);
+Action add_self_test(CLI::App& app);
+Action add_shrink(CLI::App& app);
+Action add_verify(CLI::App& app);
+
+// A verb of these options and this action. The request holds the defaults; it lives as long as the
+// action does, for the options write into it.
+template <class Request>
+Action make_verb(CLI::App& app, void (*add_options)(CLI::App&, Request&),
+                 int (*run)(const Request&)) {
+  const auto request = std::make_shared<Request>();
+  add_options(app, *request);
+  return [request, run] { return run(*request); };
+}
+
+}  // namespace assay::reports
