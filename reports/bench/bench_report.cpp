@@ -8,7 +8,7 @@
 #include "properties/words.h"
 #include "reports/bench/speed_error/error_output.h"
 #include "reports/bench/stability/stability_output.h"
-#include "reports/verbs/commands.h"
+#include "reports/terminal/version.h"
 
 namespace assay::reports {
 

@@ -2,13 +2,13 @@
 // unless left out, the oracle, and the two are compared.
 #include <fmt/format.h>
 
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
 #include "reports/check/check_input.h"
 #include "reports/check/check_outcome.h"
+#include "reports/check/check_report.h"
 #include "reports/check/subject.h"
 #include "reports/check/timed_oracle.h"
 #include "reports/steps/second_opinion_text.h"
@@ -74,7 +74,9 @@ class Check {
     outcome_.limit_reached = limits_.reached();
     fmt::print("{}", outcome_.summary());
     if (!request_.json_file.empty()) {
-      if (auto written = write_json(std::move(steps)); !written) return refuse(written.error());
+      const auto report = check_report(request_.files, mesh_, subject_, outcome_, std::move(steps));
+      const auto written = write_json_file(request_.json_file, report);
+      if (!written) return refuse(written.error());
     }
     return outcome_.exit_code(request_.fail_on_collision);
   }
@@ -214,28 +216,6 @@ class Check {
     outcome_.defect |= outcome_.facts_differ;
   }
 
-  Expected<void> write_json(nlohmann::ordered_json steps) const {
-    const auto or_null = [](const std::string& text) {
-      return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
-    };
-    const auto tested = subject_.to_json();
-    const nlohmann::ordered_json report = {{"schema", "assay-check/1"},
-                                           {"version", version_text()},
-                                           {"files", request_.files},
-                                           {"triangles", mesh_.triangles.size()},
-                                           {"components", mesh_.components.size()},
-                                           {"culling", tested["culling"]},
-                                           {"arithmetic", tested["arithmetic"]},
-                                           {"detector", tested["detector"]},
-                                           {"detector_ended", or_null(outcome_.ended)},
-                                           {"judged", request_.use_oracle},
-                                           {"outcome", outcome_.word()},
-                                           {"limit_reached", or_null(limits_.reached())},
-                                           {"peak_memory_bytes", peak_resident_bytes()},
-                                           {"steps", std::move(steps)}};
-    return write_json_file(request_.json_file, report);
-  }
-
   const CheckRequest& request_;
   const corpus::Case& case_;
   bool is_case_file_;
@@ -267,23 +247,6 @@ int run_check(const CheckRequest& request) {
   if (!subject) return refuse(subject.error());
   auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());
   return Check(request, input.value(), std::move(mesh), *subject.value(), limits).run();
-}
-
-// "6GB", "512MB", "1000" (bytes); KB, MB, GB are 2^10, 2^20, 2^30 bytes. Nothing for other words.
-std::optional<std::uint64_t> parse_size(const std::string& word) {
-  const auto digits = word.find_first_not_of("0123456789");
-  const std::string number = word.substr(0, digits);
-  const std::string unit = digits == std::string::npos ? "" : word.substr(digits);
-  constexpr std::size_t most_digits = 9;
-  if (number.empty() || number.size() > most_digits) return std::nullopt;
-  const std::array<std::pair<const char*, int>, 5> shifts = {
-      {{"", 0}, {"B", 0}, {"KB", 10}, {"MB", 20}, {"GB", 30}}};
-  for (const auto& [name, shift] : shifts) {
-    if (unit != name) continue;
-    const std::uint64_t bytes = std::stoull(number) << shift;
-    return bytes > 0 ? std::optional(bytes) : std::nullopt;
-  }
-  return std::nullopt;
 }
 
 void add_options(CLI::App& app, CheckRequest& request) {
@@ -318,7 +281,7 @@ void add_options(CLI::App& app, CheckRequest& request) {
                    "undecided")
       ->check(positive());
   add_choice(verb, "--memory", request.memory_limit, "a number above 0 with B, KB, MB or GB",
-             parse_size, "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
+             memory_size, "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
   verb->add_flag("--fail-on-collision", request.fail_on_collision,
                  "Exit code 5 when they agree on a collision");
   verb->add_option("--json", request.json_file, "Write the report here (assay-check/1)");

@@ -37,11 +37,11 @@ int run_check_queries(const CheckQueriesRequest& request) {
     if (!queries) return refuse(Refusal(queries.error()));
     sets.push_back(std::move(queries.value()));
   }
-  Score score(request.method);
+  QueryScore score(request.method);
   for (std::size_t i = 0; i < sets.size(); ++i) score.add(request.files[i], sets[i]);
   score.print();
   if (!request.json_file.empty()) {
-    const auto written = write_json_file(request.json_file, score.json(request.files));
+    const auto written = write_json_file(request.json_file, score.to_json(request.files));
     if (!written) return refuse(written.error());
     fmt::print("wrote {}\n", request.json_file);
   }

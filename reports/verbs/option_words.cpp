@@ -1,12 +1,29 @@
 #include "reports/verbs/option_words.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
 #include <thread>
 
 namespace assay::reports {
+
+std::optional<std::uint64_t> memory_size(const std::string& word) {
+  const auto digits = word.find_first_not_of("0123456789");
+  const std::string number = word.substr(0, digits);
+  const std::string unit = digits == std::string::npos ? "" : word.substr(digits);
+  constexpr std::size_t most_digits = 9;
+  if (number.empty() || number.size() > most_digits) return std::nullopt;
+  const std::array<std::pair<const char*, int>, 5> shifts = {
+      {{"", 0}, {"B", 0}, {"KB", 10}, {"MB", 20}, {"GB", 30}}};
+  for (const auto& [name, shift] : shifts) {
+    if (unit != name) continue;
+    const std::uint64_t bytes = std::stoull(number) << shift;
+    return bytes > 0 ? std::optional(bytes) : std::nullopt;
+  }
+  return std::nullopt;
+}
 
 // CLI11's own validator of positive numbers prints the whole range of double.
 CLI::Validator positive() {

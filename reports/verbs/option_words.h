@@ -28,6 +28,9 @@ void add_choice(CLI::App* verb, const std::string& flag, std::optional<T>& targe
       ->check(one_of(words, parse));
 }
 
+// "6GB", "512MB", "1000" (bytes); KB, MB, GB are 2^10, 2^20, 2^30 bytes. Nothing for other words.
+std::optional<std::uint64_t> memory_size(const std::string& word);
+
 CLI::Validator positive();      // a number above 0
 CLI::Validator whole_number();  // 0 .. 2^64-1
 CLI::Validator share();         // a number above 0, at most 1

@@ -1,0 +1,57 @@
+// What one method's answers to labelled queries come to: its score, its times, its rungs.
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "reports/check/query_method.h"
+
+namespace assay::reports {
+
+// A query where the answer is not the label.
+struct Difference {
+  std::string file;
+  std::size_t index = 0;
+  bool answer = false;
+  bool label_disputed = false;  // is_label_disputed: the label is in doubt, not the method
+};
+
+class QueryScore {
+ public:
+  explicit QueryScore(QueryMethod method) : method_(method) {}
+
+  // Answers and times each query of a file, one by one.
+  void add(const std::string& file, const std::vector<corpus::LabelledQuery>& queries);
+
+  // To stdout: counts, differences from the truth, microseconds, rungs.
+  void print() const;
+  // The report, schema assay-queries/1.
+  nlohmann::ordered_json to_json(const std::vector<std::string>& files) const;
+
+  // The referee contradicts the oracle.
+  bool is_unsound() const { return !contradictions_.empty(); }
+  // An answer differs from its truth in a way that the method promises not to.
+  bool is_wrong() const {
+    return (false_positives_ > 0 && claims_no_false_positives(method_)) ||
+           (false_negatives_ > 0 && claims_no_false_negatives(method_));
+  }
+
+ private:
+  void note_difference(const std::string& file, std::size_t index,
+                       const corpus::LabelledQuery& query, bool contact);
+  std::size_t count() const { return microseconds_.size(); }
+  std::size_t disputed() const { return differences_.size() - false_positives_ - false_negatives_; }
+  double mean() const;
+  double quantile(double share) const;
+
+  QueryMethod method_;
+  std::vector<double> microseconds_;
+  std::size_t yes_ = 0, unlabelled_ = 0, false_positives_ = 0, false_negatives_ = 0;
+  std::array<std::size_t, 3> rungs_ = {0, 0, 0};
+  std::size_t open_ = 0;  // by the referee; neither yes nor a difference
+  std::vector<Difference> differences_, contradictions_;
+};
+
+}  // namespace assay::reports
