@@ -12,15 +12,15 @@
 
 namespace assay::reports {
 
-void add_campaign_options(CLI::App* verb, CampaignWords& words) {
+void add_campaign_options(Verb& verb, CampaignWords& words) {
   add_seed(verb, words.seed, "Of all random cases; a fresh one a night");
-  verb->add_option("--time", words.time_limit,
-                   "Seconds by the clock for the campaign, in place of its own limit; what is left "
-                   "over then is incomplete")
-      ->check(positive());
-  verb->add_option("--power", words.power,
-                   "Folder of a run or certificate of this build: planted faults are proved by it, "
-                   "not again");
+  verb.add("--time", words.time_limit,
+           "Seconds by the clock for the campaign, in place of its own limit; what is left "
+           "over then is incomplete")
+      .with(positive());
+  verb.add("--power", words.power,
+           "Folder of a run or certificate of this build: planted faults are proved by it, "
+           "not again");
   add_detector(verb, words.detector);
   add_jobs(verb, words.jobs);
 }

@@ -1,13 +1,13 @@
 // What `run` and `certify` are asked of a campaign, and its options.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "properties/campaign/request.h"
 #include "reports/terminal/complaint.h"
+#include "reports/verbs/verb.h"
 
 namespace assay::reports {
 
@@ -23,7 +23,7 @@ struct CampaignWords {
 };
 
 // Adds an option for each of them but --campaign and --out, which say what they are of the verb.
-void add_campaign_options(CLI::App* verb, CampaignWords& words);
+void add_campaign_options(Verb& verb, CampaignWords& words);
 
 // The request for all of a campaign as one shard; `out` is made. ctrl-C leaves from then on with
 // what is stored. Refused where a name, a file or a library is wrong.

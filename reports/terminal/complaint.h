@@ -15,6 +15,7 @@ namespace assay::reports {
 struct Refusal {
   std::string line;
 
+  Refusal() = default;
   explicit Refusal(std::string text) : line(std::move(text)) {}
   // Of corpus::Problem, detector::Problem and their like.
   template <class Problem>

@@ -84,26 +84,26 @@ int run_bench(const BenchRequest& request) try {
   return refuse(problem.what());
 }
 
-void add_options(CLI::App& app, BenchRequest& request) {
+void add_options(Verb& verb, BenchRequest& request) {
   const char* data = std::getenv("ASSAY_DATA");
   request.data = data && *data ? data : "../shared/data";
-  auto* verb = app.add_subcommand("bench", "Speeds and memory beside what is wanted");
-  verb->add_option("--suite", request.suite, "What to measure")
-      ->check(
+  verb.add("--suite", request.suite, "What to measure")
+      .with(
           one_of("elementary, view, growth, claims, stability, speed-error, harness", suite_named))
-      ->required();
-  verb->add_option("--data", request.data,
-                   "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
-                   "what is not there say so");
-  verb->add_option("--json", request.json_file, "Write all figures here (assay-bench/1)");
-  verb->add_option("--csv", request.csv_file, "Write the raw samples here");
-  verb->add_option(
-      "--svg", request.svg_file,
-      "Draw the suite's picture here (growth, claims, stability, speed-error; needs gnuplot)");
+      .required();
+  verb.add("--data", request.data,
+           "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
+           "what is not there say so");
+  verb.add("--json", request.json_file, "Write all figures here (assay-bench/1)");
+  verb.add("--csv", request.csv_file, "Write the raw samples here");
+  verb.add("--svg", request.svg_file,
+           "Draw the suite's picture here (growth, claims, stability, speed-error; needs gnuplot)");
 }
 
 }  // namespace
 
-Action add_bench(CLI::App& app) { return make_verb(app, add_options, run_bench); }
+Action add_bench(CLI::App& app) {
+  return make_verb(app, "bench", "Speeds and memory beside what is wanted", add_options, run_bench);
+}
 
 }  // namespace assay::reports

@@ -236,20 +236,22 @@ int run_certify(const CampaignWords& words) {
   }
 }
 
-void add_options(CLI::App& app, CampaignWords& words) {
-  auto* verb = app.add_subcommand(
-      "certify", "Corpus, campaign, planted faults, self-test, speed: a certificate, or a defect");
+void add_options(Verb& verb, CampaignWords& words) {
   words.campaign = "smoke";
-  verb->add_option("--campaign", words.campaign,
-                   "smoke, quick, nightly, release, or a campaign file (.json)")
-      ->capture_default_str();
+  verb.add("--campaign", words.campaign,
+           "smoke, quick, nightly, release, or a campaign file (.json)")
+      .shows_default();
   add_campaign_options(verb, words);
-  verb->add_option("--out", words.out, "Folder for the certificate; shards that it holds are taken")
-      ->required();
+  verb.add("--out", words.out, "Folder for the certificate; shards that it holds are taken")
+      .required();
 }
 
 }  // namespace
 
-Action add_certify(CLI::App& app) { return make_verb(app, add_options, run_certify); }
+Action add_certify(CLI::App& app) {
+  return make_verb(app, "certify",
+                   "Corpus, campaign, planted faults, self-test, speed: a certificate, or a defect",
+                   add_options, run_certify);
+}
 
 }  // namespace assay::reports

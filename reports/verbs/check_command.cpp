@@ -29,7 +29,7 @@ struct CheckRequest {
   std::vector<std::string> files;  // frames of one mesh, or one case file
   BuiltInChoice built_in;
   std::string plugin_library;  // empty: the built-in detector
-  bool use_oracle = true;
+  bool no_oracle = false;
   std::optional<double> second_opinion;  // share in (0,1]; needs the oracle
   int jobs = 1;
   std::optional<double> time_limit;           // seconds
@@ -56,7 +56,7 @@ class Check {
         script_(corpus::steps_of(input.c)),
         limits_(limits),
         oracle_(request.jobs, limits) {
-    outcome_.is_judged = request.use_oracle;
+    outcome_.is_judged = !request.no_oracle;
     outcome_.judged_by_claims = subject.judged_by_claims();
   }
 
@@ -95,7 +95,7 @@ class Check {
                  request_.plugin_library.empty() ? ": closed with ghosts" : "");
     }
     fmt::print("; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s",
-               subject_.title(), request_.use_oracle ? "" : "; no oracle: not judged",
+               subject_.title(), request_.no_oracle ? "; no oracle: not judged" : "",
                request_.time_limit ? fmt::format("; at most {} s", *request_.time_limit) : "");
     if (!request_.json_file.empty()) fmt::print("writes {}\n", request_.json_file);
     std::fflush(stdout);
@@ -143,7 +143,7 @@ class Check {
       outcome_.collision_time = result.first;
     }
     outcome_.undecided |= result.answer == Answer::undecided;
-    if (!request_.use_oracle) {
+    if (request_.no_oracle) {
       progress.finish();
       fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr));
       return step_json(result, nullptr, 0, nullptr);
@@ -204,7 +204,7 @@ class Check {
 
   // The facts of a case are the built-in detector's; a plug-in is judged by the oracle alone.
   bool has_facts() const {
-    return is_case_file_ && request_.use_oracle && request_.plugin_library.empty();
+    return is_case_file_ && !request_.no_oracle && request_.plugin_library.empty();
   }
 
   // A case states what is true of it: an answer that differs is a defect.
@@ -249,46 +249,48 @@ int run_check(const CheckRequest& request) {
   return Check(request, input.value(), std::move(mesh), *subject.value(), limits).run();
 }
 
-void add_options(CLI::App& app, CheckRequest& request) {
-  auto* verb = app.add_subcommand("check", "Detector against oracle on the steps of one mesh");
-  verb->add_option("frames", request.files,
-                   "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)")
-      ->required();
-  auto* plugin = verb->add_option("--detector", request.plugin_library,
-                                  "Judge this plug-in (.so) by its claims, not the built-in");
-  add_choice(verb, "--culling", request.built_in.culling,
-             "view-auto, view-point, view-line, normal-cone, bvh, none", properties::culling_named,
-             "How the detector culls (default view-auto)");
-  add_choice(verb, "--start", request.built_in.start, "verified, clean, unknown",
-             properties::start_named, "What is known of the first frame (default verified)");
-  add_choice(verb, "--pairs", request.built_in.pairs, "all, first", properties::pairs_named,
-             "Which pairs are asked for (default all)");
-  add_choice(verb, "--arithmetic", request.built_in.arithmetic, "exact, bounded, double, float",
-             properties::arithmetic_named, "What the detector computes in (default exact)");
-  for (const char* of_the_built_in : {"--culling", "--start", "--pairs", "--arithmetic"}) {
-    plugin->excludes(verb->get_option(of_the_built_in));
-  }
-  auto* no_oracle = verb->add_flag_callback(
-      "--no-oracle", [&request] { request.use_oracle = false; },
-      "Detector only; prints `not judged`");
-  verb->add_option("--second-opinion", request.second_opinion,
-                   "Check the oracle itself by other methods, on this share of its questions")
-      ->check(share())
-      ->excludes(no_oracle);
+void add_options(Verb& verb, CheckRequest& request) {
+  verb.add("frames", request.files,
+           "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)")
+      .required();
+  auto plugin = verb.add("--detector", request.plugin_library,
+                         "Judge this plug-in (.so) by its claims, not the built-in");
+  auto& built_in = request.built_in;
+  plugin
+      .excludes(add_choice(verb, "--culling", built_in.culling,
+                           "view-auto, view-point, view-line, normal-cone, bvh, none",
+                           properties::culling_named, "How the detector culls (default view-auto)"))
+      .excludes(add_choice(verb, "--start", built_in.start, "verified, clean, unknown",
+                           properties::start_named,
+                           "What is known of the first frame (default verified)"))
+      .excludes(add_choice(verb, "--pairs", built_in.pairs, "all, first", properties::pairs_named,
+                           "Which pairs are asked for (default all)"))
+      .excludes(add_choice(verb, "--arithmetic", built_in.arithmetic,
+                           "exact, bounded, double, float", properties::arithmetic_named,
+                           "What the detector computes in (default exact)"));
+  const auto no_oracle =
+      verb.add_flag("--no-oracle", request.no_oracle, "Detector only; prints `not judged`");
+  verb.add("--second-opinion", request.second_opinion,
+           "Check the oracle itself by other methods, on this share of its questions")
+      .with(share())
+      .excludes(no_oracle);
   add_jobs(verb, request.jobs);
-  verb->add_option("--time", request.time_limit,
-                   "Limit in seconds of processor time, all threads together; what is left is "
-                   "undecided")
-      ->check(positive());
+  verb.add("--time", request.time_limit,
+           "Limit in seconds of processor time, all threads together; what is left is "
+           "undecided")
+      .with(positive());
   add_choice(verb, "--memory", request.memory_limit, "a number above 0 with B, KB, MB or GB",
              memory_size, "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
-  verb->add_flag("--fail-on-collision", request.fail_on_collision,
-                 "Exit code 5 when they agree on a collision");
-  verb->add_option("--json", request.json_file, "Write the report here (assay-check/1)");
+  verb.add_flag("--fail-on-collision", request.fail_on_collision,
+                "Exit code 5 when they agree on a collision");
+  verb.add("--json", request.json_file, "Write the report here (assay-check/1)");
 }
 
 }  // namespace
 
-Action add_check(CLI::App& app) { return make_verb(app, add_options, run_check); }
+Action add_check(CLI::App& app) {
+  return make_verb(app, "check", "Detector against oracle on the steps of one mesh", add_options,
+                   run_check);
+}
 
 }  // namespace assay::reports

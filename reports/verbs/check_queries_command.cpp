@@ -49,23 +49,22 @@ int run_check_queries(const CheckQueriesRequest& request) {
   return score.is_wrong() ? exit_defect : exit_holds;
 }
 
-void add_options(CLI::App& app, CheckQueriesRequest& request) {
-  auto* verb =
-      app.add_subcommand("check-queries", "Labelled VF and EE queries against their truth");
-  verb->add_option("files", request.files, "Query files (.csv, .csv.gz)")->required();
-  verb->add_option("--truth", request.truths, "Labels (.json), one file for each query file");
+void add_options(Verb& verb, CheckQueriesRequest& request) {
+  verb.add("files", request.files, "Query files (.csv, .csv.gz)").required();
+  verb.add("--truth", request.truths, "Labels (.json), one file for each query file");
   const auto parse = [](std::string_view word) {
     return properties::value_of<QueryMethod>(query_method_names, word);
   };
-  verb->add_option_function<std::string>(
-          "--method", [&request, parse](const std::string& word) { request.method = *parse(word); },
-          "Who answers (default oracle)")
-      ->check(one_of(joined(query_method_names, ", "), parse));
-  verb->add_option("--json", request.json_file, "Write the report here (assay-queries/1)");
+  add_choice(verb, "--method", request.method, joined(query_method_names, ", "), parse,
+             "Who answers (default oracle)");
+  verb.add("--json", request.json_file, "Write the report here (assay-queries/1)");
 }
 
 }  // namespace
 
-Action add_check_queries(CLI::App& app) { return make_verb(app, add_options, run_check_queries); }
+Action add_check_queries(CLI::App& app) {
+  return make_verb(app, "check-queries", "Labelled VF and EE queries against their truth",
+                   add_options, run_check_queries);
+}
 
 }  // namespace assay::reports

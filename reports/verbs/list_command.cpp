@@ -85,15 +85,22 @@ int run_list(const ListRequest& request) {
   return list_scenes();
 }
 
-void add_options(CLI::App& app, ListRequest& request) {
-  auto* verb = app.add_subcommand("list", "List scenes, laws, faults, campaigns, or failures");
-  verb->add_option("what", request.what, "scenes, laws, faults, campaigns, failures")
-      ->check(CLI::IsMember({"scenes", "laws", "faults", "campaigns", "failures"}));
-  verb->add_option("folder", request.folder, "Of a run, for failures");
+bool is_list(const std::string& word) {
+  return word == "scenes" || word == "laws" || word == "faults" || word == "campaigns" ||
+         word == "failures";
+}
+
+void add_options(Verb& verb, ListRequest& request) {
+  verb.add("what", request.what, "scenes, laws, faults, campaigns, failures")
+      .with(one_of("scenes, laws, faults, campaigns, failures", is_list));
+  verb.add("folder", request.folder, "Of a run, for failures");
 }
 
 }  // namespace
 
-Action add_list(CLI::App& app) { return make_verb(app, add_options, run_list); }
+Action add_list(CLI::App& app) {
+  return make_verb(app, "list", "List scenes, laws, faults, campaigns, or failures", add_options,
+                   run_list);
+}
 
 }  // namespace assay::reports

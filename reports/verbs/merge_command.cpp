@@ -51,7 +51,7 @@ int run_merge(const MergeRequest& request) {
              run.plan.name, run.seed, trials, planned, out.string());
   const auto failures = write_failures(*merged, request.out, findings->library);
   fmt::print("{}", failures.text);
-  if (failures.problem) return refuse(*failures.problem);
+  if (!failures.written) return refuse(failures.written.error());
   const auto judgement = judge(*findings, properties::asked_of_a_run());
   fmt::print("\n{}\n{}, so far\n", gates_text(judgement), verdict_text(*findings, judgement));
   if (trials < planned) {
@@ -64,16 +64,15 @@ int run_merge(const MergeRequest& request) {
   return exit_holds;
 }
 
-void add_options(CLI::App& app, MergeRequest& request) {
-  auto* verb = app.add_subcommand("merge", "The stores of several shards become one");
-  verb->add_option("folders", request.folders, "Folders of `assay run`, or of `assay merge`")
-      ->required();
-  verb->add_option("--out", request.out, "Folder for merged.sqlite and the failing meshes")
-      ->required();
+void add_options(Verb& verb, MergeRequest& request) {
+  verb.add("folders", request.folders, "Folders of `assay run`, or of `assay merge`").required();
+  verb.add("--out", request.out, "Folder for merged.sqlite and the failing meshes").required();
 }
 
 }  // namespace
 
-Action add_merge(CLI::App& app) { return make_verb(app, add_options, run_merge); }
+Action add_merge(CLI::App& app) {
+  return make_verb(app, "merge", "The stores of several shards become one", add_options, run_merge);
+}
 
 }  // namespace assay::reports

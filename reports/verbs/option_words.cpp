@@ -2,12 +2,21 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <system_error>
 #include <thread>
 
 namespace assay::reports {
+namespace {
+
+// A decimal number with nothing before or behind it.
+std::optional<double> number_of(const std::string& word) {
+  char* end = nullptr;
+  const double number = std::strtod(word.c_str(), &end);
+  const bool is_number = !word.empty() && end == word.c_str() + word.size();
+  return is_number ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace
 
 std::optional<std::uint64_t> memory_size(const std::string& word) {
   const auto digits = word.find_first_not_of("0123456789");
@@ -25,57 +34,46 @@ std::optional<std::uint64_t> memory_size(const std::string& word) {
   return std::nullopt;
 }
 
-// CLI11's own validator of positive numbers prints the whole range of double.
-CLI::Validator positive() {
-  return CLI::Validator(
-      [](const std::string& word) {
-        double value = 0;
-        const bool is_number = CLI::detail::lexical_cast(word, value);
-        return is_number && value > 0 && std::isfinite(value)
-                   ? std::string()
-                   : fmt::format("'{}' is not a number above 0", word);
-      },
-      "NUMBER > 0");
+Check positive() {
+  return {"NUMBER > 0", [](const std::string& word) {
+            const auto number = number_of(word);
+            return number && *number > 0 && std::isfinite(*number)
+                       ? std::string()
+                       : fmt::format("'{}' is not a number above 0", word);
+          }};
 }
 
 // CLI11 reads "-1", and numbers beyond 64 bits, as the largest unsigned number.
-CLI::Validator whole_number() {
-  return CLI::Validator(
-      [](const std::string& word) {
-        std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        const bool is_number = error == std::errc() && end == word.data() + word.size();
-        return is_number ? std::string()
-                         : fmt::format("'{}' is not a whole number of 64 bits", word);
-      },
-      "NUMBER >= 0");
+Check whole_number() {
+  return {"NUMBER >= 0", [](const std::string& word) {
+            return whole_number_of<std::uint64_t>(word)
+                       ? std::string()
+                       : fmt::format("'{}' is not a whole number of 64 bits", word);
+          }};
 }
 
-CLI::Validator share() {
-  return CLI::Validator(
-      [](const std::string& word) {
-        double value = 0;
-        const bool is_number = CLI::detail::lexical_cast(word, value);
-        return is_number && value > 0 && value <= 1
-                   ? std::string()
-                   : fmt::format("'{}' is not a number above 0, at most 1", word);
-      },
-      "0 < SHARE <= 1");
+Check share() {
+  return {"0 < SHARE <= 1", [](const std::string& word) {
+            const auto number = number_of(word);
+            return number && *number > 0 && *number <= 1
+                       ? std::string()
+                       : fmt::format("'{}' is not a number above 0, at most 1", word);
+          }};
 }
 
-void add_jobs(CLI::App* verb, int& jobs) {
+void add_jobs(Verb& verb, int& jobs) {
   jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  verb->add_option("--jobs", jobs, "Threads of the oracle; the result does not depend on it")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  verb.add("--jobs", jobs, "Threads of the oracle; the result does not depend on it")
+      .in_range(1, 1024)
+      .shows_default();
 }
 
-void add_seed(CLI::App* verb, std::uint64_t& seed, const std::string& about) {
-  verb->add_option("--seed", seed, about)->check(whole_number())->capture_default_str();
+void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about) {
+  verb.add("--seed", seed, about).with(whole_number()).shows_default();
 }
 
-void add_detector(CLI::App* verb, std::string& library) {
-  verb->add_option("--detector", library, "A plug-in's library (default: the built-in)");
+void add_detector(Verb& verb, std::string& library) {
+  verb.add("--detector", library, "A plug-in's library (default: the built-in)");
 }
 
 }  // namespace assay::reports

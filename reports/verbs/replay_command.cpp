@@ -213,23 +213,18 @@ int run_replay(const ReplayRequest& request) {
 
 // "3,17"
 std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
-  detector::TrianglePair pair;
   const auto comma = word.find(',');
   if (comma == std::string::npos) return std::nullopt;
-  if (!CLI::detail::lexical_cast(word.substr(0, comma), pair.a) ||
-      !CLI::detail::lexical_cast(word.substr(comma + 1), pair.b) || pair.a == pair.b) {
-    return std::nullopt;
-  }
-  if (pair.a > pair.b) std::swap(pair.a, pair.b);
-  return pair;
+  const auto a = whole_number_of<std::int32_t>(word.substr(0, comma));
+  const auto b = whole_number_of<std::int32_t>(word.substr(comma + 1));
+  if (!a || !b || *a == *b) return std::nullopt;
+  return detector::TrianglePair{std::min(*a, *b), std::max(*a, *b)};
 }
 
-void add_options(CLI::App& app, ReplayRequest& request) {
-  auto* verb = app.add_subcommand("replay", "One case of a campaign again, or a case file");
-  verb->add_option("case", request.id_or_file, "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file")
-      ->required();
-  verb->add_option("--export", request.export_folder,
-                   "Write frames as OBJ and a ready GoogleTest into this folder");
+void add_options(Verb& verb, ReplayRequest& request) {
+  verb.add("case", request.id_or_file, "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file").required();
+  verb.add("--export", request.export_folder,
+           "Write frames as OBJ and a ready GoogleTest into this folder");
   add_choice(verb, "--why", request.why, "A,B: two triangles", parse_pair,
              "A,B: why this pair of triangles was or was not tested");
   add_detector(verb, request.detector);
@@ -237,6 +232,9 @@ void add_options(CLI::App& app, ReplayRequest& request) {
 
 }  // namespace
 
-Action add_replay(CLI::App& app) { return make_verb(app, add_options, run_replay); }
+Action add_replay(CLI::App& app) {
+  return make_verb(app, "replay", "One case of a campaign again, or a case file", add_options,
+                   run_replay);
+}
 
 }  // namespace assay::reports

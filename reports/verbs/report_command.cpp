@@ -70,14 +70,16 @@ int run_report(const ReportRequest& request) {
   return exit_holds;
 }
 
-void add_options(CLI::App& app, ReportRequest& request) {
-  auto* verb = app.add_subcommand("report", "Runs as one HTML page that works offline");
-  verb->add_option("folders", request.folders, "Folders of runs, the oldest first")->required();
-  verb->add_option("--out", request.out, "The page (.html)")->required();
+void add_options(Verb& verb, ReportRequest& request) {
+  verb.add("folders", request.folders, "Folders of runs, the oldest first").required();
+  verb.add("--out", request.out, "The page (.html)").required();
 }
 
 }  // namespace
 
-Action add_report(CLI::App& app) { return make_verb(app, add_options, run_report); }
+Action add_report(CLI::App& app) {
+  return make_verb(app, "report", "Runs as one HTML page that works offline", add_options,
+                   run_report);
+}
 
 }  // namespace assay::reports

@@ -17,7 +17,7 @@ namespace assay::reports {
 namespace {
 
 struct RunRequest {
-  CampaignWords words{.campaign = "quick"};
+  CampaignWords words;
   properties::Shard shard;
 };
 
@@ -79,33 +79,31 @@ int run_campaign(const RunRequest& command) {
 
 // "2/8"
 std::optional<properties::Shard> parse_shard(const std::string& word) {
-  properties::Shard shard;
   const auto slash = word.find('/');
   if (slash == std::string::npos) return std::nullopt;
-  if (!CLI::detail::lexical_cast(word.substr(0, slash), shard.index) ||
-      !CLI::detail::lexical_cast(word.substr(slash + 1), shard.count)) {
-    return std::nullopt;
-  }
-  return shard.index >= 1 && shard.index <= shard.count ? std::optional(shard) : std::nullopt;
+  const auto index = whole_number_of<std::uint64_t>(word.substr(0, slash));
+  const auto count = whole_number_of<std::uint64_t>(word.substr(slash + 1));
+  const bool is_shard = index && count && *index >= 1 && *index <= *count;
+  return is_shard ? std::optional(properties::Shard{*index, *count}) : std::nullopt;
 }
 
-void add_options(CLI::App& app, RunRequest& request) {
-  auto* verb = app.add_subcommand(
-      "run", "A campaign of random cases: detector against oracle, laws, planted faults");
-  verb->add_option("--campaign", request.words.campaign,
-                   "smoke, quick, nightly, release, faults, or a campaign file (.json)")
-      ->capture_default_str();
+void add_options(Verb& verb, RunRequest& request) {
+  request.words.campaign = "quick";
+  verb.add("--campaign", request.words.campaign,
+           "smoke, quick, nightly, release, faults, or a campaign file (.json)")
+      .shows_default();
   add_campaign_options(verb, request.words);
-  verb->add_option_function<std::string>(
-          "--shard", [&request](const std::string& word) { request.shard = *parse_shard(word); },
-          "I/N: the part of the cases that this run makes (default 1/1)")
-      ->check(one_of("I/N with 1 <= I <= N", parse_shard));
-  verb->add_option("--out", request.words.out, "Folder for the store and the failing meshes")
-      ->required();
+  add_choice(verb, "--shard", request.shard, "I/N with 1 <= I <= N", parse_shard,
+             "I/N: the part of the cases that this run makes (default 1/1)");
+  verb.add("--out", request.words.out, "Folder for the store and the failing meshes").required();
 }
 
 }  // namespace
 
-Action add_run(CLI::App& app) { return make_verb(app, add_options, run_campaign); }
+Action add_run(CLI::App& app) {
+  return make_verb(app, "run",
+                   "A campaign of random cases: detector against oracle, laws, planted faults",
+                   add_options, run_campaign);
+}
 
 }  // namespace assay::reports

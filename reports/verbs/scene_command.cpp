@@ -57,17 +57,18 @@ int run_scene(const SceneRequest& request) {
   return exit_holds;
 }
 
-void add_options(CLI::App& app, SceneRequest& request) {
-  auto* verb = app.add_subcommand("scene", "Write the frames of a kinematic scene");
-  verb->add_option("name", request.name, "One of `assay list scenes`")->required();
-  verb->add_option("--mesh", request.mesh_file, "Deform this mesh instead of the scene's own");
-  verb->add_option("--size", request.size, "Triangles wanted")->check(positive());
-  verb->add_option("--frames", request.frames, "Frames")->check(positive());
-  verb->add_option("--out", request.out, "Folder for frame_0000.ply, ...")->required();
+void add_options(Verb& verb, SceneRequest& request) {
+  verb.add("name", request.name, "One of `assay list scenes`").required();
+  verb.add("--mesh", request.mesh_file, "Deform this mesh instead of the scene's own");
+  verb.add("--size", request.size, "Triangles wanted").with(positive());
+  verb.add("--frames", request.frames, "Frames").with(positive());
+  verb.add("--out", request.out, "Folder for frame_0000.ply, ...").required();
 }
 
 }  // namespace
 
-Action add_scene(CLI::App& app) { return make_verb(app, add_options, run_scene); }
+Action add_scene(CLI::App& app) {
+  return make_verb(app, "scene", "Write the frames of a kinematic scene", add_options, run_scene);
+}
 
 }  // namespace assay::reports

@@ -135,22 +135,23 @@ int run_self_test(const SelfTestRequest& request) {
   return exit_holds;
 }
 
-void add_options(CLI::App& app, SelfTestRequest& request) {
-  auto* verb = app.add_subcommand("self-test",
-                                  "The oracle against every other method on elementary queries");
+void add_options(Verb& verb, SelfTestRequest& request) {
   add_seed(verb, request.seed, "Of all random queries");
-  verb->add_option("--queries", request.queries,
-                   "Random small-integer queries; the other families follow this number")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
-      ->capture_default_str();
-  verb->add_option("--time", request.time_limit, "Limit in seconds; what is left is undecided")
-      ->check(positive());
+  verb.add("--queries", request.queries,
+           "Random small-integer queries; the other families follow this number")
+      .in_range(1, 1'000'000'000)
+      .shows_default();
+  verb.add("--time", request.time_limit, "Limit in seconds; what is left is undecided")
+      .with(positive());
   add_jobs(verb, request.jobs);
-  verb->add_option("--replay", request.replay, "One case again, by its name family:seed:index");
+  verb.add("--replay", request.replay, "One case again, by its name family:seed:index");
 }
 
 }  // namespace
 
-Action add_self_test(CLI::App& app) { return make_verb(app, add_options, run_self_test); }
+Action add_self_test(CLI::App& app) {
+  return make_verb(app, "self-test", "The oracle against every other method on elementary queries",
+                   add_options, run_self_test);
+}
 
 }  // namespace assay::reports

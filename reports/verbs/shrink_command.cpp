@@ -107,18 +107,18 @@ int run_shrink(const ShrinkRequest& request) {
   return exit_defect;
 }
 
-void add_options(CLI::App& app, ShrinkRequest& request) {
-  auto* verb = app.add_subcommand("shrink", "The smallest case that fails as a given one does");
-  verb->add_option("file", request.file, "A case file (.json)")->required();
-  verb->add_option("--out", request.out, "Where the smallest case goes")->required();
-  verb->add_option("--time", request.seconds, "Seconds at most")
-      ->check(positive())
-      ->capture_default_str();
+void add_options(Verb& verb, ShrinkRequest& request) {
+  verb.add("file", request.file, "A case file (.json)").required();
+  verb.add("--out", request.out, "Where the smallest case goes").required();
+  verb.add("--time", request.seconds, "Seconds at most").with(positive()).shows_default();
   add_detector(verb, request.detector);
 }
 
 }  // namespace
 
-Action add_shrink(CLI::App& app) { return make_verb(app, add_options, run_shrink); }
+Action add_shrink(CLI::App& app) {
+  return make_verb(app, "shrink", "The smallest case that fails as a given one does", add_options,
+                   run_shrink);
+}
 
 }  // namespace assay::reports

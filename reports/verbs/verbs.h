@@ -4,17 +4,9 @@
 // it does, so that a new option is a change of one file.
 #pragma once
 
-#include <functional>
-#include <memory>
-
-namespace CLI {
-class App;
-}
+#include "reports/verbs/verb.h"
 
 namespace assay::reports {
-
-// What a verb does once its command line is parsed. Returns the exit code.
-using Action = std::function<int()>;
 
 // Each adds its verb, with all its options, to the command line.
 Action add_bench(CLI::App& app);
@@ -30,15 +22,5 @@ Action add_scene(CLI::App& app);
 Action add_self_test(CLI::App& app);
 Action add_shrink(CLI::App& app);
 Action add_verify(CLI::App& app);
-
-// A verb of these options and this action. The request holds the defaults; it lives as long as the
-// action does, for the options write into it.
-template <class Request>
-Action make_verb(CLI::App& app, void (*add_options)(CLI::App&, Request&),
-                 int (*run)(const Request&)) {
-  const auto request = std::make_shared<Request>();
-  add_options(app, *request);
-  return [request, run] { return run(*request); };
-}
 
 }  // namespace assay::reports

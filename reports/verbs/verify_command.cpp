@@ -60,15 +60,17 @@ int run_verify(const VerifyRequest& request) {
   return code;
 }
 
-void add_options(CLI::App& app, VerifyRequest& request) {
-  auto* verb = app.add_subcommand("verify", "A certificate against the files beside it");
-  verb->add_option("certificate", request.certificates,
-                   "OUT/certificate.json; several nights of one detector are pooled")
-      ->required();
+void add_options(Verb& verb, VerifyRequest& request) {
+  verb.add("certificate", request.certificates,
+           "OUT/certificate.json; several nights of one detector are pooled")
+      .required();
 }
 
 }  // namespace
 
-Action add_verify(CLI::App& app) { return make_verb(app, add_options, run_verify); }
+Action add_verify(CLI::App& app) {
+  return make_verb(app, "verify", "A certificate against the files beside it", add_options,
+                   run_verify);
+}
 
 }  // namespace assay::reports
