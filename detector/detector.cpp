@@ -1,6 +1,8 @@
 #include "detector/detector.h"
 
+#include "detector/assembly.h"
 #include "detector/mesh/mesh_checks.h"
+#include "detector/state/state_bytes.h"
 #include "detector/step/step.h"
 
 namespace assay::detector {
@@ -30,6 +32,21 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
 
 }  // namespace
 
+SavedState::SavedState(StateFields fields)
+    : fields_(std::make_shared<const StateFields>(std::move(fields))) {}
+
+std::vector<std::uint8_t> SavedState::bytes() const {
+  std::vector<std::uint8_t> bytes(state_size(*fields_));
+  write_state(*fields_, bytes);
+  return bytes;
+}
+
+Expected<SavedState> SavedState::read(std::span<const std::uint8_t> bytes) {
+  auto fields = read_state(bytes);
+  if (!fields) return fields.error();
+  return SavedState(std::move(fields.value()));
+}
+
 struct Detector::Parts {
   StepContext context;
   std::optional<StepState> committed, evaluated;
@@ -45,9 +62,8 @@ Expected<Detector> Detector::create(const TrianglesView& triangles, const Positi
   return assemble(triangles, positions, options, standard_stages(options));
 }
 
-Expected<Detector> Detector::assemble(const TrianglesView& triangles,
-                                      const PositionsView& positions, const Options& options,
-                                      Stages stages) {
+Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
+                            const Options& options, Stages stages) {
   if (auto problem = check_triangles(triangles, positions.rows())) return std::move(*problem);
   if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
   Surface surface = stages.boundary->close_up(triangles, positions.rows());
@@ -68,7 +84,8 @@ Expected<Detector> Detector::assemble(const TrianglesView& triangles,
   StepContext context{options,           std::move(stages),  std::move(surface), std::move(tree),
                       std::move(search), std::move(anchors), std::move(rules),   0};
   if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
-  return Detector(std::unique_ptr<Parts>(new Parts{std::move(context), {}, {}}));
+  return Detector(
+      std::unique_ptr<Detector::Parts>(new Detector::Parts{std::move(context), {}, {}}));
 }
 
 StepResult Detector::evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
@@ -101,11 +118,13 @@ void Detector::reset() {
 
 SavedState Detector::state() const {
   const StepContext& context = parts_->context;
-  return {digest_of(context.surface.mesh, context.surface.first_apex), context.options.culling,
-          parts_->committed, context.apex_rules, context.anchors};
+  return SavedState(StateFields{digest_of(context.surface.mesh, context.surface.first_apex),
+                                context.options.culling, parts_->committed, context.apex_rules,
+                                context.anchors});
 }
 
-std::optional<Problem> Detector::restore(const SavedState& state) {
+std::optional<Problem> Detector::restore(const SavedState& saved) {
+  const StateFields& state = saved.fields();
   StepContext& context = parts_->context;
   if (state.mesh != digest_of(context.surface.mesh, context.surface.first_apex)) {
     return Problem{InputError::foreign_state, "the state is of a detector of another mesh"};
@@ -117,7 +136,7 @@ std::optional<Problem> Detector::restore(const SavedState& state) {
   if (!fits(state, context.surface, context.anchors.size())) {
     return Problem{InputError::damaged_state, "the state contradicts the mesh that it names"};
   }
-  SavedState copy = state;  // first: whole or not at all, should memory fail
+  StateFields copy = state;  // first: whole or not at all, should memory fail
   parts_->committed = std::move(copy.committed);
   context.apex_rules = std::move(copy.apex_rules);
   context.anchors = std::move(copy.anchors);

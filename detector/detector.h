@@ -16,12 +16,37 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
-#include "detector/state/saved_state.h"
-#include "detector/step/stages.h"
+#include "detector/mesh/surface.h"
+#include "detector/options.h"
+#include "detector/step_result.h"
 
 namespace assay::detector {
+
+struct StateFields;  // of no concern to users
+struct Stages;       // assembly.h
+
+// What a detector carries from step to step, as a value that can be copied and kept, and as bytes
+// in a file. Copies share what they hold; nothing of it ever changes.
+class SavedState {
+ public:
+  explicit SavedState(StateFields fields);
+
+  // The same bytes on every machine: 24 a vertex, 1 a triangle, 16 a pair in contact, and what the
+  // components and holes take. O(M).
+  std::vector<std::uint8_t> bytes() const;
+  // damaged_state, other_state_version; of which mesh it is, restore() checks. Takes no more memory
+  // than a few times the bytes that are there, whatever they say. O(M).
+  static Expected<SavedState> read(std::span<const std::uint8_t> bytes);
+
+  const StateFields& fields() const { return *fields_; }
+
+ private:
+  std::shared_ptr<const StateFields> fields_;
+};
 
 class Detector {
  public:
@@ -30,9 +55,6 @@ class Detector {
   // best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
-  // The same of stages other than the standard ones of the options.
-  static Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
-                                     const Options& options, Stages stages);
   Detector(Detector&&) noexcept;
   Detector& operator=(Detector&&) noexcept;
   ~Detector();
@@ -54,8 +76,7 @@ class Detector {
   StepResult step(const PositionsView& x_t0, const PositionsView& x_t1,
                   std::span<const ViewPrimitive> primitives = {}, const StopFunction& stop = {});
 
-  // What later steps rest on: the last commit, and where views and apexes are placed. A plain
-  // value; as bytes: state/state_bytes.h.
+  // What later steps rest on: the last commit, and where views and apexes are placed.
   SavedState state() const;
 
   // Goes on from there: further results are those of the detector that was saved, bit by bit (where
@@ -74,6 +95,8 @@ class Detector {
  private:
   struct Parts;
   explicit Detector(std::unique_ptr<Parts> parts);
+  friend Expected<Detector> assemble(const TrianglesView&, const PositionsView&, const Options&,
+                                     Stages);
   std::unique_ptr<Parts> parts_;
 };
 

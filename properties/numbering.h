@@ -14,8 +14,7 @@ namespace assay::properties {
 
 using Numbers = std::vector<std::int32_t>;
 
-// The place in an array of the vertex, triangle or component i.
-constexpr std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+using detector::at;
 
 // 0 .. count - 1.
 inline Numbers in_order(std::size_t count) {

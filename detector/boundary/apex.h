@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "detector/boundary/loops.h"
+#include "detector/mesh/loops.h"
 
 namespace assay::detector {
 

@@ -1,17 +1,11 @@
 // Whether two triangles of the surface meet, mesh or ghost, feature by feature.
 #pragma once
 
-#include "detector/boundary/surface.h"
 #include "detector/contact/elementary.h"
+#include "detector/mesh/step_counts.h"
+#include "detector/mesh/surface.h"
 
 namespace assay::detector {
-
-struct GhostCounts {
-  std::uint64_t pairs = 0;             // ghost and triangle whose moving boxes are not apart
-  std::uint64_t elementary_tests = 0;  // feature pairs of these tested beyond axis order
-  // Triangles of those pairs, each once, in the step itself: what GhostTest::boxes calls violated.
-  std::uint64_t near_triangles = 0;
-};
 
 class FacePairTest {
  public:

@@ -3,8 +3,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 class HoleSweep {
  public:
   HoleSweep(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,

@@ -3,15 +3,10 @@
 
 #include "detector/boundary/face_pair.h"
 #include "detector/boundary/hole_tree.h"
+#include "detector/options.h"
 #include "detector/search/pair_search.h"
 
 namespace assay::detector {
-
-// When a ghost counts as touching a triangle.
-enum class GhostTest : std::uint8_t {
-  exact,  // their closed faces meet
-  boxes,  // their moving boxes are not apart: a superset, as sound, and dirty for longer
-};
 
 struct GhostSweep {
   const Surface& surface;

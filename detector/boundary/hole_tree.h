@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "detector/boundary/surface.h"
+#include "detector/mesh/surface.h"
 #include "detector/search/moving_box.h"
 
 namespace assay::detector {

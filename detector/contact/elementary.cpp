@@ -8,13 +8,6 @@
 
 namespace assay::detector {
 
-void ContactRungCounts::add(ContactRung rung) {
-  ++(rung == ContactRung::axis     ? axis
-     : rung == ContactRung::filter ? filter
-     : rung == ContactRung::exact  ? exact
-                                   : open);
-}
-
 ContactResult test_contact(const FourPoints& query, Want want) {
   if (separated_along_an_axis(query)) return {false, {}, ContactRung::axis};
   return test_contact_past_axis(query, want);

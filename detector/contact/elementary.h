@@ -10,17 +10,9 @@
 #include "detector/contact/four_points.h"
 #include "detector/geometry/orientation.h"
 #include "detector/mesh/arithmetic.h"
+#include "detector/mesh/step_counts.h"
 
 namespace assay::detector {
-
-// `open`: bounded arithmetic could not tell, and counts a contact.
-enum class ContactRung : std::uint8_t { axis, filter, exact, open };
-
-struct ContactRungCounts {
-  std::uint64_t axis = 0, filter = 0, exact = 0, open = 0;
-  void add(ContactRung rung);
-  std::uint64_t total() const { return axis + filter + exact + open; }
-};
 
 struct ContactResult {
   bool contact = false;

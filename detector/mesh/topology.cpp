@@ -7,8 +7,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // (row, item) lists to one array, items of a row in the order given.
 template <class ForEachEntry>
 Incidence make_incidence(std::size_t rows, ForEachEntry for_each_entry) {

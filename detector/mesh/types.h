@@ -34,4 +34,7 @@ inline MovingPoint moving_point(const PositionsView& x_t0, const PositionsView& 
   return {point_of(x_t0, vertex), point_of(x_t1, vertex)};
 }
 
+// The place in an array of the vertex, triangle or component with this number.
+constexpr std::size_t at(std::int32_t number) { return static_cast<std::size_t>(number); }
+
 }  // namespace assay::detector

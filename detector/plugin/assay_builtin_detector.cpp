@@ -168,7 +168,8 @@ void assay_builtin_reset(assay_handle* handle) { handle->detector.reset(); }
 std::int32_t assay_builtin_save(const assay_handle* handle, void* buffer, std::uint64_t capacity,
                                 std::uint64_t* size, assay_builtin_error* error) {
   return guarded(error, [&]() -> std::int32_t {
-    const SavedState state = handle->detector.state();
+    const SavedState saved = handle->detector.state();
+    const StateFields& state = saved.fields();
     *size = state_size(state);
     if (!buffer) return done(error);
     if (capacity < *size)
@@ -181,10 +182,10 @@ std::int32_t assay_builtin_save(const assay_handle* handle, void* buffer, std::u
 std::int32_t assay_builtin_restore(assay_handle* handle, const void* bytes, std::uint64_t size,
                                    assay_builtin_error* error) {
   return guarded(error, [&]() -> std::int32_t {
-    const auto state =
+    auto state =
         read_state({static_cast<const std::uint8_t*>(bytes), static_cast<std::size_t>(size)});
     if (!state) return refuse(error, state.error());
-    if (const auto problem = handle->detector.restore(state.value()))
+    if (const auto problem = handle->detector.restore(SavedState(std::move(state.value()))))
       return refuse(error, *problem);
     return done(error);
   });

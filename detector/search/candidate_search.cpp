@@ -1,12 +1,6 @@
 #include "detector/search/candidate_search.h"
 
 namespace assay::detector {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,
                                  const BoundingVolumeTree& tree, SearchMemory& memory,
                                  const PositionsView& x_t0, const PositionsView& x_t1,

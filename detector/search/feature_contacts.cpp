@@ -8,8 +8,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // As many tests come together as keep the code and the data of a phase at hand.
 constexpr std::size_t tests_at_once = 2048;
 

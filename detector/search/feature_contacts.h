@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "detector/contact/elementary.h"
+#include "detector/mesh/step_counts.h"
 #include "detector/mesh/topology.h"
 #include "detector/search/feature_pairs.h"
 
@@ -22,11 +23,6 @@ struct FeatureContact {
   Feature feature;
   TimeEnclosure time;               // {0, 0} when only yes or no was wanted
   std::vector<TrianglePair> pairs;  // all that hold the two features
-};
-
-struct NarrowCounts {
-  std::uint64_t elementary_tests = 0;  // feature pairs tested beyond rung 0, each once
-  ContactRungCounts rungs;             // `axis`: those whose boxes met only as floats
 };
 
 class FeatureContacts {

@@ -5,8 +5,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 bool contains(const std::array<std::int32_t, 3>& triangle, std::int32_t vertex) {
   return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
 }

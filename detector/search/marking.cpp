@@ -3,12 +3,6 @@
 #include <cassert>
 
 namespace assay::detector {
-namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 Marks::Marks(const BoundingVolumeTree& tree)
     : types((tree.node_count() + 1) / 2, TriangleType::positive),
       node_flags(tree.node_count(), flag::positive) {

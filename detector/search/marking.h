@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "detector/mesh/step_counts.h"
 #include "detector/search/bounding_volume_tree.h"
 #include "detector/search/triangle_type.h"
 
@@ -30,12 +31,6 @@ struct Marks {
   std::uint8_t flags(std::int32_t triangle) const {
     return flags_of(types[static_cast<std::size_t>(triangle)]);
   }
-};
-
-struct MarkingCounts {
-  std::uint64_t changed = 0;  // triangles whose flags changed
-  std::uint64_t marked = 0;   // nodes that got a flag, leaves included
-  std::uint64_t cleared = 0;  // nodes that lost one
 };
 
 // A stage of the detector.

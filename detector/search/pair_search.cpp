@@ -3,8 +3,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 class Descent {
  public:
   Descent(const SearchInput& input, bool skips, SearchCounts& counts, const PairSink& sink)

@@ -4,17 +4,10 @@
 #include <functional>
 #include <memory>
 
+#include "detector/mesh/step_counts.h"
 #include "detector/search/marking.h"
 
 namespace assay::detector {
-
-struct SearchCounts {
-  std::uint64_t box_tests = 0;
-  std::uint64_t child_counts = 0;   // looks at how many children of a node may hold a partner
-  std::uint64_t skipped = 0;        // nodes with a single such child, left without a box test
-  std::uint64_t contour_tests = 0;  // of patches with a normal cone
-  std::uint64_t candidate_pairs = 0;
-};
 
 // What a search makes once for a mesh and works in later; each detector has its own.
 struct KeptBySearch {

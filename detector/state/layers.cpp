@@ -8,8 +8,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // Doubles may fail at one triangle and not at the next.
 constexpr std::size_t most_attempts = 4;
 

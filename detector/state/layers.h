@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "detector/boundary/surface.h"
 #include "detector/mesh/arithmetic.h"
+#include "detector/mesh/surface.h"
 
 namespace assay::detector {
 

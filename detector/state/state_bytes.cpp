@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "detector/mesh/problem.h"
 #include "detector/state/byte_archive.h"
 
 namespace assay::detector {
@@ -120,13 +121,13 @@ Problem damaged(const char* message) { return {InputError::damaged_state, messag
 
 }  // namespace
 
-std::size_t state_size(const SavedState& state) {
+std::size_t state_size(const StateFields& state) {
   Writer counter(nullptr);
   state_fields(counter, state);
   return least_size + counter.size();
 }
 
-void write_state(const SavedState& state, std::span<std::uint8_t> bytes) {
+void write_state(const StateFields& state, std::span<std::uint8_t> bytes) {
   Writer out(bytes.data());
   for (const auto byte : magic) out.byte(byte);
   out.number(state_version);
@@ -135,7 +136,7 @@ void write_state(const SavedState& state, std::span<std::uint8_t> bytes) {
   out.number(checksum_of(bytes.first(out.size())));
 }
 
-Expected<SavedState> read_state(std::span<const std::uint8_t> bytes) {
+Expected<StateFields> read_state(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < least_size || !std::equal(magic.begin(), magic.end(), bytes.begin()))
     return damaged("these bytes are no saved state");
   Reader in(bytes.subspan(magic.size()));
@@ -147,7 +148,7 @@ Expected<SavedState> read_state(std::span<const std::uint8_t> bytes) {
   if (end.number() != checksum_of(bytes.first(bytes.size() - word)))
     return damaged("the saved state was changed: its checksum does not hold");
   Reader fields(bytes.subspan(least_size - word, bytes.size() - least_size));
-  SavedState state;
+  StateFields state;
   state_fields(fields, state);
   if (!fields.is_at_end()) return damaged("the saved state does not hold the fields of one");
   return state;

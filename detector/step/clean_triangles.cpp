@@ -5,8 +5,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 bool is_known(const StepWork& work, std::size_t c) { return work.known && !work.known->lost[c]; }
 
 }  // namespace

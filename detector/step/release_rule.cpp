@@ -11,8 +11,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // Triangles of the components that meet another one of their own at t=0.
 bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& components,
                           std::vector<std::uint8_t>& touched) {

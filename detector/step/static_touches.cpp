@@ -5,8 +5,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 constexpr std::size_t tests_between_stops = 256;
 
 }  // namespace

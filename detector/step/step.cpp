@@ -3,7 +3,7 @@
 // print no listing: (r) marks a line reconstructed, + a line that THEORY adds or puts in its place.
 // On the right, who does it here; a step runs through these functions in this order.
 //
-//   in preprocessing                                             Detector::assemble
+//   in preprocessing                                             assemble
 //     (r) build a BVH of the mesh
 //         for each hole, ghost triangles over it
 //     +     a fan over each boundary loop, its apex above it     BoundaryHandler (L11, L12)
@@ -37,6 +37,7 @@
 #include "detector/step/clean_triangles.h"
 #include "detector/step/step_input.h"
 #include "detector/step/step_outcome.h"
+#include "detector/step_result.h"
 
 namespace assay::detector {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "detector/step/stages.h"
 #include "detector/step/view_auto.h"
+#include "detector/step_result.h"
 
 namespace assay::detector {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "detector/mesh/mesh_checks.h"
+#include "detector/mesh/step_types.h"
+#include "detector/step_result.h"
 
 namespace assay::detector {
 

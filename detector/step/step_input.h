@@ -3,8 +3,11 @@
 
 #include <span>
 
-#include "detector/boundary/surface.h"
+#include "detector/mesh/problem.h"
+#include "detector/mesh/step_types.h"
+#include "detector/mesh/surface.h"
 #include "detector/options.h"
+#include "detector/step_result.h"
 
 namespace assay::detector {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "detector/step_result.h"
+
 namespace assay::detector {
 
 TriangleType type_of(const StepWork& work, std::size_t t) {

@@ -5,6 +5,7 @@
 
 #include "detector/search/triangle_type.h"
 #include "detector/step/step_work.h"
+#include "detector/step_result.h"
 
 namespace assay::detector {
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "detector/view/view_signs.h"
+
 namespace assay::detector {
 namespace {
-
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // A pair inside V+ or inside V- is left out. Near pairs have equal signs more often than far ones,
 // so of a component's pairs at least about (p^2 + n^2) / m^2 are saved.

@@ -5,8 +5,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 using Boundary = std::vector<DirectedEdge>;  // ascending; one edge only in one direction
 
 Boundary boundary_of_triangle(const Topology& mesh, std::int32_t t) {

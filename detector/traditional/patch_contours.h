@@ -34,8 +34,7 @@ class ContourMaker {
   std::int32_t to(DirectedEdge e) const { return mesh_.edges[at(e / 2)][e % 2 ? 0 : 1]; }
 
  private:
-  static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-  static constexpr std::int32_t none = -1;
+  static static constexpr std::int32_t none = -1;
   const Topology& mesh_;
   std::vector<std::int32_t> next_;  // by vertex
 };

@@ -40,8 +40,6 @@
 namespace assay::detector {
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 struct Kept : KeptBySearch {
   PatchContours contours;
   ContourUnion joined;

@@ -27,6 +27,7 @@
 #include <cmath>
 
 #include "detector/bernstein/bernstein.h"
+#include "detector/mesh/topology.h"
 
 namespace assay::detector {
 namespace {

@@ -5,24 +5,12 @@
 #include <vector>
 
 #include "detector/mesh/arithmetic.h"
+#include "detector/mesh/step_counts.h"
 #include "detector/mesh/topology.h"
 #include "detector/view/view_filter.h"
 #include "detector/view/view_lanes.h"
 
 namespace assay::detector {
-
-struct ViewCounts {
-  std::uint64_t lanes = 0, filter = 0, exact = 0;  // triangles settled by each rung
-  std::uint64_t open = 0;                          // bounded arithmetic could not tell: zero
-
-  ViewCounts& operator+=(const ViewCounts& other) {
-    lanes += other.lanes;
-    filter += other.filter;
-    exact += other.exact;
-    open += other.open;
-    return *this;
-  }
-};
 
 // Sign over the step: the filter, then, for what it leaves open, integers (exact) or zero (bounded:
 // never wrongly positive or negative). double, float: as computed, without promise.

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "detector/step_result.h"
 #include "properties/as_printed/deviations.h"
-#include "properties/faults/fault_run.h"
 #include "properties/generators/families.h"
+#include "properties/judging/fault_run.h"
 
 namespace assay::properties {
 namespace {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "corpus/problem.h"
+#include "detector/mesh/problem.h"
 
 namespace assay::properties {
 

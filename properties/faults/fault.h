@@ -2,7 +2,7 @@
 //
 // The harness must find every planted one; what it needs for that is its power. The detector knows
 // nothing of them: a fault derives from a stage of detector/step/stages.h and is handed to
-// Detector::assemble.
+// detector::assemble (assembly.h).
 #pragma once
 
 #include <span>

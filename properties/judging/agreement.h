@@ -7,8 +7,9 @@
 
 #include "corpus/cases/case_names.h"
 #include "detector/options.h"
+#include "detector/step_result.h"
 #include "oracle/mesh/step.h"
-#include "properties/judging/claims.h"
+#include "properties/worker/claims.h"
 
 namespace assay::properties {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
+#include "detector/step_result.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/case_options.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "properties/laws/facts/contact_parts.h"
+#include "properties/judging/contact_parts.h"
 
 namespace assay::properties {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "properties/laws/facts/contact_parts.h"
+#include "properties/judging/contact_parts.h"
 #include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"
 

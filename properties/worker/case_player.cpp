@@ -1,5 +1,6 @@
 #include "properties/worker/case_player.h"
 
+#include "detector/assembly.h"
 #include "properties/worker/given_view.h"
 
 namespace assay::properties {
@@ -16,7 +17,7 @@ CasePlayer::CasePlayer(const corpus::Case& c, const detector::Options& options, 
 detector::Expected<CasePlayer> CasePlayer::make(const corpus::Case& c,
                                                 const detector::Options& options,
                                                 std::optional<detector::Stages> stages) {
-  auto made = Detector::assemble(c.triangles, c.frames.front(), options,
+  auto made = detector::assemble(c.triangles, c.frames.front(), options,
                                  stages ? *std::move(stages) : standard_stages(options));
   if (!made) return std::move(made.error());
   return CasePlayer(c, options, std::move(made.value()));

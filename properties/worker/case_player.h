@@ -6,6 +6,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "detector/detector.h"
+#include "detector/step/stages.h"
 
 namespace assay::properties {
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "detector/mesh/step_types.h"
 #include "detector/options.h"
 
 namespace assay::properties {

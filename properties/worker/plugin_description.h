@@ -5,7 +5,7 @@
 #include <boost/outcome/policy/terminate.hpp>
 #include <string>
 
-#include "properties/judging/claims.h"
+#include "properties/worker/claims.h"
 
 namespace assay::properties {
 

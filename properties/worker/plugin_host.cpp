@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 
+#include "detector/step_result.h"
 #include "properties/worker/plugin_result.h"
 
 namespace assay::properties {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "detector/mesh/step_types.h"
+#include "detector/step_result.h"
+
 namespace assay::properties {
 
 using detector::Answer;

@@ -5,6 +5,7 @@
 
 #include "detector/options.h"
 #include "detector/plugin/assay_detector.h"
+#include "detector/step_result.h"
 
 namespace assay::properties {
 

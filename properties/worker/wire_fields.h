@@ -4,6 +4,9 @@
 
 #include <span>
 
+#include "detector/mesh/problem.h"
+#include "detector/mesh/step_counts.h"
+#include "detector/step_result.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin_description.h"
 #include "properties/worker/wire.h"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "detector/mesh/step_types.h"
 #include "detector/options.h"
 
 namespace assay::reports {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "detector/options.h"
+#include "detector/step_result.h"
 #include "reports/bench/bench_report.h"
 
 namespace assay::reports {

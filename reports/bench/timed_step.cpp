@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "corpus/scenes/scenes.h"
+#include "detector/assembly.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/suites.h"
 
@@ -65,7 +66,7 @@ TimedStep::TimedStep(std::string name, const Triangles& triangles,
                      BenchReport& report)
     : name_(std::move(name)),
       frames_(frames.last(2)),
-      detector_(made(Detector::assemble(triangles, frames[0], options, std::move(stages)), name_)),
+      detector_(made(detector::assemble(triangles, frames[0], options, std::move(stages)), name_)),
       report_(report) {
   for (std::size_t f = 0; f + 2 < frames.size(); ++f) detector_.step(frames[f], frames[f + 1]);
 }

@@ -7,6 +7,7 @@
 
 #include "corpus/formats/mesh_reader.h"
 #include "detector/detector.h"
+#include "detector/step/stages.h"
 #include "reports/bench/bench_report.h"
 
 namespace assay::reports {

@@ -8,7 +8,7 @@
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/interruption.h"
-#include "reports/verbs/option_words.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 

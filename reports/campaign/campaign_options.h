@@ -7,7 +7,7 @@
 
 #include "properties/campaign/request.h"
 #include "reports/terminal/complaint.h"
-#include "reports/verbs/verb.h"
+#include "reports/terminal/verb.h"
 
 namespace assay::reports {
 

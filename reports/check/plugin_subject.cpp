@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "detector/step_result.h"
 #include "reports/check/plugin_text.h"
 #include "reports/check/subject.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "properties/judging/claims.h"
+#include "properties/worker/claims.h"
 
 namespace assay::reports {
 

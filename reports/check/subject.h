@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "detector/options.h"
+#include "detector/step_result.h"
 #include "properties/judging/run_verdict.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/check_input.h"

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "detector/boundary/surface.h"
+#include "detector/mesh/surface.h"
+#include "detector/step_result.h"
 #include "oracle/mesh/step.h"
 #include "properties/campaign/phases/trial.h"
 #include "properties/worker/worker_process.h"

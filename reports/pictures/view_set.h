@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 
+#include "detector/mesh/step_types.h"
 #include "detector/options.h"
+#include "detector/step_result.h"
 
 namespace assay::reports {
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "detector/boundary/boundary_handler.h"
+#include "detector/search/moving_box.h"
 #include "oracle/instant/layers.h"
 #include "oracle/view/candidates.h"
 #include "oracle/view/touched_by_ghosts.h"

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "detector/step_result.h"
+
 namespace assay::reports {
 
 using Json = nlohmann::ordered_json;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "detector/step_result.h"
 #include "properties/judging/agreement.h"
 
 namespace assay::reports {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "detector/step_result.h"
+
 namespace assay::reports {
 
 using detector::Answer;

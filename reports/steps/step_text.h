@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "detector/step_result.h"
 #include "properties/judging/agreement.h"
 
 namespace assay::reports {

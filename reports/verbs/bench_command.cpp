@@ -7,8 +7,8 @@
 #include "reports/pictures/gnuplot.h"
 #include "reports/pictures/pictures.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/text_file.h"
-#include "reports/verbs/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

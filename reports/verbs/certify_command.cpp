@@ -20,10 +20,10 @@
 #include "reports/certificate/summary.h"
 #include "reports/certificate/waivers.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/shell_word.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/version.h"
-#include "reports/verbs/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -6,6 +6,7 @@
 
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
+#include "detector/step_result.h"
 #include "reports/check/check_input.h"
 #include "reports/check/check_outcome.h"
 #include "reports/check/check_report.h"
@@ -16,10 +17,10 @@
 #include "reports/steps/step_text.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/limits.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/progress.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/version.h"
-#include "reports/verbs/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

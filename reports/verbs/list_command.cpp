@@ -6,7 +6,7 @@
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "reports/terminal/complaint.h"
-#include "reports/verbs/option_words.h"
+#include "reports/terminal/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -8,8 +8,8 @@
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/shell_word.h"
-#include "reports/verbs/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "detector/step_result.h"
 #include "properties/campaign/phases/case_tally.h"
 #include "properties/campaign/phases/clean_starts.h"
 #include "properties/campaign/request.h"
@@ -18,7 +19,7 @@
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/complaint.h"
-#include "reports/verbs/option_words.h"
+#include "reports/terminal/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -7,10 +7,10 @@
 #include "reports/page/data/page_file.h"
 #include "reports/page/data/run_json.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/plain_progress.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/version.h"
-#include "reports/verbs/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

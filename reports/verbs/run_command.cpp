@@ -9,8 +9,8 @@
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/shell_word.h"
-#include "reports/verbs/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

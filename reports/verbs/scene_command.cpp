@@ -6,7 +6,7 @@
 #include "corpus/formats/mesh_writer.h"
 #include "corpus/scenes/scenes.h"
 #include "reports/terminal/complaint.h"
-#include "reports/verbs/option_words.h"
+#include "reports/terminal/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -7,8 +7,8 @@
 
 #include "properties/queries/self_test_run.h"
 #include "reports/terminal/exit_code.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/progress.h"
-#include "reports/verbs/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

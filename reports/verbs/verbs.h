@@ -4,7 +4,7 @@
 // it does, so that a new option is a change of one file.
 #pragma once
 
-#include "reports/verbs/verb.h"
+#include "reports/terminal/verb.h"
 
 namespace assay::reports {
 

@@ -6,7 +6,7 @@
 #include "reports/certificate/pooling.h"
 #include "reports/certificate/verify.h"
 #include "reports/terminal/complaint.h"
-#include "reports/verbs/option_words.h"
+#include "reports/terminal/option_words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

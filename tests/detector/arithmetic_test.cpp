@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <random>
 
+#include "detector/boundary/face_pair.h"
 #include "detector/contact/contact_bounded.h"
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/first_root.h"
@@ -13,6 +14,7 @@
 #include "detector/detector.h"
 #include "detector/exact/real_root.h"
 #include "detector/geometry/winding.h"
+#include "detector/search/moving_box.h"
 #include "detector/view/view_classifier.h"
 #include "tests/detector/points.h"
 

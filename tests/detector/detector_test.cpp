@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "detector/state/state_fields.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
@@ -109,9 +110,9 @@ TEST(Detector, L11_AStepWithoutViewsLosesUnclosedComponents) {
   const auto result = detector.step(x, hit);
   EXPECT_EQ(result.answer, Answer::collision);
   EXPECT_TRUE(result.signs.empty()) << "turned triangles: no view pays";
-  EXPECT_EQ(detector.state().committed->lost[0], 1);
-  EXPECT_EQ(detector.state().committed->lost[1], 0) << "closed, and vouched for";
-  EXPECT_EQ(detector.state().committed->lost[2], 1);
+  EXPECT_EQ(detector.state().fields().committed->lost[0], 1);
+  EXPECT_EQ(detector.state().fields().committed->lost[1], 0) << "closed, and vouched for";
+  EXPECT_EQ(detector.state().fields().committed->lost[2], 1);
 }
 
 // The vertices that a contact names: two features without a common vertex, one of each triangle.

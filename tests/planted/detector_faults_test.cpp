@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "properties/faults/fault_run.h"
+#include "properties/judging/fault_run.h"
 #include "properties/worlds/small_steps.h"
 
 namespace assay::properties {

@@ -1,5 +1,6 @@
 // A planted fault (properties/faults) as a plug-in that claims what the built-in claims: certify
 // has to find it as it would find one in somebody's own detector.
+#include "detector/assembly.h"
 #include "detector/plugin/builtin_handle.h"
 #include "properties/faults/fault.h"
 
@@ -26,7 +27,7 @@ std::int32_t create(const std::int32_t* triangles, std::uint64_t triangle_count,
                     const char** message) {
   const auto n = static_cast<Eigen::Index>(vertex_count);
   const auto& fault = planted();
-  auto made = detector::Detector::assemble(
+  auto made = detector::assemble(
       detector::TrianglesMap(triangles, static_cast<Eigen::Index>(triangle_count), 3),
       detector::PositionsMap(positions, n, 3), fault.options, fault.stages(fault.options));
   if (!made) {

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "properties/campaign/phases/explicit_view.h"
-#include "properties/faults/fault_run.h"
 #include "properties/generators/families.h"
+#include "properties/judging/fault_run.h"
 #include "properties/reducer/mesh_size.h"
 
 namespace assay::properties {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "detector/assembly.h"
 #include "properties/laws/metamorphic/pinned_run.h"
 #include "properties/laws/metamorphic/result_equality.h"
 #include "properties/laws/step_law.h"
@@ -20,7 +21,7 @@ using detector::Triangles;
 std::string create_wrong(const CaseFacts& facts, const Triangles& triangles, const Positions& x,
                          InputError wanted) {
   const auto made =
-      Detector::assemble(triangles, x, facts.options(), facts.stages_of()(facts.options()));
+      detector::assemble(triangles, x, facts.options(), facts.stages_of()(facts.options()));
   if (!made && made.error().error == wanted) return {};
   return std::string("a mesh is not refused as ") + detector::name_of(wanted);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "detector/boundary/boundary_handler.h"
 #include "oracle/instant/winding.h"
 #include "oracle/view/touched_by_ghosts.h"
 #include "oracle/view/view_sign.h"

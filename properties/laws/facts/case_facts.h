@@ -10,6 +10,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "detector/detector.h"
+#include "detector/step/stages.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/step.h"
 #include "oracle/view/candidates.h"

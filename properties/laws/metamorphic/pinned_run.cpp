@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "detector/assembly.h"
+
 namespace assay::properties {
 
 using detector::MovingPoint;
@@ -110,8 +112,7 @@ std::optional<PinnedPlayer> PinnedPlayer::make(const PinnedRun& run,
   auto stages = stages_of(options);
   const auto boundary = std::make_shared<PinnedBoundary>(stages.boundary);
   stages.boundary = boundary;
-  auto made =
-      detector::Detector::assemble(run.triangles, run.frames.front(), options, std::move(stages));
+  auto made = detector::assemble(run.triangles, run.frames.front(), options, std::move(stages));
   PinnedPlayer player(run, boundary);
   if (!made) {
     player.problem_ = std::move(made).error();

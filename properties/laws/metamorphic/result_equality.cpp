@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "detector/mesh/step_counts.h"
+#include "detector/mesh/step_types.h"
+#include "detector/mesh/types.h"
+#include "detector/step_result.h"
+
 namespace assay::properties {
 namespace {
 

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include "detector/search/bounding_volume_tree.h"
+#include "detector/search/marking.h"
+#include "detector/search/triangle_type.h"
 #include "properties/judging/case_options.h"
 #include "reports/bench/claims/claims_parts.h"
 #include "reports/bench/interleave.h"

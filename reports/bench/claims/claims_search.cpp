@@ -1,5 +1,11 @@
 #include <fmt/format.h>
 
+#include "detector/search/bounding_volume_tree.h"
+#include "detector/search/marking.h"
+#include "detector/search/pair_rule.h"
+#include "detector/search/pair_search.h"
+#include "detector/search/triangle_type.h"
+#include "detector/step/stages.h"
 #include "reports/bench/claims/claims_parts.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/timed_step.h"

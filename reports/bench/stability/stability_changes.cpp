@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "detector/step_result.h"
 #include "properties/numbering.h"
 
 namespace assay::reports {

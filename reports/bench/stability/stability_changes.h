@@ -7,6 +7,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "detector/options.h"
+#include "detector/step_result.h"
 
 namespace assay::reports {
 

@@ -7,6 +7,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "detector/detector.h"
+#include "detector/step/stages.h"
 #include "oracle/mesh/step.h"
 
 namespace assay::reports {

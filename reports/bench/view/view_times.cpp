@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "detector/view/view_lanes.h"
 #include "properties/numbering.h"
 #include "properties/words.h"
 #include "reports/bench/interleave.h"

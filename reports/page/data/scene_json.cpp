@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "detector/step_result.h"
 #include "reports/pictures/contact_point.h"
 #include "reports/pictures/view_set.h"
 #include "reports/steps/step_json.h"

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "detector/boundary/apex.h"
+#include "detector/boundary/ghost_sweep.h"
 #include "detector/detector.h"
+#include "detector/search/pair_rule.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "detector/options.h"
+#include "detector/step_result.h"
 
 namespace assay::tests {
 

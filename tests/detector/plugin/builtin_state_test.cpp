@@ -1,6 +1,7 @@
 // The built-in detector in C: states saved into a caller's buffer, restored, refused, forgotten.
 #include <gtest/gtest.h>
 
+#include "detector/detector.h"
 #include "tests/detector/plugin/builtin_fixture.h"
 
 namespace assay::detector {

@@ -11,8 +11,6 @@ namespace {
 
 using namespace detector;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // All feature pairs of a triangle pair whose boxes are not apart, by the definition.
 class BruteForce {
  public:

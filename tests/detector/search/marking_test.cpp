@@ -13,8 +13,6 @@ namespace {
 
 using namespace detector;
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 std::uint8_t flags_below(const BoundingVolumeTree& tree, const std::vector<TriangleType>& types,
                          std::int32_t node) {
   if (tree.is_leaf(node)) return flags_of(types[at(tree.triangle(node))]);

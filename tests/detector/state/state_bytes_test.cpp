@@ -11,7 +11,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-Bytes bytes_of(const SavedState& state) {
+Bytes bytes_of(const StateFields& state) {
   Bytes bytes(state_size(state));
   write_state(state, bytes);
   return bytes;
@@ -45,8 +45,8 @@ Detector passed(Culling culling, int steps = 2) {
 }
 
 // Every field, the optional ones present.
-SavedState full_state() {
-  SavedState state = passed(Culling::view_line).state();
+StateFields full_state() {
+  StateFields state = passed(Culling::view_line).state().fields();
   state.committed->met = {{0, 3}, {2, 5}};
   state.committed->met_is_complete = false;
   state.committed->inside[0] = {{{1, -0.0, 0x1p-1074}, {-2, .1, 4}}};
@@ -70,10 +70,10 @@ void expect_equal(const std::vector<ViewAnchor>& a, const std::vector<ViewAnchor
 }
 
 TEST(StateBytes, AreTheSameStateAgain) {
-  const SavedState state = full_state();
+  const StateFields state = full_state();
   const auto read = read_state(bytes_of(state));
   ASSERT_TRUE(read) << read.error().message;
-  const SavedState& again = read.value();
+  const StateFields& again = read.value();
   EXPECT_EQ(again.mesh, state.mesh);
   EXPECT_EQ(again.culling, Culling::view_line);
   ASSERT_EQ(again.apex_rules.size(), 1u);
@@ -107,19 +107,19 @@ TEST(StateBytes, OfEveryCullingBeforeAndAfterSteps) {
                              Culling::normal_cone, Culling::bvh, Culling::none}) {
     for (const int steps : {0, 1, 2}) {
       Detector detector = passed(culling, steps);
-      const auto bytes = bytes_of(detector.state());
+      const auto bytes = detector.state().bytes();
       const auto read = read_state(bytes);
       ASSERT_TRUE(read) << read.error().message;
       EXPECT_EQ(read.value().committed.has_value(), steps > 0);
       EXPECT_EQ(bytes_of(read.value()), bytes);
-      EXPECT_FALSE(detector.restore(read.value()));
+      EXPECT_FALSE(detector.restore(SavedState(read.value())));
     }
   }
 }
 
 // The form is for ever: what an older build of version 1 has saved is read by a newer one.
 TEST(StateBytes, HaveTheFormThatIsStated) {
-  SavedState state;
+  StateFields state;
   state.mesh = 0x0123456789abcdef;
   state.culling = Culling::bvh;
   state.apex_rules = {{-.25}};
@@ -161,7 +161,7 @@ TEST(StateBytes, DamageIsRefused) {
 // refused by the reading or by the mesh.
 TEST(StateBytes, WrongFieldsUnderARightChecksumAreRefused) {
   Detector detector = passed(Culling::view_line);
-  const Bytes whole = bytes_of(full_state()), before = bytes_of(detector.state());
+  const Bytes whole = bytes_of(full_state()), before = detector.state().bytes();
   std::size_t refused = 0, read_back = 0;
   for (std::size_t i = 24; i + 8 < whole.size(); ++i) {
     for (const std::uint8_t value : {0, 1, 2, 127, 255}) {
@@ -172,17 +172,17 @@ TEST(StateBytes, WrongFieldsUnderARightChecksumAreRefused) {
       if (!read) {
         EXPECT_EQ(read.error().error, InputError::damaged_state);
         ++refused;
-      } else if (const auto problem = detector.restore(read.value())) {
+      } else if (const auto problem = detector.restore(SavedState(read.value()))) {
         EXPECT_TRUE(problem->error == InputError::damaged_state ||
                     problem->error == InputError::foreign_state);
-        EXPECT_EQ(bytes_of(detector.state()), before) << "nothing has changed";
+        EXPECT_EQ(detector.state().bytes(), before) << "nothing has changed";
         ++refused;
       } else {
         // Another state that a detector of this mesh may have: it is in use without harm.
         ++read_back;
         const Positions in = tests::octahedron_positions(2);
         EXPECT_EQ(detector.step(in, tip_at(1)).answer, Answer::free);
-        ASSERT_FALSE(detector.restore(read_state(before).value()));
+        ASSERT_FALSE(detector.restore(SavedState::read(before).value()));
       }
     }
   }
@@ -204,15 +204,15 @@ TEST(StateBytes, WrongFieldsUnderARightChecksumAreRefused) {
 // What does not fit the mesh although its sizes are right.
 TEST(StateBytes, WhatContradictsTheMeshIsRefused) {
   Detector detector = passed(Culling::view_line);
-  const SavedState right = full_state();
-  ASSERT_FALSE(detector.restore(right));
+  const StateFields right = full_state();
+  ASSERT_FALSE(detector.restore(SavedState(right)));
   const auto expect_damaged = [&](const char* what, auto change) {
-    SavedState wrong = right;
+    StateFields wrong = right;
     change(wrong);
-    const auto problem = detector.restore(wrong);
+    const auto problem = detector.restore(SavedState(wrong));
     ASSERT_TRUE(problem) << what;
     EXPECT_EQ(problem->error, InputError::damaged_state) << what;
-    EXPECT_EQ(bytes_of(detector.state()), bytes_of(right)) << what;
+    EXPECT_EQ(detector.state().bytes(), bytes_of(right)) << what;
   };
   const double nan = std::nan("");
   expect_damaged("positions", [](auto& s) { s.committed->positions.conservativeResize(5, 3); });

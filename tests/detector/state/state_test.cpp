@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "detector/detector.h"
 #include "detector/state/layers.h"
 #include "detector/step/release_rule.h"
 #include "tests/detector/points.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "detector/assembly.h"
 #include "detector/detector.h"
 #include "tests/detector/points.h"
 #include "tests/detector/step/noted_stages.h"
@@ -20,7 +21,7 @@ using namespace tests_of_steps;
 class Traced {
  public:
   Traced(const Triangles& triangles, const Positions& x, Options options = {}) {
-    auto made = Detector::assemble(triangles, x, options, noted_stages(options, trace_));
+    auto made = assemble(triangles, x, options, noted_stages(options, trace_));
     EXPECT_TRUE(made.has_value());
     detector_ = std::make_unique<Detector>(std::move(made.value()));
     trace_.taken();

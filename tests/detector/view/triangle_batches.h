@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 
 namespace assay::tests {

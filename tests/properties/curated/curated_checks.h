@@ -5,10 +5,11 @@
 #include <map>
 #include <set>
 
+#include "detector/step_result.h"
 #include "oracle/instant/embedding.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
-#include "properties/faults/fault_run.h"
+#include "properties/judging/fault_run.h"
 #include "tests/properties/curated/curated_context.h"
 
 namespace assay::properties::test {

@@ -6,7 +6,7 @@
 
 #include "properties/as_printed/deviations.h"
 #include "properties/as_printed/toll.h"
-#include "properties/faults/fault_run.h"
+#include "properties/judging/fault_run.h"
 
 namespace assay::properties {
 namespace {

@@ -10,6 +10,8 @@
 
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
+#include "detector/state/state_fields.h"
+#include "detector/state/step_state.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/case_check.h"
 
@@ -38,7 +40,7 @@ struct Work {
   std::size_t state = 0;        // numbers and flags kept from step to step
 
   Work() = default;
-  Work(const StepResult& result, const SavedState& saved) : against_all(result.against_all) {
+  Work(const StepResult& result, const StateFields& saved) : against_all(result.against_all) {
     const StepCounts& counts = result.counts;
     tests = counts.search.box_tests + counts.narrow.elementary_tests + counts.ghosts.pairs +
             counts.ghosts.elementary_tests + counts.release.pairs + counts.release.elementary_tests;
@@ -77,7 +79,7 @@ class Player {
       for (std::size_t phase = 0; phase < steps_a_period; ++phase) {
         const auto result = made.value().step(scene_.frames[phase], scene_.frames[phase + 1]);
         ASSERT_NE(result.answer, Answer::error) << phase;
-        const Work work(result, made.value().state());
+        const Work work(result, made.value().state().fields());
         of_period += work;
         if (period == 1) settled[phase] = work;
         // View-auto decides from all the steps before; so do not its single steps repeat.

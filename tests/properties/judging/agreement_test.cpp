@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "detector/step_result.h"
+
 namespace assay::properties {
 namespace {
 

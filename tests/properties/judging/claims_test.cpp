@@ -1,12 +1,13 @@
 // A detector is judged by what it claims: each claim is broken once, alone, and a claim that is not
 // made is never broken.
-#include "properties/judging/claims.h"
+#include "properties/worker/claims.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "detector/step_result.h"
 #include "properties/judging/agreement.h"
 
 namespace assay::properties {

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "corpus/cases/case_file.h"
+#include "detector/boundary/boundary_handler.h"
 #include "detector/detector.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"

@@ -8,6 +8,9 @@
 #include <functional>
 #include <map>
 
+#include "detector/contact/elementary.h"
+#include "detector/contact/four_points.h"
+#include "detector/step/stages.h"
 #include "properties/laws/facts/exact_view_values.h"
 #include "properties/laws/law.h"
 #include "tests/properties/laws/judged_case.h"

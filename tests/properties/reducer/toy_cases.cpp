@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "corpus/scenes/shapes.h"
+#include "detector/options.h"
 #include "properties/random.h"
 #include "tests/properties/reducer/inflate.h"
 #include "tests/properties/reducer/toy_faults.h"

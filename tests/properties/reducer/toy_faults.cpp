@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "detector/options.h"
 #include "oracle/instant/instant.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "properties/faults/fault_run.h"
+#include "properties/judging/fault_run.h"
 #include "properties/worker/given_view.h"
 
 namespace assay::properties {

@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "corpus/scenes/scenes.h"
+#include "detector/contact/elementary.h"
+#include "detector/step/stages.h"
 #include "reports/bench/claims/break_even.h"
 #include "reports/bench/contact_step.h"
 #include "reports/bench/interleave.h"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "detector/options.h"
 #include "tests/reports/program.h"
 
 namespace assay::tests {

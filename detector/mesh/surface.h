@@ -1,7 +1,7 @@
 // The closed-up surface S = M + G: the mesh and the ghost triangles that close it.
 #pragma once
 
-#include "detector/boundary/loops.h"
+#include "detector/mesh/loops.h"
 
 namespace assay::detector {
 

@@ -1,4 +1,4 @@
-#include "properties/laws/facts/contact_parts.h"
+#include "properties/judging/contact_parts.h"
 
 #include <map>
 

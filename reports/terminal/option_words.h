@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "reports/verbs/verb.h"
+#include "reports/terminal/verb.h"
 
 namespace assay::reports {
 

@@ -1,4 +1,4 @@
-#include "detector/state/saved_state.h"
+#include "detector/state/state_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ bool fits(const StepState& state, const Surface& surface) {
 
 }  // namespace
 
-bool fits(const SavedState& state, const Surface& surface, std::size_t anchors) {
+bool fits(const StateFields& state, const Surface& surface, std::size_t anchors) {
   const std::int32_t n = surface.first_apex;
   if (!fit(state.anchors, anchors, n)) return false;
   if (!state.apex_rules.empty() && state.apex_rules.size() != surface.loops.size()) return false;

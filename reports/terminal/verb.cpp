@@ -1,4 +1,4 @@
-#include "reports/verbs/verb.h"
+#include "reports/terminal/verb.h"
 
 #include <CLI/CLI.hpp>
 

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "detector/mesh/step_types.h"
+#include "detector/mesh/types.h"
 #include "detector/options.h"
 
 namespace assay::properties {

@@ -1,7 +1,9 @@
-#include "properties/judging/claims.h"
+#include "properties/worker/claims.h"
 
 #include <algorithm>
 
+#include "detector/mesh/step_types.h"
+#include "detector/mesh/types.h"
 #include "properties/words.h"
 
 namespace assay::properties {

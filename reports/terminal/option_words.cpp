@@ -1,4 +1,4 @@
-#include "reports/verbs/option_words.h"
+#include "reports/terminal/option_words.h"
 
 #include <algorithm>
 #include <array>

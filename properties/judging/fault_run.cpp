@@ -1,4 +1,4 @@
-#include "properties/faults/fault_run.h"
+#include "properties/judging/fault_run.h"
 
 #include "properties/worker/case_player.h"
 

@@ -1,15 +1,15 @@
-// What a detector carries from step to step, as a value that can be copied and kept.
+// What a SavedState (detector.h) holds.
 #pragma once
 
 #include "detector/boundary/apex.h"
-#include "detector/boundary/surface.h"
+#include "detector/mesh/surface.h"
 #include "detector/options.h"
 #include "detector/state/step_state.h"
 #include "detector/view/view_anchor.h"
 
 namespace assay::detector {
 
-struct SavedState {
+struct StateFields {
   std::uint64_t mesh = 0;  // digest of the triangles and the number of vertices
   Culling culling = Culling::view_point;
   std::optional<StepState> committed;  // nothing: the next step is a new start
@@ -24,6 +24,6 @@ std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
 
 // Whether all sizes and indices of the state are those of a detector of this surface; `anchors`:
 // how many it has of its own. What such a state says of its triangles is not checked. O(M).
-bool fits(const SavedState& state, const Surface& surface, std::size_t anchors);
+bool fits(const StateFields& state, const Surface& surface, std::size_t anchors);
 
 }  // namespace assay::detector

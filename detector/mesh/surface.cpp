@@ -1,4 +1,4 @@
-#include "detector/boundary/surface.h"
+#include "detector/mesh/surface.h"
 
 #include <cassert>
 

@@ -1,4 +1,4 @@
-#include "detector/boundary/loops.h"
+#include "detector/mesh/loops.h"
 
 #include <algorithm>
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
+#include "detector/step_result.h"
 #include "properties/faults/fault.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/run_verdict.h"
