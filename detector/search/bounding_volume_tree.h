@@ -45,9 +45,10 @@ class BoundingVolumeTree {
 
  private:
   struct Builder;
-  static std::vector<std::int32_t> child_;  // of a leaf: ~triangle
-  std::vector<std::int32_t> parent_;        // by pair of siblings
-  std::vector<std::int32_t> leaf_;          // by triangle
+
+  std::vector<std::int32_t> child_;   // of a leaf: ~triangle
+  std::vector<std::int32_t> parent_;  // by pair of siblings
+  std::vector<std::int32_t> leaf_;    // by triangle
   std::vector<std::int32_t> component_;
   std::vector<MovingBox> boxes_;
   RoundedPositions points_;

@@ -48,13 +48,11 @@ class Representatives {
   TypeSet types_of_edge(std::int32_t edge) const { return edge_types_[at(edge)]; }
 
  private:
-  static  // The lowest triangle of each type in `holders` represents the feature that is `index` in
-          // `lists`
-      // of these; returns the types. first_bit: 0 for corners, 3 for edges.
-      TypeSet
-      choose(const std::vector<std::array<std::int32_t, 3>>& lists,
-             std::span<const std::int32_t> holders, std::int32_t index, int first_bit,
-             const std::vector<TriangleType>& types);
+  // The lowest triangle of each type in `holders` represents the feature that is `index` in `lists`
+  // of these; returns the types. first_bit: 0 for corners, 3 for edges.
+  TypeSet choose(const std::vector<std::array<std::int32_t, 3>>& lists,
+                 std::span<const std::int32_t> holders, std::int32_t index, int first_bit,
+                 const std::vector<TriangleType>& types);
 
   std::vector<RepresentedFeatures> features_;  // by triangle
   std::vector<TypeSet> vertex_types_, edge_types_;

@@ -34,7 +34,7 @@ class ContourMaker {
   std::int32_t to(DirectedEdge e) const { return mesh_.edges[at(e / 2)][e % 2 ? 0 : 1]; }
 
  private:
-  static static constexpr std::int32_t none = -1;
+  static constexpr std::int32_t none = -1;
   const Topology& mesh_;
   std::vector<std::int32_t> next_;  // by vertex
 };
