@@ -1,8 +1,10 @@
 // A law: a statement that holds of every step of every case, as code, and how often it was met.
 //
 // A law that is never met proves nothing, so each one counts the steps in which its premise held,
-// and of these the close ones: the smallest |view value| over the step is at most 1 % of the
-// largest (case_facts.h), so that the law was near to being broken or to not applying.
+// and of these the close ones, in which the law was near to being broken or to not applying: the
+// smallest of the values that it rests on is at most 1 % of the largest. These are |view values|
+// over the step (case_facts.h); for L13 they say how far the triangles of a certified patch face
+// its direction (certified_patches.h).
 #pragma once
 
 #include <cstdint>
@@ -26,7 +28,7 @@ struct LawTally {
 
 struct Law {
   std::string_view name;       // "L4_AllPositiveIsCollisionFree_Line"
-  std::string_view number;     // "L1" .. "L12"; "sets", "claim", "change" for what has no number
+  std::string_view number;     // "L1" .. "L13"; "sets", "claim", "change" for what has no number
   std::string_view statement;  // in one or two sentences
   std::string_view needs;      // of the oracle
   void (*check)(CaseFacts&, LawTally&);  // adds what it met in this case

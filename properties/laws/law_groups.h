@@ -18,6 +18,7 @@ std::span<const Law> state_laws();           // L8, L9
 std::span<const Law> component_laws();       // L10
 std::span<const Law> boundary_laws();        // L11
 std::span<const Law> doubtful_input_laws();  // L12
+std::span<const Law> normal_cone_laws();     // L13
 std::span<const Law> change_laws();          // metamorphic: the mesh in another form
 std::span<const Law> repetition_laws();      // metamorphic: the same step in another way
 
@@ -25,7 +26,8 @@ std::span<const Law> repetition_laws();      // metamorphic: the same step in an
 inline std::vector<std::span<const Law>> law_groups() {
   return {view_value_laws(),   view_set_laws(),       first_contact_laws(), one_sign_laws(),
           all_positive_laws(), pair_set_laws(),       state_laws(),         component_laws(),
-          boundary_laws(),     doubtful_input_laws(), change_laws(),        repetition_laws()};
+          boundary_laws(),     doubtful_input_laws(), normal_cone_laws(),   change_laws(),
+          repetition_laws()};
 }
 
 }  // namespace assay::properties

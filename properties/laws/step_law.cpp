@@ -4,9 +4,10 @@
 
 namespace assay::properties {
 
-void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTally& tally) {
+void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTally& tally,
+          IsClose is_close) {
   if (!finding) return;
-  LawTally met{1, facts.is_close(step) ? 1u : 0u, 0, {}};
+  LawTally met{1, is_close(facts, step) ? 1u : 0u, 0, {}};
   if (!finding->empty()) {
     met.broken = 1;
     met.first_broken = fmt::format("{}, step {}: {}", facts.source().id, step + 1, *finding);

@@ -21,11 +21,16 @@ inline Observation holds_if(bool condition, std::string_view otherwise) {
 // Share of the cases for laws that run the case again.
 inline constexpr int dear = 16;
 
-void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTally& tally);
+// Whether the law was close in a step in which its premise held (law.h).
+using IsClose = bool (*)(CaseFacts&, std::size_t);
+inline bool is_close_by_view(CaseFacts& facts, std::size_t step) { return facts.is_close(step); }
 
-template <Observation (*look)(CaseFacts&, std::size_t)>
+void note(CaseFacts& facts, std::size_t step, const Observation& finding, LawTally& tally,
+          IsClose is_close = is_close_by_view);
+
+template <Observation (*look)(CaseFacts&, std::size_t), IsClose is_close = is_close_by_view>
 void each_step(CaseFacts& facts, LawTally& tally) {
-  for (std::size_t s = 0; s < facts.steps(); ++s) note(facts, s, look(facts, s), tally);
+  for (std::size_t s = 0; s < facts.steps(); ++s) note(facts, s, look(facts, s), tally, is_close);
 }
 
 }  // namespace assay::properties

@@ -18,6 +18,8 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 WANTED = 0.95  # of the mutants not named equivalent
 CLOCK = "detector/search/stopwatch.h"  # times that are no part of the result
+# Programs that judge beside mutant_judge, and which of their tests are about the detector alone.
+TESTS = {"detector_tests": "*", "properties_detector_tests": "ViewAnchor.*"}
 MOST_USERS = 12  # a header that more sources include costs too much a mutant
 
 
@@ -44,8 +46,9 @@ def judges_of(options, build):
         subprocess.run([str(build.build / "mutation_facts"), facts, *options.sizes], check=True)
     judges = [workbench.Judge("mutant_judge", build.link_command("mutant_judge"), [facts])]
     if not options.judge_alone:
-        for name in ("detector_tests", "view_anchor_tests"):
-            judges.append(workbench.Judge(name, build.link_command(name), ["--gtest_fail_fast"]))
+        for name, filtered in TESTS.items():
+            judges.append(workbench.Judge(name, build.link_command(name),
+                                          ["--gtest_fail_fast", f"--gtest_filter={filtered}"]))
     return judges
 
 

@@ -37,7 +37,8 @@ struct CaseFacts::StepFacts {
   std::optional<std::vector<std::uint8_t>> touched, own_contacts;
   std::optional<oracle::Candidates> candidates;
   std::map<std::size_t, std::optional<int>> winding;
-  std::optional<ViewRange> range;
+  std::optional<ValueRange> range;
+  std::optional<CertifiedPatches> certified_patches;
   std::optional<bool> trusted;
 };
 
@@ -190,7 +191,7 @@ const std::vector<std::uint8_t>& CaseFacts::own_contacts(std::size_t s) {
   return *flags;
 }
 
-const ViewRange& CaseFacts::view_range(std::size_t s) {
+const ValueRange& CaseFacts::view_range(std::size_t s) {
   auto& range = facts_[s].range;
   if (range) return *range;
   const Positions all_start = all_t0(s), all_end = all_t1(s);
@@ -205,6 +206,25 @@ const ViewRange& CaseFacts::view_range(std::size_t s) {
 
 bool CaseFacts::is_close(std::size_t s) {
   return has_views(s) && properties::is_close(view_range(s));
+}
+
+TraditionalScheme* CaseFacts::traditional_scheme() {
+  if (!traditional_scheme_) {
+    traditional_scheme_.emplace();
+    if (stages_of_) {
+      detector::Options traditional = options_;
+      traditional.culling = detector::Culling::normal_cone;
+      *traditional_scheme_ =
+          TraditionalScheme::make(stages_of_(traditional), surface_.mesh, source_.frames.front());
+    }
+  }
+  return traditional_scheme_->get();
+}
+
+const CertifiedPatches& CaseFacts::certified_patches(std::size_t s) {
+  auto& patches = facts_[s].certified_patches;
+  if (!patches) patches = traditional_scheme()->certify(x_t0(s), x_t1(s));
+  return *patches;
 }
 
 }  // namespace assay::properties

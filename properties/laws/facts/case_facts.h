@@ -14,6 +14,7 @@
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/step.h"
 #include "oracle/view/candidates.h"
+#include "properties/laws/facts/certified_patches.h"
 #include "properties/laws/facts/view_range.h"
 #include "properties/numbering.h"
 
@@ -79,8 +80,14 @@ class CaseFacts {
   }
 
   // In doubles; false where there are no views.
-  const ViewRange& view_range(std::size_t s);
+  const ValueRange& view_range(std::size_t s);
   bool is_close(std::size_t s);
+
+  // The traditional scheme that stages_of() makes, on the mesh of this case; null where it makes
+  // none. It does not depend on the culling that gave the results.
+  TraditionalScheme* traditional_scheme();
+  // By its tests. REQUIRES traditional_scheme().
+  const CertifiedPatches& certified_patches(std::size_t s);
 
   // Rows: vertices of the mesh, then apexes at the step's start or end.
   detector::Positions all_t0(std::size_t s) const;
@@ -101,6 +108,7 @@ class CaseFacts {
   std::vector<std::optional<std::size_t>> known_from_;
   detector::Triangles ghosts_;
   std::vector<StepFacts> facts_;
+  std::optional<std::unique_ptr<TraditionalScheme>> traditional_scheme_;
   // By places: the end of a step is the start of the next one.
   std::vector<std::pair<detector::Positions, std::unique_ptr<oracle::LayerState>>> layers_;
 };

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "properties/numbering.h"
 
@@ -32,14 +31,9 @@ double greatest(const detector::PositionsView& x) {
 
 }  // namespace
 
-void ViewRange::widen(const ViewRange& other) {
-  smallest = std::min(smallest, other.smallest);
-  largest = std::max(largest, other.largest);
-}
-
-ViewRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
-                     const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-                     const detector::ViewPrimitive& primitive) {
+ValueRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
+                      const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+                      const detector::ViewPrimitive& primitive) {
   constexpr int times = 17;
   double size = std::max(greatest(x_t0), greatest(x_t1));
   for (const auto* q : {&primitive.q0, &primitive.q1}) {
@@ -54,7 +48,7 @@ ViewRange view_range(const detector::Topology& surface, std::span<const std::int
     return p;
   };
   const MovingPoint q0 = scaled(primitive.q0), q1 = scaled(primitive.q1);
-  ViewRange range{std::numeric_limits<double>::infinity(), 0};
+  ValueRange range;
   for (const auto t : triangles) {
     std::array<MovingPoint, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -69,7 +63,7 @@ ViewRange view_range(const detector::Topology& surface, std::span<const std::int
         const double value = view_value(p, a, b, normal);
         positive |= value > 0;
         negative |= value < 0;
-        range.widen({std::abs(value), std::abs(value)});
+        range.widen(std::abs(value));
       }
     }
     if (positive && negative) range.smallest = 0;

@@ -5,26 +5,17 @@
 
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
+#include "properties/laws/facts/value_range.h"
 
 namespace assay::properties {
 
 // |(x - n(x)).N| at the vertices of triangles, at 17 times of the step; a sign change of a triangle
 // counts as 0. In units of the step's own, so that nothing overflows.
-struct ViewRange {
-  double smallest = 0, largest = 0;
-  void widen(const ViewRange& other);
-};
-
-// At most 1 % of the largest.
-inline constexpr double close_share = 0.01;
-inline bool is_close(const ViewRange& range) {
-  return range.smallest <= close_share * range.largest;
-}
-
+//
 // Of the triangles given (indices into `surface`), all seen from one primitive. Rows of x: vertices
 // of the surface. About 0.5 us a triangle.
-ViewRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
-                     const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-                     const detector::ViewPrimitive& primitive);
+ValueRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
+                      const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+                      const detector::ViewPrimitive& primitive);
 
 }  // namespace assay::properties

@@ -8,9 +8,13 @@
 #include <functional>
 #include <map>
 
+<<<<<<< HEAD
 #include "detector/contact/elementary.h"
 #include "detector/contact/four_points.h"
 #include "detector/step/stages.h"
+=======
+#include "properties/faults/fault.h"
+>>>>>>> 009e647138a874206cb647e6eddf22efaeb58f58
 #include "properties/laws/facts/exact_view_values.h"
 #include "properties/laws/law.h"
 #include "tests/properties/laws/judged_case.h"
@@ -101,6 +105,14 @@ detector::Stages with_fault(const detector::Options& options) {
   return stages;
 }
 
+// The standard stages, but for the traditional scheme, in which this fault is planted.
+StagesOf with_cone_fault(std::string_view name) {
+  return [fault = find_fault(name)](const detector::Options& options) {
+    const bool is_traditional = options.culling == detector::Culling::normal_cone;
+    return is_traditional ? fault->stages(options) : detector::standard_stages(options);
+  };
+}
+
 struct Wrong {
   Tamper tamper = [](JudgedCase&) {};
   StagesOf stages_of = detector::standard_stages;
@@ -148,6 +160,10 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
       {"L12_NeverFreeOnAGuess_SeveralLayers", {always_free}},
       {"L12_ZeroAreaStaysInV0", {all_positive}},
       {"L12_BadInputIsNamedAndChangesNothing", {wrong_size}},
+      {"L13_CertifiedPatchesAreFree",
+       {[](JudgedCase&) {}, with_cone_fault("cone/no-contour-test")}},
+      {"L13_EveryContactIsACandidate",
+       {[](JudgedCase&) {}, with_cone_fault("cone/normals-at-end")}},
       {"Change_VertexNumbers", {late}},
       {"Change_TriangleOrder", {no_pairs}},
       {"Change_PowerOfTwo", {turn_signs}},

@@ -53,6 +53,8 @@ LAW_TEST(L12_NeverFreeOnAGuess_Collapsed)
 LAW_TEST(L12_NeverFreeOnAGuess_SeveralLayers)
 LAW_TEST(L12_ZeroAreaStaysInV0)
 LAW_TEST(L12_BadInputIsNamedAndChangesNothing)
+LAW_TEST(L13_CertifiedPatchesAreFree)
+LAW_TEST(L13_EveryContactIsACandidate)
 LAW_TEST(Change_VertexNumbers)
 LAW_TEST(Change_TriangleOrder)
 LAW_TEST(Change_PowerOfTwo)
@@ -88,11 +90,11 @@ TEST(Laws, EachNumberHasALawAndEachLawItsNumber) {
       EXPECT_TRUE(law.name.starts_with(fmt::format("{}_", law.number))) << law.name;
     }
   }
-  for (int i = 1; i <= 12; ++i) EXPECT_TRUE(numbers.count(fmt::format("L{}", i))) << "L" << i;
+  for (int i = 1; i <= 13; ++i) EXPECT_TRUE(numbers.count(fmt::format("L{}", i))) << "L" << i;
 }
 
 // All sizes and families; dear laws have their share of the cases.
-TEST(LawTable, L1_to_L12_AllLawsHoldOverAllFamilies) {
+TEST(LawTable, L1_to_L13_AllLawsHoldOverAllFamilies) {
   constexpr int cases_of_family = 40;
   LawTable table, odd;
   for (const auto& family : families()) {
@@ -110,7 +112,7 @@ TEST(LawTable, L1_to_L12_AllLawsHoldOverAllFamilies) {
 }
 
 // Hand-made meshes, each with its own primitive, ends of sequences, and trust where none is due.
-TEST(LawTable, L1_to_L12_AllLawsHoldOfCuratedCases) {
+TEST(LawTable, L1_to_L13_AllLawsHoldOfCuratedCases) {
   const auto files = corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated");
   ASSERT_TRUE(files);
   std::uint64_t met = 0;

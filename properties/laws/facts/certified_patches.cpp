@@ -1,0 +1,189 @@
+#include "properties/laws/facts/certified_patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "properties/numbering.h"
+
+namespace assay::properties {
+
+using detector::BoundingVolumeTree;
+using detector::Contour;
+using detector::DirectionSet;
+using detector::moving_point;
+using detector::NormalConeSearch;
+using detector::PatchContours;
+using detector::PositionsView;
+using detector::Topology;
+using detector::TrianglePair;
+
+namespace {
+
+using MovingTriangle = std::array<detector::MovingPoint, 3>;
+
+class PatchFinder {
+ public:
+  PatchFinder(const NormalConeSearch& search, const Topology& mesh, const BoundingVolumeTree& tree,
+              const PatchContours& contours, const PositionsView& x_t0, const PositionsView& x_t1)
+      : search_(search),
+        mesh_(mesh),
+        tree_(tree),
+        contours_(contours),
+        x_t0_(x_t0),
+        x_t1_(x_t1),
+        moving_(x_t0_, x_t1_),
+        cones_(tree.node_count()) {
+    found_.patch_of.assign(mesh.triangles.size(), CertifiedPatches::none);
+  }
+
+  CertifiedPatches run() {
+    merge_cones();
+    look_at(BoundingVolumeTree::root);
+    join_neighbours();
+    return std::move(found_);
+  }
+
+ private:
+  struct Patch {
+    std::int32_t node;
+    Numbers triangles;
+  };
+
+  MovingTriangle triangle(std::int32_t t) const {
+    const auto& corners = mesh_.triangles[at(t)];
+    return {moving_point(x_t0_, x_t1_, corners[0]), moving_point(x_t0_, x_t1_, corners[1]),
+            moving_point(x_t0_, x_t1_, corners[2])};
+  }
+
+  // Children come after their node.
+  void merge_cones() {
+    for (auto node = static_cast<std::int32_t>(cones_.size()); node-- > 0;) {
+      const auto child = tree_.child(node);
+      cones_[at(node)] = tree_.is_leaf(node) ? search_.faced(triangle(tree_.triangle(node)))
+                                             : cones_[at(child)] & cones_[at(child + 1)];
+    }
+  }
+
+  // The direction for which L13's premise is proved, if it is.
+  std::optional<int> certified(DirectionSet cone, Contour contour) {
+    if (cone == 0 || contour.empty()) return std::nullopt;
+    const int bit = detector::nearest_direction(cone, moving_.area(contour));
+    if (!search_.stays_simple(moving_, contour, bit)) return std::nullopt;
+    return bit;
+  }
+
+  void look_at(std::int32_t node) {
+    if (const auto bit = certified(cones_[at(node)], contours_.of(node))) {
+      const auto patch = static_cast<std::int32_t>(patches_.size());
+      patches_.push_back({node, {}});
+      auto& triangles = patches_.back().triangles;
+      gather(node, triangles);
+      for (const auto t : triangles) found_.patch_of[at(t)] = patch;
+      found_.largest = std::max(found_.largest, triangles.size());
+      if (triangles.size() > 1) measure(triangles, *bit);
+    } else if (!tree_.is_leaf(node)) {
+      look_at(tree_.child(node));
+      look_at(tree_.child(node) + 1);
+    }
+  }
+
+  void gather(std::int32_t node, Numbers& triangles) const {
+    if (tree_.is_leaf(node)) {
+      triangles.push_back(tree_.triangle(node));
+      return;
+    }
+    gather(tree_.child(node), triangles);
+    gather(tree_.child(node) + 1, triangles);
+  }
+
+  void measure(const Numbers& triangles, int direction_bit) {
+    const auto d = detector::direction(direction_bit);
+    for (const auto t : triangles) {
+      const auto p = triangle(t);
+      const auto n = detector::cross(difference(p[1], p[0]), difference(p[2], p[0]));
+      for (const auto& b : {n.b0, n.b1, n.b2}) found_.facing.widen(std::abs(detector::dot(b, d)));
+    }
+  }
+
+  void join_neighbours() {
+    std::set<std::pair<std::int32_t, std::int32_t>> neighbours;
+    for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
+      const auto row = mesh_.edge_triangles.row(static_cast<std::int32_t>(e));
+      for (const auto t : row) {
+        for (const auto u : row) {
+          const auto a = found_.patch_of[at(t)], b = found_.patch_of[at(u)];
+          if (a != CertifiedPatches::none && a < b) neighbours.insert({a, b});
+        }
+      }
+    }
+    detector::ContourUnion contour_union(mesh_.vertex_triangles.starts.size());
+    for (const auto& [i, j] : neighbours) {
+      const Patch &a = patches_[at(i)], &b = patches_[at(j)];
+      const auto bit = certified(cones_[at(a.node)] & cones_[at(b.node)],
+                                 contour_union.join(contours_.of(a.node), contours_.of(b.node)));
+      if (!bit) continue;
+      found_.unions.insert({i, j});
+      found_.largest = std::max(found_.largest, a.triangles.size() + b.triangles.size());
+      measure(a.triangles, *bit);
+      measure(b.triangles, *bit);
+    }
+  }
+
+  const NormalConeSearch& search_;
+  const Topology& mesh_;
+  const BoundingVolumeTree& tree_;
+  const PatchContours& contours_;
+  const PositionsView &x_t0_, &x_t1_;
+  detector::MovingContour moving_;
+  std::vector<DirectionSet> cones_;  // by node
+  std::vector<Patch> patches_;
+  CertifiedPatches found_;
+};
+
+}  // namespace
+
+bool CertifiedPatches::hold(const TrianglePair& pair) const {
+  const auto a = patch_of[at(pair.a)], b = patch_of[at(pair.b)];
+  if (a == none || b == none) return false;
+  return a == b || unions.count({std::min(a, b), std::max(a, b)}) != 0;
+}
+
+std::unique_ptr<TraditionalScheme> TraditionalScheme::make(const detector::Stages& stages,
+                                                           const Topology& mesh,
+                                                           const PositionsView& x) {
+  auto search = std::dynamic_pointer_cast<const NormalConeSearch>(stages.pair_search);
+  if (!search) return nullptr;
+  return std::unique_ptr<TraditionalScheme>(new TraditionalScheme(std::move(search), mesh, x));
+}
+
+TraditionalScheme::TraditionalScheme(std::shared_ptr<const NormalConeSearch> search,
+                                     const Topology& mesh, const PositionsView& x)
+    : search_(std::move(search)),
+      mesh_(mesh),
+      tree_(mesh, x),
+      maker_(search_->contour_maker(mesh)),
+      contours_(mesh, tree_, *maker_) {}
+
+CertifiedPatches TraditionalScheme::certify(const PositionsView& x_t0,
+                                            const PositionsView& x_t1) const {
+  return PatchFinder(*search_, mesh_, tree_, contours_, x_t0, x_t1).run();
+}
+
+std::set<TrianglePair> TraditionalScheme::candidates(const PositionsView& x_t0,
+                                                     const PositionsView& x_t1) {
+  search_->fit(tree_, mesh_, x_t0, x_t1);
+  const auto kept = search_->prepare(mesh_, tree_);
+  const detector::Marks marks(tree_);  // normal cones know no view sets
+  const detector::PairTables tables = detector::EveryPair().candidates();
+  std::set<TrianglePair> found;
+  detector::SearchCounts counts;
+  search_->search({mesh_, tree_, marks, tables, kept.get(), &x_t0, &x_t1}, counts,
+                  [&](std::int32_t a, std::int32_t b) {
+                    found.insert({std::min(a, b), std::max(a, b)});
+                    return true;
+                  });
+  return found;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,58 @@
+// L13: patches that face one direction and have a simple contour, and the search that rests on
+// them.
+#include <fmt/format.h>
+
+#include "properties/laws/law_groups.h"
+#include "properties/laws/step_law.h"
+
+namespace assay::properties {
+namespace {
+
+// The step is judged, and some patch of two triangles or more is certified.
+bool has_certified_patch(CaseFacts& facts, std::size_t s) {
+  return facts.is_judged(s) && facts.traditional_scheme() && facts.certified_patches(s).largest > 1;
+}
+
+bool is_nearly_edge_on(CaseFacts& facts, std::size_t s) {
+  return is_close(facts.certified_patches(s).facing);
+}
+
+Observation certified_patches_are_free(CaseFacts& facts, std::size_t s) {
+  if (!has_certified_patch(facts, s)) return not_met();
+  for (const auto& contact : facts.judgement(s).pairs) {
+    if (!facts.certified_patches(s).hold(contact.pair)) continue;
+    return fmt::format("triangles {} and {} are in contact in a patch that is certified free",
+                       contact.pair.a, contact.pair.b);
+  }
+  return holds();
+}
+
+// More than the claim of all pairs: a pair that is left out may still be found, by a feature that
+// another pair of triangles shares.
+Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
+  if (!has_certified_patch(facts, s) || facts.judgement(s).pairs.empty()) return not_met();
+  const auto candidates = facts.traditional_scheme()->candidates(facts.x_t0(s), facts.x_t1(s));
+  for (const auto& contact : facts.judgement(s).pairs) {
+    if (candidates.count(contact.pair)) continue;
+    return fmt::format("({}, {}) is in contact, and the search by normal cones leaves it out",
+                       contact.pair.a, contact.pair.b);
+  }
+  return holds();
+}
+
+constexpr Law all[] = {
+    {"L13_CertifiedPatchesAreFree", "L13",
+     "No two triangles of a patch are in contact in a step throughout which all of its triangles "
+     "face one direction and its contour, projected along it, stays a simple polygon.",
+     "pair set", each_step<certified_patches_are_free, is_nearly_edge_on>},
+    {"L13_EveryContactIsACandidate", "L13",
+     "In a step with such a patch the search by normal cones, which leaves patches out, still "
+     "comes to every pair in contact.",
+     "pair set", each_step<every_contact_is_a_candidate, is_nearly_edge_on>},
+};
+
+}  // namespace
+
+std::span<const Law> normal_cone_laws() { return all; }
+
+}  // namespace assay::properties

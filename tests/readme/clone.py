@@ -1,0 +1,40 @@
+"""A folder laid out like a fresh clone with the program built, in which commands of READMEs are run."""
+import os
+import shutil
+import signal
+import subprocess
+from pathlib import Path
+
+# Of the build tree: with these a command could build into it, or two runs of ctest would share a log.
+NOT_LENT = {"Testing", "CMakeCache.txt", "build.ninja", ".ninja_log", ".ninja_deps"}
+
+
+class Clone:
+    """The sources are copied, so that nothing a command writes gets into them; the build is lent."""
+
+    def __init__(self, place, sources, build):
+        self.place = Path(place)
+        shutil.rmtree(self.place, ignore_errors=True)
+        shutil.copytree(sources, self.place, ignore=lambda folder, names: {
+            n for n in names if n in (".git", "node_modules")
+            or n == "build" and Path(folder) == sources})
+        release = self.place / "build/release"
+        release.mkdir(parents=True)
+        for entry in Path(build).iterdir():
+            if entry.name not in NOT_LENT and entry not in (self.place, *self.place.parents):
+                (release / entry.name).symlink_to(entry)
+
+    def run(self, command, seconds):
+        """The exit code, or "over SECONDS s", and what the command printed."""
+        # The READMEs say `assay` where any build of it may be meant.
+        path = f"{self.place / 'build/release'}:{os.environ['PATH']}"
+        job = subprocess.Popen(["bash", "-c", command], cwd=self.place,
+                               env={**os.environ, "PATH": path}, text=True, errors="replace",
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, start_new_session=True)
+        try:
+            printed = job.communicate(timeout=seconds)[0]
+            return job.returncode, printed
+        except subprocess.TimeoutExpired:
+            os.killpg(job.pid, signal.SIGKILL)
+            return f"over {seconds} s", job.communicate()[0]

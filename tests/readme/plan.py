@@ -1,0 +1,136 @@
+"""What the test does with every chunk of every README.
+
+A command is run as it stands, in the order of the README, in a folder laid out like a fresh clone with
+the program built. It has to end with 0.
+
+    QUICK     the command is run each time.
+    SLOW      it takes minutes, so only `ctest --preset slow` runs it (and those of QUICK before it).
+    NOT_RUN   it cannot be run here, for the reason given. What it names is checked instead: the
+              program's own --help has to know all of its options and words, ctest its preset, Ninja
+              its targets.
+    NO_COMMAND  the chunk is no command, but what the value says. It is known by how it begins.
+
+A synopsis has places to fill in (DIR, [--seed N], a|b), so it is never run; it needs no entry here,
+for run.py knows one when it sees it, and checks it as it does those of NOT_RUN.
+
+A chunk that is in none of these lists fails the test, and so does an entry that no README has.
+"""
+
+RECURSION = "runs this very test"
+NIGHT = "takes a night"
+MUTANTS = "compiles as the build did, and the build is only lent; test mutation_smoke runs the script"
+
+# What the reader is to have at hand: made before the first command of that README.
+GIVEN = {
+    "README.md": [
+        "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
+    ],
+    "detector/plugin/README.md": [
+        "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
+        "assay scene bend --size 200 --frames 4 --out .",
+    ],
+    "reports/README.md": [
+        "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o libmine.so",
+    ],
+}
+
+QUICK = {
+    "tests/README.md": [
+        'RC_PARAMS="seed=7 max_success=1000 max_discard_ratio=100" ctest --preset law -R Laws.L3 --verbose',
+    ],
+    "README.md": [
+        "build/release/assay scene bend --size 2000 --frames 12 --out build/bend",
+        "build/release/assay check build/bend/frame_*.ply",
+        "build/release/assay check --culling view-line --json build/report.json build/bend/frame_*.ply",
+        "build/release/assay check corpus/curated/B1_one_vertex_own_nearest.json",
+        "build/release/assay list scenes",
+        "build/release/assay scene twist --mesh build/bend/frame_0000.ply --frames 4 --out build/twist",
+        "build/release/assay check-queries corpus/queries/example_vf.csv --method detector-exact",
+        "build/release/assay replay quick:1:closed-generic:5 --why 0,5",
+        "build/release/assay replay corpus/curated/B1_one_vertex_own_nearest.json --export build/export",
+        "build/release/assay list faults",
+    ],
+    "detector/plugin/README.md": [
+        "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o example.so",
+        "assay check --detector ./example.so frame_*.ply",
+    ],
+}
+
+SLOW = {
+    "tests/README.md": [
+        "ASSAY_SEED=7 ASSAY_CASES=100000 ctest --preset law --verbose",
+        "ASSAY_KILLS=50 ASSAY_SEED=7 ctest --preset unit -R KilledAtRandom --verbose",
+        "ctest --preset planted --verbose",
+    ],
+    "README.md": [
+        "build/release/assay self-test --jobs 2",
+        "build/release/assay bench --suite speed-error --svg reports/pictures/speed-error.svg",
+        "build/release/assay run --campaign smoke --out build/smoke",
+        "build/release/assay run --campaign smoke --detector ./libmine.so --power build/smoke --out build/mine",
+        "build/release/assay certify --campaign quick --out build/quick",
+        "build/release/assay verify build/quick/certificate.json",
+        "build/release/assay report build/quick --out build/quick/report.html",
+        "reports/nightly --out build/night --campaign quick --shards 4",
+    ],
+    "detector/README.md": [
+        "cmake -S detector -B build/detector && cmake --build build/detector",
+    ],
+    "detector/plugin/README.md": [
+        "assay run --campaign smoke --out proof",
+        "assay run --campaign smoke --detector ./libmine.so --power proof --out mine",
+    ],
+    "reports/README.md": [
+        "assay run --campaign smoke --out proof",
+        "assay run --campaign smoke --detector ./libmine.so --power proof --out mine",
+    ],
+}
+
+NOT_RUN = {
+    "README.md": {
+        "reports/certify": "installs packages and builds; the slow list certifies by the program",
+        "tests/run": RECURSION,
+    },
+    "reports/README.md": {
+        "reports/nightly --out build/night": NIGHT,
+        "reports/nightly --out build/night --by parallel --hosts hosts.txt":
+            NIGHT + ", on hosts that ssh has to reach",
+        "reports/nightly --out /shared/night --by slurm --shards 32 --at-once 32 --sbatch '--partition=night'":
+            NIGHT + ", and a cluster",
+    },
+    "tests/README.md": {
+        "ctest --preset slow": RECURSION,
+        "ctest --preset release": RECURSION,
+    },
+    "tests/mutation/README.md": {
+        "cmake --build --preset release --target mutation_facts mutant_judge detector_tests "
+        "properties_detector_tests": "builds, and the build is only lent",
+        "python3 tests/mutation/mutate.py": MUTANTS,
+        "python3 tests/mutation/mutate.py --seed 2 --mutants 300 --jobs 2": MUTANTS,
+        "python3 tests/mutation/mutate.py --only search/ --mutants 40": MUTANTS,
+        "python3 tests/mutation/mutate.py --these tests/mutation/smoke.json --anew": MUTANTS,
+    },
+}
+
+NO_COMMAND = {
+    "README.md": {
+        "building build/release (log": "what reports/certify and tests/run print",
+        "verdict: certified in": "what reports/certify prints",
+        "step 11: collision at": "what `assay check` prints",
+        "arithmetic culling": "the table of `assay bench --suite speed-error`",
+        "canary pair/zero-zero-dropped": "what `assay run` prints",
+        "frames, cases, queries, scenes": "a drawing of the rooms",
+    },
+    "detector/README.md": {
+        '#include "detector/detector.h"': "C++; tests/consumer compiles a whole program like it",
+    },
+    "detector/plugin/README.md": {
+        "/* A detector by boxes": "C, the plug-in that is compiled above; a test compares the two",
+        "assay_builtin_save(handle": "C; tests/consumer compiles a whole program like it",
+    },
+    "properties/README.md": {
+        "WorkerProcess worker(": "C++; the tests of the worker are made of such lines",
+    },
+    "reports/README.md": {
+        "runs-on: ubuntu-latest": "a workflow of GitHub Actions",
+    },
+}
