@@ -24,7 +24,7 @@
 #include <array>
 #include <cmath>
 
-#include "detector/bernstein/rounding.h"
+#include "detector/bernstein/bounds.h"
 #include "detector/mesh/step_types.h"
 
 namespace assay::detector {

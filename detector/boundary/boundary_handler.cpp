@@ -72,7 +72,7 @@ bool BoundaryHandler::sweep(const GhostSweep& sweep, std::span<const std::int32_
   GhostSweep as_asked = sweep;
   if (test_ == GhostTest::boxes) as_asked.test = test_;
   const auto holes =
-      make_hole_trees(sweep.surface.all(), ghosts, sweep.tree.rounding(), sweep.x_t0, sweep.x_t1);
+      make_hole_trees(sweep.surface.all(), ghosts, sweep.tree.grid(), sweep.x_t0, sweep.x_t1);
   return std::all_of(holes.begin(), holes.end(), [&](const HoleTree& hole) {
     return sweep_hole(as_asked, hole, stop, touched, counts);
   });

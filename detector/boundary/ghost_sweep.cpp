@@ -70,8 +70,7 @@ bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunctio
 
 void sweep_ghost(const GhostSweep& sweep, std::int32_t ghost, std::vector<std::uint8_t>& touched,
                  GhostCounts& counts) {
-  const HoleTree alone(sweep.surface.all(), {&ghost, 1}, sweep.tree.rounding(), sweep.x_t0,
-                       sweep.x_t1);
+  const HoleTree alone(sweep.surface.all(), {&ghost, 1}, sweep.tree.grid(), sweep.x_t0, sweep.x_t1);
   sweep_hole(sweep, alone, {}, touched, counts);
 }
 

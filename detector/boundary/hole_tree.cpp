@@ -2,14 +2,14 @@
 
 namespace assay::detector {
 
-HoleTree::HoleTree(const Topology& all, std::span<const std::int32_t> ghosts,
-                   const Rounding& rounding, const PositionsView& x_t0, const PositionsView& x_t1)
+HoleTree::HoleTree(const Topology& all, std::span<const std::int32_t> ghosts, const FloatGrid& grid,
+                   const PositionsView& x_t0, const PositionsView& x_t1)
     : ghosts_(ghosts), boxes_(2 * ghosts.size() - 1) {
   const std::size_t first_leaf = ghosts.size() - 1;
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
     const auto& v = all.triangles[static_cast<std::size_t>(ghosts[i])];
     boxes_[first_leaf + i] =
-        box_of(rounding(x_t0, x_t1, v[0]), rounding(x_t0, x_t1, v[1]), rounding(x_t0, x_t1, v[2]));
+        box_of(grid(x_t0, x_t1, v[0]), grid(x_t0, x_t1, v[1]), grid(x_t0, x_t1, v[2]));
   }
   for (std::size_t n = first_leaf; n-- > 0;) {
     boxes_[n] = join(boxes_[child(n)], boxes_[child(n) + 1]);
@@ -17,7 +17,7 @@ HoleTree::HoleTree(const Topology& all, std::span<const std::int32_t> ghosts,
 }
 
 std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
-                                      const Rounding& rounding, const PositionsView& x_t0,
+                                      const FloatGrid& grid, const PositionsView& x_t0,
                                       const PositionsView& x_t1) {
   const auto apex = [&](std::size_t i) {
     return all.triangles[static_cast<std::size_t>(ghosts[i])][2];
@@ -25,7 +25,7 @@ std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::
   std::vector<HoleTree> trees;
   for (std::size_t begin = 0, end = 0; begin < ghosts.size(); begin = end) {
     while (end < ghosts.size() && apex(end) == apex(begin)) ++end;
-    trees.emplace_back(all, ghosts.subspan(begin, end - begin), rounding, x_t0, x_t1);
+    trees.emplace_back(all, ghosts.subspan(begin, end - begin), grid, x_t0, x_t1);
   }
   return trees;
 }

@@ -15,8 +15,8 @@ namespace assay::detector {
 class HoleTree {
  public:
   // ghosts: of one loop, in its order, at least one; corners are rows of the views. Boxes compare
-  // with others of the same rounding. 50 ns a ghost.
-  HoleTree(const Topology& all, std::span<const std::int32_t> ghosts, const Rounding& rounding,
+  // with others of the same grid. 50 ns a ghost.
+  HoleTree(const Topology& all, std::span<const std::int32_t> ghosts, const FloatGrid& grid,
            const PositionsView& x_t0, const PositionsView& x_t1);
 
   static constexpr std::size_t root = 0;
@@ -46,7 +46,7 @@ class HoleTree {
 
 // A tree for each hole of the ghosts of a component.
 std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
-                                      const Rounding& rounding, const PositionsView& x_t0,
+                                      const FloatGrid& grid, const PositionsView& x_t0,
                                       const PositionsView& x_t1);
 
 }  // namespace assay::detector

@@ -24,13 +24,13 @@ namespace assay::detector {
 // M_k = largest |coordinate k of x_j(0) - x_0(0), x_j(1) - x_0(1)|. After `depth` halvings a
 // computed coefficient of the cubic is off by less than cubic_error(depth) * MxMyMz, one of a
 // dependency by less than quadratic_error(depth) * MpMq.
-template <class Rounding = ProvedBounds>
+template <class Bounds = ProvedBounds>
 constexpr auto cubic_error(int depth) {
-  return static_cast<typename Rounding::Number>(67 + 18 * depth) * Rounding::unit;
+  return static_cast<typename Bounds::Number>(67 + 18 * depth) * Bounds::unit;
 }
-template <class Rounding = ProvedBounds>
+template <class Bounds = ProvedBounds>
 constexpr auto quadratic_error(int depth) {
-  return static_cast<typename Rounding::Number>(41 + 12 * depth) * Rounding::unit;
+  return static_cast<typename Bounds::Number>(41 + 12 * depth) * Bounds::unit;
 }
 
 template <class Number>
@@ -48,10 +48,10 @@ struct ContactPiece {
 //                                         F changes sign over the piece, from f_lo, by coefficients
 //                                         off by at most f_bound; a contact at each of its roots
 // Pieces without contact are passed over. After contact() the search ends.
-template <class Rounding, class Search>
+template <class Bounds, class Search>
 class ContactPieces {
  public:
-  using Number = typename Rounding::Number;
+  using Number = typename Bounds::Number;
   using Piece = ContactPiece<Number>;
 
   ContactPieces(const FourPoints& query, Search& search) : query_(query), search_(search) {
@@ -63,7 +63,7 @@ class ContactPieces {
     Piece whole;
     whole.f = triple_product(u_[0], n);
     f_scale_ = magnitude_[0] * magnitude_[1] * magnitude_[2];
-    if (sure_sign(whole.f, cubic_error<Rounding>(0) * f_scale_) != 0) return;
+    if (sure_sign(whole.f, cubic_error<Bounds>(0) * f_scale_) != 0) return;
     make_dependencies(n, whole);
     whole.lo = 0;
     whole.hi = 1;
@@ -76,7 +76,7 @@ class ContactPieces {
       u_[j] = difference<Number>(query_.points[j + 1], query_.points[0]);
       grow(magnitude_, u_[j]);
     }
-    if constexpr (Rounding::proved) {
+    if constexpr (Bounds::proved) {
       if (!in_range(magnitude_)) bring_into_range();
     }
   }
@@ -129,12 +129,12 @@ class ContactPieces {
 
   // True: stop.
   bool visit(const Piece& piece, int depth) {
-    const Number f_bound = cubic_error<Rounding>(depth) * f_scale_;
+    const Number f_bound = cubic_error<Bounds>(depth) * f_scale_;
     if (sure_sign(piece.f, f_bound) != 0) return false;
     const int f_lo = sign_beyond(piece.f[0], f_bound), f_hi = sign_beyond(piece.f[3], f_bound);
     const bool f_changes_sign = f_lo * f_hi < 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Number bound = quadratic_error<Rounding>(depth) * scale_[k];
+      const Number bound = quadratic_error<Bounds>(depth) * scale_[k];
       bool positive = false, negative = false, open = false;
       for (const auto& l : piece.dependencies[k]) {
         const int sign = sure_sign(l, bound);

@@ -45,14 +45,14 @@ bool surely_apart(const Point& e0, const Point& e1, const std::array<Point, 3>& 
 }
 
 // Signs of the two sides of the plane and of the three turns around the segment.
-template <class Rounding>
+template <class Bounds>
 struct PiercingSigns {
   PiercingSigns(const Point& e0, const Point& e1, const std::array<Point, 3>& face)
-      : side0(filtered_orientation<Rounding>(face[0], face[1], face[2], e0)),
-        side1(filtered_orientation<Rounding>(face[0], face[1], face[2], e1)),
-        turns{filtered_orientation<Rounding>(e0, e1, face[0], face[1]),
-              filtered_orientation<Rounding>(e0, e1, face[1], face[2]),
-              filtered_orientation<Rounding>(e0, e1, face[2], face[0])} {}
+      : side0(filtered_orientation<Bounds>(face[0], face[1], face[2], e0)),
+        side1(filtered_orientation<Bounds>(face[0], face[1], face[2], e1)),
+        turns{filtered_orientation<Bounds>(e0, e1, face[0], face[1]),
+              filtered_orientation<Bounds>(e0, e1, face[1], face[2]),
+              filtered_orientation<Bounds>(e0, e1, face[2], face[0])} {}
 
   bool pierces() const {
     return side0 * side1 < 0 && turns[0] != 0 && turns[0] == turns[1] && turns[1] == turns[2];

@@ -58,10 +58,10 @@ CrossingSigns exact_signs(const std::array<Point, 3>& corners, const RayOrigin& 
 }
 
 // 0 where doubles cannot tell, or where a plain number is 0.
-template <class Rounding>
+template <class Bounds>
 CrossingSigns filtered_signs(const std::array<Point, 3>& corners, const RayOrigin& o,
                              const RayDirection& r) {
-  using Number = typename Rounding::Number;
+  using Number = typename Bounds::Number;
   std::array<VectorOf<Number>, 3> a{};
   VectorOf<Number> w = {0, 0, 0};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -73,7 +73,7 @@ CrossingSigns filtered_signs(const std::array<Point, 3>& corners, const RayOrigi
       w[k] = std::max({w[k], 4 * std::abs(d0), 4 * std::abs(d1), 4 * std::abs(d2)});
     }
   }
-  if constexpr (Rounding::proved) {
+  if constexpr (Bounds::proved) {
     const bool in_range = std::all_of(w.begin(), w.end(),
                                       [](Number m) { return m > least_size && m < greatest_size; });
     if (!in_range) return {};
@@ -84,7 +84,7 @@ CrossingSigns filtered_signs(const std::array<Point, 3>& corners, const RayOrigi
                                   std::abs(direction[2])};
   const auto dets = determinants<Number>(a, direction);
   // The direction is exact and each of its coordinates has its own size: V by terms.
-  constexpr Number error = 128 * Rounding::unit;
+  constexpr Number error = 128 * Bounds::unit;
   const Number along =
       error * (w[0] * w[1] * reach[2] + w[1] * w[2] * reach[0] + w[2] * w[0] * reach[1]);
   const Number volume = error * (w[0] * w[1] * w[2]);

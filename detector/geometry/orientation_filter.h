@@ -12,13 +12,13 @@
 
 namespace assay::detector {
 
-template <class Rounding>
-inline constexpr typename Rounding::Number orientation_error = 48 * Rounding::unit;
+template <class Bounds>
+inline constexpr typename Bounds::Number orientation_error = 48 * Bounds::unit;
 
 // Sign of det(b-a, c-a, d-a); with proved bounds 0 means zero or not known.
-template <class Rounding>
+template <class Bounds>
 int filtered_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
-  using Number = typename Rounding::Number;
+  using Number = typename Bounds::Number;
   const std::array<const Point*, 3> ends = {&b, &c, &d};
   Number u[3][3], magnitude[3] = {0, 0, 0};
   for (std::size_t j = 0; j < 3; ++j) {
@@ -27,7 +27,7 @@ int filtered_orientation(const Point& a, const Point& b, const Point& c, const P
       magnitude[k] = std::max(magnitude[k], std::abs(u[j][k]));
     }
   }
-  if constexpr (Rounding::proved) {
+  if constexpr (Bounds::proved) {
     const bool in_range = std::all_of(magnitude, magnitude + 3, [](Number m) {
       return m > least_magnitude && m < greatest_magnitude;
     });
@@ -36,8 +36,7 @@ int filtered_orientation(const Point& a, const Point& b, const Point& c, const P
   const Number det = u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) +
                      u[0][1] * (u[1][2] * u[2][0] - u[1][0] * u[2][2]) +
                      u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
-  return sign_beyond(det,
-                     orientation_error<Rounding> * (magnitude[0] * magnitude[1] * magnitude[2]));
+  return sign_beyond(det, orientation_error<Bounds> * (magnitude[0] * magnitude[1] * magnitude[2]));
 }
 
 }  // namespace assay::detector

@@ -5,12 +5,12 @@
 namespace assay::detector {
 namespace {
 
-struct DirectedEdge {
+struct LoopEdge {
   std::int32_t from, to;
-  friend auto operator<=>(const DirectedEdge&, const DirectedEdge&) = default;
+  friend auto operator<=>(const LoopEdge&, const LoopEdge&) = default;
 };
 
-std::vector<DirectedEdge> unmatched_edges(const Topology& mesh) {
+std::vector<LoopEdge> unmatched_edges(const Topology& mesh) {
   std::vector<std::int32_t> surplus(mesh.edges.size(), 0);  // ascending less descending uses
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -18,7 +18,7 @@ std::vector<DirectedEdge> unmatched_edges(const Topology& mesh) {
       surplus[static_cast<std::size_t>(mesh.triangle_edges[t][corner])] += u < v ? 1 : -1;
     }
   }
-  std::vector<DirectedEdge> unmatched;
+  std::vector<LoopEdge> unmatched;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     const auto [u, v] = mesh.edges[e];
     for (std::int32_t k = 0; k < surplus[e]; ++k) unmatched.push_back({u, v});
@@ -35,7 +35,7 @@ std::vector<Loop> boundary_loops(const Topology& mesh) {
   // The edges that leave a vertex are consecutive; those before `next[v]` are used.
   std::vector<std::size_t> next(mesh.vertex_triangles.starts.size(), edges.size());
   for (std::size_t e = edges.size(); e-- > 0;) next[static_cast<std::size_t>(edges[e].from)] = e;
-  const auto take_from = [&](std::int32_t vertex) -> const DirectedEdge* {
+  const auto take_from = [&](std::int32_t vertex) -> const LoopEdge* {
     auto& e = next[static_cast<std::size_t>(vertex)];
     return e < edges.size() && edges[e].from == vertex ? &edges[e++] : nullptr;
   };

@@ -114,7 +114,7 @@ BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView
 MovingBox BoundingVolumeTree::box_of_triangle(const std::array<std::int32_t, 3>& corners,
                                               const PositionsView& x_t0,
                                               const PositionsView& x_t1) const {
-  const Rounding& f = points_.rounding();
+  const FloatGrid& f = points_.grid();
   return box_of(f(x_t0, x_t1, corners[0]), f(x_t0, x_t1, corners[1]), f(x_t0, x_t1, corners[2]));
 }
 

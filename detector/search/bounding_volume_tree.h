@@ -33,7 +33,7 @@ class BoundingVolumeTree {
   // The component of all triangles below, or mixed_components.
   std::int32_t component(std::int32_t node) const { return component_[at(node)]; }
 
-  const Rounding& rounding() const { return points_.rounding(); }
+  const FloatGrid& grid() const { return points_.grid(); }
   // Of the step of the last refit.
   const MovingBox& box(std::int32_t node) const { return boxes_[at(node)]; }
   // A box to compare with these; corners are rows of the two views.

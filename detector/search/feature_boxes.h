@@ -4,7 +4,7 @@
 // Two features that are strictly ordered along any one direction, in the same sense at both ends of
 // the step, are in no contact. Along the axes floats tell by their order alone (moving_box.h). The
 // sum of a diagonal is rounded, so order along it counts only beyond a margin:
-//   y_k = (x_k - centre_k) * scale, |y_k| <= 2 (Rounding::scaled), is off by 2^-52 at most; a sum
+//   y_k = (x_k - centre_k) * scale, |y_k| <= 2 (FloatGrid::scaled), is off by 2^-52 at most; a sum
 //   of three, at most 6, takes two more roundings and is off by less than 2^-49. It is rounded to
 //   the nearest float g, off by at most 2^-22 (half a unit of floats in [4,8)). Where
 //   g(a) + margin < g(b) in floats, with the sum's own rounding of at most 2^-22 and margin 2^-20,
@@ -39,7 +39,7 @@ inline FeatureBox feature_box(const FeaturePoint& p, const FeaturePoint& q, cons
 
 inline bool apart_along_diagonals(const MovingBox& a, const MovingBox& b) {
   constexpr float m = diagonal_margin;
-  constexpr Lanes margin = {m, m, m, m};
+  constexpr FloatLanes margin = {m, m, m, m};
   return any(((a.hi_t0 + margin < b.lo_t0) & (a.hi_t1 + margin < b.lo_t1)) |
              ((b.hi_t0 + margin < a.lo_t0) & (b.hi_t1 + margin < a.lo_t1)));
 }

@@ -5,7 +5,7 @@
 
 namespace assay::detector {
 
-Rounding::Rounding(const PositionsView& x_t0, const PositionsView& x_t1) {
+FloatGrid::FloatGrid(const PositionsView& x_t0, const PositionsView& x_t1) {
   if (x_t0.rows() == 0) return;
   for (int k = 0; k < 3; ++k) {
     const double lo = std::min(x_t0.col(k).minCoeff(), x_t1.col(k).minCoeff());
@@ -21,10 +21,10 @@ Rounding::Rounding(const PositionsView& x_t0, const PositionsView& x_t1) {
 }
 
 void RoundedPositions::assign(const PositionsView& x_t0, const PositionsView& x_t1) {
-  rounding_ = Rounding(x_t0, x_t1);
+  grid_ = FloatGrid(x_t0, x_t1);
   points_.resize(static_cast<std::size_t>(x_t0.rows()));
   for (std::size_t v = 0; v < points_.size(); ++v) {
-    points_[v] = rounding_(x_t0, x_t1, static_cast<std::int32_t>(v));
+    points_[v] = grid_(x_t0, x_t1, static_cast<std::int32_t>(v));
   }
 }
 

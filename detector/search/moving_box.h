@@ -21,11 +21,11 @@
 namespace assay::detector {
 
 // Three coordinates and a place that holds 0.
-using Lanes = float __attribute__((vector_size(16)));
+using FloatLanes = float __attribute__((vector_size(16)));
 using LaneTruth = int __attribute__((vector_size(16)));
 
-inline Lanes least(Lanes a, Lanes b) { return a < b ? a : b; }
-inline Lanes greatest(Lanes a, Lanes b) { return a > b ? a : b; }
+inline FloatLanes least(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
+inline FloatLanes greatest(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
 
 inline bool any(LaneTruth truth) {
 #ifdef __SSE__
@@ -37,12 +37,12 @@ inline bool any(LaneTruth truth) {
 
 // A vertex over the step.
 struct RoundedPoint {
-  Lanes t0, t1;
+  FloatLanes t0, t1;
 };
 
 // One cache line.
 struct alignas(64) MovingBox {
-  Lanes lo_t0, hi_t0, lo_t1, hi_t1;
+  FloatLanes lo_t0, hi_t0, lo_t1, hi_t1;
 };
 
 inline MovingBox box_of(const RoundedPoint& p) { return {p.t0, p.t0, p.t1, p.t1}; }
@@ -73,18 +73,18 @@ inline bool apart_at_start(const MovingBox& a, const MovingBox& b) {
 // roundings keeps order. Finite doubles give floats or infinities, never NaN: the centre lies
 // between positions of the step, so their differences from it do not overflow, and those of other
 // points may (to infinities, in order still).
-class Rounding {
+class FloatGrid {
  public:
-  Rounding() = default;
+  FloatGrid() = default;
   // For a step: the middle of all positions, and the power of two that brings them near 1. Where a
   // mesh lies and how large it is then costs no accuracy. O(N).
-  Rounding(const PositionsView& x_t0, const PositionsView& x_t1);
+  FloatGrid(const PositionsView& x_t0, const PositionsView& x_t1);
 
-  Lanes operator()(const PositionsView& x, std::int32_t vertex) const {
+  FloatLanes operator()(const PositionsView& x, std::int32_t vertex) const {
     const auto f = [&](int k) {
       return static_cast<float>((x(vertex, k) - centre_[k]) * scale_[k]);
     };
-    return Lanes{f(0), f(1), f(2), 0};
+    return FloatLanes{f(0), f(1), f(2), 0};
   }
   RoundedPoint operator()(const PositionsView& x_t0, const PositionsView& x_t1,
                           std::int32_t vertex) const {
@@ -110,7 +110,7 @@ class RoundedPositions {
   RoundedPositions(const PositionsView& x_t0, const PositionsView& x_t1) { assign(x_t0, x_t1); }
   void assign(const PositionsView& x_t0, const PositionsView& x_t1);
 
-  const Rounding& rounding() const { return rounding_; }
+  const FloatGrid& grid() const { return grid_; }
   const RoundedPoint& operator[](std::int32_t vertex) const {
     return points_[static_cast<std::size_t>(vertex)];
   }
@@ -119,7 +119,7 @@ class RoundedPositions {
   }
 
  private:
-  Rounding rounding_;
+  FloatGrid grid_;
   std::vector<RoundedPoint> points_;
 };
 

@@ -28,8 +28,8 @@ bool add_ghost_touches(StepWork& work, std::size_t c, std::span<const std::int32
                        std::vector<std::uint8_t>& touched) {
   const Topology& all = work.surface.all();
   if (work.ghosts(c).empty()) return true;
-  const Rounding rounding(work.x_t0, work.x_t0);
-  const auto holes = make_hole_trees(all, work.ghosts(c), rounding, work.x_t0, work.x_t0);
+  const FloatGrid grid(work.x_t0, work.x_t0);
+  const auto holes = make_hole_trees(all, work.ghosts(c), grid, work.x_t0, work.x_t0);
   const FacePairTest faces(work.x_t0, work.x_t0, work.elementary, true);
   GhostCounts counts;
   std::size_t triangles = 0;
@@ -37,7 +37,7 @@ bool add_ghost_touches(StepWork& work, std::size_t c, std::span<const std::int32
     if (touched[at(t)]) continue;
     if (triangles++ % tests_between_stops == 0 && work.stop && work.stop()) return false;
     const auto& corners = all.triangles[at(t)];
-    const auto corner = [&](std::size_t i) { return rounding(work.x_t0, work.x_t0, corners[i]); };
+    const auto corner = [&](std::size_t i) { return grid(work.x_t0, work.x_t0, corners[i]); };
     const MovingBox box = box_of(corner(0), corner(1), corner(2));
     const auto meets = [&](std::int32_t ghost) {
       ++counts.pairs;

@@ -42,9 +42,9 @@ Range<T> around(T value, T error) {
 
 // Sign of (1-s) h0 + s h1 for all values in the ranges, 0 when it is not sure. The sums of ranges
 // above were rounded once more and these are rounded four times: `slack` covers that.
-template <class Rounding, class T>
+template <class Bounds, class T>
 int sure_value_sign(const Range<T>& h0, const Range<T>& h1, const Range<T>& s) {
-  constexpr T slack = 16 * Rounding::unit;
+  constexpr T slack = 16 * Bounds::unit;
   const T margin = slack * (std::max(std::abs(h0.lo), std::abs(h0.hi)) +
                             std::max(std::abs(h1.lo), std::abs(h1.hi)));
   const auto value = [](T a, T b, T s_) { return a + s_ * (b - a); };
@@ -53,18 +53,18 @@ int sure_value_sign(const Range<T>& h0, const Range<T>& h1, const Range<T>& s) {
   return 0;
 }
 
-template <class Rounding, class T>
+template <class Bounds, class T>
 Range<T> clamped_axial(const Range<T>& along, const Range<T>& length2) {
-  constexpr T slack = 8 * Rounding::unit;
+  constexpr T slack = 8 * Bounds::unit;
   if (!(length2.lo > 0)) return {0, 1};
   const T lo = along.lo > 0 ? along.lo / length2.hi * (1 - slack) : 0;
   const T hi = along.hi > 0 ? along.hi / length2.lo * (1 + slack) : 0;
   return {std::min(lo, T(1)), std::min(hi, T(1))};
 }
 
-template <class Rounding>
+template <class Bounds>
 class ViewFilter {
-  using Number = typename Rounding::Number;
+  using Number = typename Bounds::Number;
   using NumberRange = Range<Number>;
 
  public:
@@ -94,7 +94,7 @@ class ViewFilter {
 
  private:
   static bool usable(const VectorOf<Number>& magnitude) {
-    if constexpr (Rounding::proved) return in_range(magnitude);
+    if constexpr (Bounds::proved) return in_range(magnitude);
     return true;
   }
 
@@ -150,19 +150,19 @@ class ViewFilter {
   }
 
   bool settle(const Piece& piece, int depth) {
-    const NumberRange h0 = range_of(piece.h0, view_cubic_error<Rounding>(depth) * scale0_);
+    const NumberRange h0 = range_of(piece.h0, view_cubic_error<Bounds>(depth) * scale0_);
     if (is_point_) return note(h0.lo > 0 ? 1 : h0.hi < 0 ? -1 : 0);
-    const NumberRange h1 = range_of(piece.h1, view_cubic_error<Rounding>(depth) * scale1_);
-    const int whole_line = sure_value_sign<Rounding, Number>(h0, h1, {0, 1});
+    const NumberRange h1 = range_of(piece.h1, view_cubic_error<Bounds>(depth) * scale1_);
+    const int whole_line = sure_value_sign<Bounds, Number>(h0, h1, {0, 1});
     if (whole_line != 0) return note(whole_line);
     const NumberRange length2 =
-        range_of(piece.length2, view_axial_error<Rounding>(depth) * length2_scale_);
+        range_of(piece.length2, view_axial_error<Bounds>(depth) * length2_scale_);
     int common = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const NumberRange along =
-          range_of(piece.along[i], view_axial_error<Rounding>(depth) * along_scale_);
-      const int sign = sure_value_sign<Rounding, Number>(
-          h0, h1, clamped_axial<Rounding, Number>(along, length2));
+          range_of(piece.along[i], view_axial_error<Bounds>(depth) * along_scale_);
+      const int sign =
+          sure_value_sign<Bounds, Number>(h0, h1, clamped_axial<Bounds, Number>(along, length2));
       if (sign == 0) return false;
       note(sign);
       if (i > 0 && sign != common) return true;
@@ -173,21 +173,21 @@ class ViewFilter {
 
   void note_end_values(const Piece& piece, int depth) {
     for (const bool at_end : {false, true}) {
-      const Number error0 = view_cubic_error<Rounding>(depth) * scale0_;
+      const Number error0 = view_cubic_error<Bounds>(depth) * scale0_;
       const NumberRange h0 = around(at_end ? piece.h0[3] : piece.h0[0], error0);
       if (is_point_) {
         note(h0.lo > 0 ? 1 : h0.hi < 0 ? -1 : 0);
         continue;
       }
       const NumberRange h1 =
-          around(at_end ? piece.h1[3] : piece.h1[0], view_cubic_error<Rounding>(depth) * scale1_);
-      const Number axial = view_axial_error<Rounding>(depth);
+          around(at_end ? piece.h1[3] : piece.h1[0], view_cubic_error<Bounds>(depth) * scale1_);
+      const Number axial = view_axial_error<Bounds>(depth);
       const NumberRange length2 =
           around(at_end ? piece.length2[2] : piece.length2[0], axial * length2_scale_);
       for (const auto& a : piece.along) {
         const NumberRange along = around(at_end ? a[2] : a[0], axial * along_scale_);
-        note(sure_value_sign<Rounding, Number>(h0, h1,
-                                               clamped_axial<Rounding, Number>(along, length2)));
+        note(
+            sure_value_sign<Bounds, Number>(h0, h1, clamped_axial<Bounds, Number>(along, length2)));
       }
     }
   }

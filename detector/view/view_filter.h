@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "detector/bernstein/rounding.h"
+#include "detector/bernstein/bounds.h"
 #include "detector/mesh/step_types.h"
 
 namespace assay::detector {
@@ -23,13 +23,13 @@ template <class Number>
 ViewSign plain_view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive);
 
 // Bounds derived in view_filter.cpp, in units of 2^-53 times the scale named there.
-template <class Rounding = ProvedBounds>
+template <class Bounds = ProvedBounds>
 constexpr auto view_cubic_error(int depth) {
-  return static_cast<typename Rounding::Number>(24 + 6 * depth) * Rounding::unit;
+  return static_cast<typename Bounds::Number>(24 + 6 * depth) * Bounds::unit;
 }
-template <class Rounding = ProvedBounds>
+template <class Bounds = ProvedBounds>
 constexpr auto view_axial_error(int depth) {
-  return static_cast<typename Rounding::Number>(8 + 2 * depth) * Rounding::unit;
+  return static_cast<typename Bounds::Number>(8 + 2 * depth) * Bounds::unit;
 }
 inline constexpr int max_view_depth = 5;
 

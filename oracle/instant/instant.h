@@ -6,15 +6,11 @@
 
 #include "oracle/mesh/box_tree.h"
 #include "oracle/query/integer_polynomial.h"
+#include "oracle/rational_time.h"
 
 namespace assay::oracle {
 
 using IntegerPoint = std::array<Integer, 3>;
-
-// t = numerator / denominator, in [0,1].
-struct RationalTime {
-  std::int64_t numerator = 0, denominator = 1;
-};
 
 // Vertex v is at points()[v] * unit, with one unit for all: 2^exponent() / denominator of the time.
 // Signs of homogeneous polynomials of differences are those of the true places.
@@ -22,8 +18,7 @@ class Instant {
  public:
   // Vertices at rest at x. REQUIRES finite coordinates.
   explicit Instant(const detector::PositionsView& x);
-  // Vertices on their way from x_t0 to x_t1. REQUIRES denominator > 0, 0 <= numerator <=
-  // denominator < 2^31.
+  // Vertices on their way from x_t0 to x_t1. REQUIRES a time in [0,1] with denominator < 2^31.
   Instant(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
           const RationalTime& t);
 

@@ -27,7 +27,8 @@ BoxOfVertices boxes_at(const Instant& instant) {
 
 std::vector<TrianglePair> contacts_at(const Instant& instant,
                                       const detector::TrianglesView& triangles, int jobs) {
-  const FeatureIndex mesh(triangles, boxes_at(instant));
+  const MeshFeatures features = mesh_features(triangles);
+  const FeatureIndex mesh(features, boxes_at(instant));
   std::vector<std::vector<TrianglePair>> found(std::max(jobs, 1));
   for_each_contact(mesh, mesh, tests_at(instant), {jobs},
                    {[](std::int32_t s, std::int32_t t) { return s != t; },
@@ -42,7 +43,8 @@ std::vector<TrianglePair> contacts_at(const Instant& instant,
 }
 
 bool any_contact_at(const Instant& instant, const detector::TrianglesView& triangles, int jobs) {
-  const FeatureIndex mesh(triangles, boxes_at(instant));
+  const MeshFeatures features = mesh_features(triangles);
+  const FeatureIndex mesh(features, boxes_at(instant));
   std::atomic<bool> found = false;
   StopGate gate([&] { return found.load(); });
   for_each_contact(mesh, mesh, tests_at(instant), {jobs, &gate},
@@ -56,8 +58,8 @@ std::vector<std::uint8_t> touched_at(const Instant& instant,
                                      const detector::TrianglesView& ghosts,
                                      const std::vector<std::int32_t>& component, int jobs) {
   const auto count = static_cast<std::size_t>(triangles.rows());
-  const FeatureIndex mesh(triangles, boxes_at(instant));
-  const FeatureIndex fans(ghosts, boxes_at(instant));
+  const MeshFeatures mesh_parts = mesh_features(triangles), fan_parts = mesh_features(ghosts);
+  const FeatureIndex mesh(mesh_parts, boxes_at(instant)), fans(fan_parts, boxes_at(instant));
   const FeatureTests tests = tests_at(instant);
   // Only ever set, so that the order of threads does not matter.
   std::vector<std::atomic<std::uint8_t>> touched(count);

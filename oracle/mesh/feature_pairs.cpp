@@ -28,8 +28,23 @@ void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tre
 
 }  // namespace
 
-FeatureIndex::FeatureIndex(const detector::TrianglesView& triangles, BoxOfVertices box_of)
-    : features_(mesh_features(triangles)), box_of_(std::move(box_of)) {}
+BoxOfVertices swept_boxes(const detector::PositionsView& x_t0,
+                          const detector::PositionsView& x_t1) {
+  return [&x_t0, &x_t1](std::span<const std::int32_t> vertices) {
+    // By number, so that the loop over them is unrolled: a step has some 10 boxes a vertex.
+    switch (vertices.size()) {
+      case 1:
+        return swept_box(x_t0, x_t1, vertices.first<1>());
+      case 2:
+        return swept_box(x_t0, x_t1, vertices.first<2>());
+      default:
+        return swept_box(x_t0, x_t1, vertices);
+    }
+  };
+}
+
+FeatureIndex::FeatureIndex(const MeshFeatures& features, BoxOfVertices box_of)
+    : features_(features), box_of_(std::move(box_of)) {}
 
 template <class Features>
 std::unique_ptr<BoxTree> FeatureIndex::tree_of(const Features& features) const {
@@ -79,6 +94,16 @@ void for_each_edge_face(const FeatureIndex& a, const FeatureIndex& b, const Work
       [&](std::size_t i, std::int32_t f) {
         return !holds(faces[f], edges[i][0]) && !holds(faces[f], edges[i][1]);
       },
+      visit);
+}
+
+void for_each_face_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
+                        const VisitFeatures& visit) {
+  const auto& faces = a.features().faces;
+  const bool same = &a == &b;
+  for_each_meeting(
+      faces.size(), [&](std::size_t i) { return a.box_of(faces[i]); }, b.faces(), workers,
+      [&](std::size_t i, std::int32_t j) { return !(same && i >= static_cast<std::size_t>(j)); },
       visit);
 }
 

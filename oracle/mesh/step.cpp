@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "oracle/mesh/box_tree.h"
-#include "oracle/mesh/mesh_features.h"
+#include "oracle/mesh/feature_pairs.h"
 #include "oracle/mesh/pair_store.h"
 #include "oracle/parallel_chunks.h"
 #include "oracle/processor_state.h"
@@ -16,14 +15,11 @@ namespace {
 using detector::Feature;
 using detector::FeatureKind;
 
-constexpr std::size_t kChunk = 128;  // features a thread takes at once
-
 // What one thread has found. Candidates are judged as they are met and never stored.
 struct Worker {
   PairStore pairs;
   RungCounts rungs;
   std::uint64_t candidates = 0;
-  std::vector<std::int32_t> met;
 };
 
 class StepJudge {
@@ -33,9 +29,8 @@ class StepJudge {
       : x_t0_(x_t0),
         x_t1_(x_t1),
         features_(mesh_features(triangles)),
-        jobs_(std::max(options.jobs, 1)),
         gate_(options.stop),
-        workers_(jobs_) {}
+        workers_(std::max(options.jobs, 1)) {}
 
   StepJudgement run() {
     judge_same_vertices();
@@ -46,31 +41,13 @@ class StepJudge {
   }
 
  private:
-  using Judge = void (StepJudge::*)(std::size_t item, std::int32_t other, Worker& worker);
-
-  // Boxes over the step, or at t=0 alone when x_end is x_t0.
-  template <class Features>
-  std::vector<Box> boxes(const Features& features, const detector::PositionsView& x_end) const {
-    std::vector<Box> result;
-    result.reserve(features.size());
-    for (const auto& f : features) result.push_back(swept_box(x_t0_, x_end, f));
-    return result;
+  // The features with their boxes over the step, or at t=0 alone when x_end is x_t0. Each phase
+  // makes its own, so that no more than one tree is in memory at a time.
+  FeatureIndex index_until(const detector::PositionsView& x_end) const {
+    return {features_, swept_boxes(x_t0_, x_end)};
   }
 
-  // Judges each item against every entry of the tree that its box meets.
-  template <class BoxOf>
-  void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tree, Judge judge) {
-    for_each_chunk(items, kChunk, jobs_, gate_, [&](std::size_t begin, std::size_t end, int w) {
-      Worker& worker = workers_[w];
-      for (std::size_t item = begin; item < end; ++item) {
-        tree.meeting(box_of(item), worker.met);
-        for (const std::int32_t other : worker.met) {
-          if (gate_.stopped()) return;
-          (this->*judge)(item, other, worker);
-        }
-      }
-    });
-  }
+  Workers workers() { return {static_cast<int>(workers_.size()), &gate_}; }
 
   void judge_same_vertices() {
     for (const auto& [a, b] : same_vertices_pairs(features_.faces)) {
@@ -82,35 +59,35 @@ class StepJudge {
 
   void judge_vertices_and_faces() {
     if (gate_.stopped()) return;
-    const BoxTree faces(boxes(features_.faces, x_t1_));
-    auto box_of = [&](std::size_t i) {
-      return swept_box(x_t0_, x_t1_, std::array{features_.vertices[i]});
-    };
-    for_each_meeting(features_.vertices.size(), box_of, faces, &StepJudge::judge_vertex_face);
+    const FeatureIndex mesh = index_until(x_t1_);
+    for_each_vertex_face(mesh, mesh, workers(), [this](std::size_t a, std::size_t b, int worker) {
+      judge_vertex_face(a, b, workers_[worker]);
+    });
   }
 
   void judge_edges() {
     if (gate_.stopped()) return;
-    const BoxTree edges(boxes(features_.edges, x_t1_));
-    auto box_of = [&](std::size_t i) { return swept_box(x_t0_, x_t1_, features_.edges[i]); };
-    for_each_meeting(features_.edges.size(), box_of, edges, &StepJudge::judge_edge_edge);
+    const FeatureIndex mesh = index_until(x_t1_);
+    for_each_edge_edge(mesh, mesh, workers(), [this](std::size_t a, std::size_t b, int worker) {
+      judge_edge_edge(a, b, workers_[worker]);
+    });
   }
 
   void judge_piercing() {
     if (gate_.stopped()) return;
-    const BoxTree faces(boxes(features_.faces, x_t0_));
-    auto box_of = [&](std::size_t i) { return swept_box(x_t0_, x_t0_, features_.edges[i]); };
-    for_each_meeting(features_.edges.size(), box_of, faces, &StepJudge::judge_edge_face_at_start);
+    const FeatureIndex mesh = index_until(x_t0_);
+    for_each_edge_face(mesh, mesh, workers(), [this](std::size_t a, std::size_t b, int worker) {
+      judge_edge_face_at_start(a, b, workers_[worker]);
+    });
   }
 
   detector::MovingPoint path(std::int32_t vertex) const {
     return detector::moving_point(x_t0_, x_t1_, vertex);
   }
 
-  void judge_vertex_face(std::size_t item, std::int32_t face, Worker& worker) {
+  void judge_vertex_face(std::size_t item, std::size_t face, Worker& worker) {
     const std::int32_t v = features_.vertices[item];
     const Face& f = features_.faces[face];
-    if (holds(f, v)) return;
     ++worker.candidates;
     const ContactAnswer answer = vertex_face_contact(
         {path(v), {path(f[0]), path(f[1]), path(f[2])}}, detector::Want::first_time);
@@ -118,13 +95,12 @@ class StepJudge {
     if (!answer.contact) return;
     const Feature feature{FeatureKind::vertex_face, {v, f[0], f[1], f[2], -1}};
     for (const std::int32_t t : features_.triangles_of_vertex.of(item)) {
-      worker.pairs.add(t, face, answer.first, feature);
+      worker.pairs.add(t, static_cast<std::int32_t>(face), answer.first, feature);
     }
   }
 
-  void judge_edge_edge(std::size_t item, std::int32_t other, Worker& worker) {
+  void judge_edge_edge(std::size_t item, std::size_t other, Worker& worker) {
     const Edge &a = features_.edges[item], &b = features_.edges[other];
-    if (!(a < b) || share_vertex(a, b)) return;
     ++worker.candidates;
     const ContactAnswer answer = edge_edge_contact(
         {{path(a[0]), path(a[1])}, {path(b[0]), path(b[1])}}, detector::Want::first_time);
@@ -138,15 +114,14 @@ class StepJudge {
     }
   }
 
-  void judge_edge_face_at_start(std::size_t item, std::int32_t face, Worker& worker) {
+  void judge_edge_face_at_start(std::size_t item, std::size_t face, Worker& worker) {
     const Edge& e = features_.edges[item];
     const Face& f = features_.faces[face];
-    if (holds(f, e[0]) || holds(f, e[1])) return;
     auto at = [&](std::int32_t vertex) { return detector::point_of(x_t0_, vertex); };
     if (!segment_pierces_triangle(at(e[0]), at(e[1]), {at(f[0]), at(f[1]), at(f[2])})) return;
     const Feature feature{FeatureKind::piercing, {e[0], e[1], f[0], f[1], f[2]}};
     for (const std::int32_t t : features_.triangles_of_edge.of(item)) {
-      worker.pairs.add(t, face, {0, 0}, feature);
+      worker.pairs.add(t, static_cast<std::int32_t>(face), {0, 0}, feature);
     }
   }
 
@@ -171,7 +146,6 @@ class StepJudge {
   const detector::PositionsView& x_t0_;
   const detector::PositionsView& x_t1_;
   const MeshFeatures features_;
-  const int jobs_;
   StopGate gate_;
   std::vector<Worker> workers_;
 };

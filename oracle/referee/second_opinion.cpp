@@ -5,8 +5,7 @@
 #include <initializer_list>
 #include <tuple>
 
-#include "oracle/mesh/box_tree.h"
-#include "oracle/mesh/mesh_features.h"
+#include "oracle/mesh/feature_pairs.h"
 #include "oracle/parallel_chunks.h"
 #include "oracle/processor_state.h"
 
@@ -17,8 +16,6 @@ namespace {
 using detector::Feature;
 using detector::FeatureKind;
 using detector::TrianglePair;
-
-constexpr std::size_t kChunk = 64;
 
 // Equal for equal indices in equal order, otherwise as good as random (splitmix64's mixing).
 double hash_to_unit(std::initializer_list<std::int32_t> indices) {
@@ -40,11 +37,6 @@ auto order_of(const Contradiction& c) {
   return std::tuple(c.kind, c.feature.kind, c.feature.vertices, c.pair, time);
 }
 
-struct Worker {
-  SecondOpinion found;
-  std::vector<std::int32_t> met;
-};
-
 class Second {
  public:
   Second(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
@@ -57,53 +49,30 @@ class Second {
         options_(options),
         features_(mesh_features(triangles)),
         gate_(options.stop),
-        workers_(std::max(options.jobs, 1)) {}
+        found_(std::max(options.jobs, 1)) {}
 
   SecondOpinion run() {
+    const FeatureIndex mesh(features_, swept_boxes(x_t0_, x_t1_));
+    const Workers workers = {static_cast<int>(found_.size()), &gate_};
     if (!gate_.stopped()) {
-      const BoxTree faces(boxes(features_.faces));
-      for_each_meeting(features_.vertices.size(), faces, &Second::ask_vertex_face, [&](auto i) {
-        return swept_box(x_t0_, x_t1_, std::array{features_.vertices[i]});
+      for_each_vertex_face(mesh, mesh, workers, [this](std::size_t a, std::size_t b, int worker) {
+        ask_vertex_face(a, b, found_[static_cast<std::size_t>(worker)]);
       });
       if (judgement_.complete) {
-        for_each_meeting(features_.faces.size(), faces, &Second::check_pair,
-                         [&](auto i) { return swept_box(x_t0_, x_t1_, features_.faces[i]); });
+        for_each_face_face(mesh, mesh, workers, [this](std::size_t a, std::size_t b, int worker) {
+          check_pair(a, b, found_[static_cast<std::size_t>(worker)]);
+        });
       }
     }
     if (!gate_.stopped()) {
-      const BoxTree edges(boxes(features_.edges));
-      for_each_meeting(features_.edges.size(), edges, &Second::ask_edge_edge,
-                       [&](auto i) { return swept_box(x_t0_, x_t1_, features_.edges[i]); });
+      for_each_edge_edge(mesh, mesh, workers, [this](std::size_t a, std::size_t b, int worker) {
+        ask_edge_edge(a, b, found_[static_cast<std::size_t>(worker)]);
+      });
     }
     return collect();
   }
 
  private:
-  using Ask = void (Second::*)(std::size_t item, std::int32_t other, Worker& worker) const;
-
-  template <class Features>
-  std::vector<Box> boxes(const Features& features) const {
-    std::vector<Box> result;
-    result.reserve(features.size());
-    for (const auto& f : features) result.push_back(swept_box(x_t0_, x_t1_, f));
-    return result;
-  }
-
-  template <class BoxOf>
-  void for_each_meeting(std::size_t items, const BoxTree& tree, Ask ask, const BoxOf& box_of) {
-    const int jobs = static_cast<int>(workers_.size());
-    for_each_chunk(items, kChunk, jobs, gate_, [&](std::size_t begin, std::size_t end, int w) {
-      Worker& worker = workers_[static_cast<std::size_t>(w)];
-      for (std::size_t item = begin; item < end; ++item) {
-        tree.meeting(box_of(item), worker.met);
-        for (const std::int32_t other : worker.met) {
-          if (gate_.stopped()) return;
-          (this->*ask)(item, other, worker);
-        }
-      }
-    });
-  }
-
   bool chosen(std::initializer_list<std::int32_t> indices) const {
     return hash_to_unit(indices) < options_.share;
   }
@@ -112,29 +81,29 @@ class Second {
     return detector::moving_point(x_t0_, x_t1_, vertex);
   }
 
-  void ask_vertex_face(std::size_t item, std::int32_t face, Worker& worker) const {
+  void ask_vertex_face(std::size_t item, std::size_t face, SecondOpinion& found) const {
     const std::int32_t v = features_.vertices[item];
-    const Face& f = features_.faces[static_cast<std::size_t>(face)];
-    if (holds(f, v) || !chosen({v, f[0], f[1], f[2]})) return;
+    const Face& f = features_.faces[face];
+    if (!chosen({v, f[0], f[1], f[2]})) return;
     const detector::VertexFace query = {path(v), {path(f[0]), path(f[1]), path(f[2])}};
     const Feature feature{FeatureKind::vertex_face, {v, f[0], f[1], f[2], -1}};
     const bool judged = vertex_face_contact(query, detector::Want::yes_no).contact;
-    if (!compare_query(feature, judged, referee(query, options_.referee), worker.found)) return;
+    if (!compare_query(feature, judged, referee(query, options_.referee), found)) return;
     for (const std::int32_t t : features_.triangles_of_vertex.of(item)) {
-      demand_pair(feature, t, face, worker.found);
+      demand_pair(feature, t, static_cast<std::int32_t>(face), found);
     }
   }
 
-  void ask_edge_edge(std::size_t item, std::int32_t other, Worker& worker) const {
-    const Edge &a = features_.edges[item], &b = features_.edges[static_cast<std::size_t>(other)];
-    if (!(a < b) || share_vertex(a, b) || !chosen({a[0], a[1], b[0], b[1]})) return;
+  void ask_edge_edge(std::size_t item, std::size_t other, SecondOpinion& found) const {
+    const Edge &a = features_.edges[item], &b = features_.edges[other];
+    if (!chosen({a[0], a[1], b[0], b[1]})) return;
     const detector::EdgeEdge query = {{path(a[0]), path(a[1])}, {path(b[0]), path(b[1])}};
     const Feature feature{FeatureKind::edge_edge, {a[0], a[1], b[0], b[1], -1}};
     const bool judged = edge_edge_contact(query, detector::Want::yes_no).contact;
-    if (!compare_query(feature, judged, referee(query, options_.referee), worker.found)) return;
+    if (!compare_query(feature, judged, referee(query, options_.referee), found)) return;
     for (const std::int32_t s : features_.triangles_of_edge.of(item)) {
-      for (const std::int32_t t : features_.triangles_of_edge.of(static_cast<std::size_t>(other))) {
-        demand_pair(feature, s, t, worker.found);
+      for (const std::int32_t t : features_.triangles_of_edge.of(other)) {
+        demand_pair(feature, s, t, found);
       }
     }
   }
@@ -170,15 +139,15 @@ class Second {
         {ContradictionKind::missing_pair, feature, pair, {}, false, true});
   }
 
-  void check_pair(std::size_t item, std::int32_t other, Worker& worker) const {
-    const TrianglePair pair{static_cast<std::int32_t>(item), other};
-    if (!(pair.a < pair.b) || !chosen({pair.a, pair.b})) return;
+  void check_pair(std::size_t item, std::size_t other, SecondOpinion& found) const {
+    const TrianglePair pair{static_cast<std::int32_t>(item), static_cast<std::int32_t>(other)};
+    if (!chosen({pair.a, pair.b})) return;
     const detector::PairContact* judged = judged_pair(pair);
     for (const RationalTime& time : {RationalTime{0, 1}, {1, 3}, {1, 2}, {1, 1}}) {
-      check_pair_at(pair, judged, time, worker.found);
+      check_pair_at(pair, judged, time, found);
     }
     if (judged && judged->time.lo == judged->time.hi) {
-      check_pair_at(pair, judged, judged->time.hi, worker.found);
+      check_pair_at(pair, judged, judged->time.hi, found);
     }
   }
 
@@ -204,8 +173,7 @@ class Second {
 
   SecondOpinion collect() {
     SecondOpinion all;
-    for (const Worker& worker : workers_) {
-      const SecondOpinion& part = worker.found;
+    for (const SecondOpinion& part : found_) {
       all.queries += part.queries;
       all.contact += part.contact;
       all.no_contact += part.no_contact;
@@ -227,7 +195,7 @@ class Second {
   const SecondOpinionOptions& options_;
   const MeshFeatures features_;
   StopGate gate_;
-  std::vector<Worker> workers_;
+  std::vector<SecondOpinion> found_;  // by thread
 };
 
 }  // namespace

@@ -5,17 +5,12 @@
 // set, with a first time not later than that.
 #pragma once
 
-#include <cstdint>
 #include <variant>
 
 #include "detector/mesh/step_types.h"
+#include "oracle/rational_time.h"
 
 namespace assay::oracle {
-
-// numerator / denominator, in [0,1]; denominator > 0.
-struct RationalTime {
-  std::int64_t numerator = 0, denominator = 1;
-};
 
 // A time in [0,1]: a fraction, or a double taken as exact.
 using StaticTime = std::variant<RationalTime, double>;

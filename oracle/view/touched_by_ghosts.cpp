@@ -84,10 +84,9 @@ std::vector<std::uint8_t> touched_by_ghosts(const detector::PositionsView& x_t0,
   const detector::Positions all_t0 = with_apexes(x_t0, apexes_t0);
   const detector::Positions all_t1 = with_apexes(x_t1, apexes_t1);
   const detector::PositionsView view_t0 = all_t0, view_t1 = all_t1;
-  const BoxOfVertices box_of = [&](std::span<const std::int32_t> vertices) {
-    return swept_box(view_t0, view_t1, vertices);
-  };
-  const FeatureIndex mesh(triangles, box_of), fans(ghosts, box_of);
+  const BoxOfVertices box_of = swept_boxes(view_t0, view_t1);
+  const MeshFeatures mesh_parts = mesh_features(triangles), fan_parts = mesh_features(ghosts);
+  const FeatureIndex mesh(mesh_parts, box_of), fans(fan_parts, box_of);
   const SweptTests swept(all_t0, all_t1);
   // Only ever set, so that the order of threads does not matter.
   std::vector<std::atomic<std::uint8_t>> touched(static_cast<std::size_t>(triangles.rows()));

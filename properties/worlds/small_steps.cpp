@@ -10,7 +10,7 @@ namespace {
 
 using Faces = std::vector<std::array<std::int32_t, 3>>;
 
-struct Family {
+struct MeshFamily {
   const char* name;
   int vertices;
   Faces faces;
@@ -41,8 +41,8 @@ Faces joined(Faces a, const Faces& b) {
 
 const Faces tetrahedron = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
 
-const std::vector<Family>& families() {
-  static const std::vector<Family> all = {
+const std::vector<MeshFamily>& families() {
+  static const std::vector<MeshFamily> all = {
       {"tetrahedron", 4, tetrahedron},
       {"bipyramid", 5, bipyramid(3)},
       {"octahedron", 6, bipyramid(4)},
@@ -95,7 +95,7 @@ void move(Random& random, int reach, const detector::Positions& x_t0, detector::
 
 SmallStep make_small_step(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
-  const Family& family =
+  const MeshFamily& family =
       families()[static_cast<std::size_t>(random.below(static_cast<int>(families().size())))];
   SmallStep step;
   step.family = family.name;

@@ -67,7 +67,7 @@ TEST(MovingBox, RoundingKeepsOrder) {
     for (Eigen::Index i = 0; i < n; ++i) x.row(i).setConstant(family[static_cast<std::size_t>(i)]);
     // Also of a step that holds only part of them.
     for (const auto rows : {n, n / 2}) {
-      const Rounding f(x.topRows(rows), x.topRows(rows));
+      const FloatGrid f(x.topRows(rows), x.topRows(rows));
       for (std::int32_t i = 0; i < n; ++i) {
         for (int k = 0; k < 3; ++k) EXPECT_FALSE(std::isnan(f(x, i)[k]));
         for (std::int32_t j = 0; j < n; ++j) {
