@@ -5,7 +5,7 @@
 #include <span>
 
 #include "properties/worker/case_run.h"
-#include "properties/worker/plugin_description.h"
+#include "properties/worker/plugin/plugin_description.h"
 #include "properties/worker/wire.h"
 
 namespace assay::properties {

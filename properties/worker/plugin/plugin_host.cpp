@@ -1,4 +1,4 @@
-#include "properties/worker/plugin_host.h"
+#include "properties/worker/plugin/plugin_host.h"
 
 #include <dlfcn.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <new>
 
-#include "properties/worker/plugin_result.h"
+#include "properties/worker/plugin/plugin_result.h"
 
 namespace assay::properties {
 
