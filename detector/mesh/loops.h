@@ -14,8 +14,8 @@ using Loop = std::vector<std::int32_t>;
 // A directed edge (u,v) used k times more than (v,u) is unmatched k times. As many unmatched edges
 // enter a vertex as leave it, whatever the triangles are, so they split into closed walks: a walk
 // starts at the lowest unused unmatched edge and goes on with the lowest unused one as long as
-// there is one. Any split would do (THEORY section 1); this one is the same on every machine. Empty
-// for a cycle. O(M log M).
+// there is one. Any split would do (L12, detector/README.md); this one is the same on every
+// machine. Empty for a cycle. O(M log M).
 std::vector<Loop> boundary_loops(const Topology& mesh);
 
 }  // namespace assay::detector

@@ -1,7 +1,8 @@
 // Algorithm 3 of the thesis, self-collision detection with the view-based approach; without what it
 // does about holes it is Algorithm 1. The excerpts state most steps in words (3.6, 4.3, 4.4) and
-// print no listing: (r) marks a line reconstructed, + a line that THEORY adds or puts in its place.
-// On the right, who does it here; a step runs through these functions in this order.
+// print no listing: (r) marks a line reconstructed, + a line that the laws of detector/README.md
+// add or put in its place. On the right, who does it here; a step runs through these functions in
+// this order.
 //
 //   in preprocessing                                             assemble
 //     (r) build a BVH of the mesh

@@ -6,9 +6,9 @@
 
 namespace assay::oracle {
 
-// No two triangles in contact (THEORY section 1: pairs that share a vertex or an edge meet nowhere
-// beyond it, and no two triangles have the same three vertices). REQUIRES indices in range, finite
-// positions. 0.1 to 0.4 s for 20,000 triangles.
+// No two triangles in contact (detector/README.md, The laws): pairs that share a vertex or an edge
+// meet nowhere beyond it, and no two triangles have the same three vertices. REQUIRES indices in
+// range, finite positions. 0.1 to 0.4 s for 20,000 triangles.
 bool embedded(const detector::PositionsView& x, const detector::TrianglesView& triangles,
               int jobs = 1);
 

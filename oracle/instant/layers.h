@@ -1,4 +1,5 @@
-// Layers, pieces and clean triangles of a mesh at one instant, without history (THEORY: L9, L10).
+// Layers, pieces and clean triangles of a mesh at one instant, without history (L9 and L10,
+// detector/README.md).
 #pragma once
 
 #include <optional>

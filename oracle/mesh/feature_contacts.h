@@ -22,8 +22,9 @@ struct PairVisitor {
   std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)> meet;
 };
 
-// Contact as in THEORY section 1: closed faces of the two triangles that share no vertex meet. With
-// a and b the same object, triangles with the same three vertices are in contact too.
+// Contact as detector/README.md, The laws, defines it: closed faces of the two triangles that share
+// no vertex meet. With a and b the same object, triangles with the same three vertices are in
+// contact too.
 void for_each_contact(const FeatureIndex& a, const FeatureIndex& b, const FeatureTests& tests,
                       const Workers& workers, const PairVisitor& visitor);
 

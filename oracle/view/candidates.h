@@ -1,4 +1,5 @@
-// K, the pairs among which the first contact is found (THEORY: L3, L10), from exact view signs.
+// K, the pairs among which the first contact is found (L3 and L10, detector/README.md),
+// from exact view signs.
 #pragma once
 
 #include <vector>

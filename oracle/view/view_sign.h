@@ -1,4 +1,5 @@
-// Exact view signs of triangles over a step, for view-point and view-line (THEORY: L1, L2).
+// Exact view signs of triangles over a step, for view-point and view-line (L1 and L2,
+// detector/README.md).
 #pragma once
 
 #include <span>

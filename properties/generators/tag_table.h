@@ -13,7 +13,7 @@
 
 namespace assay::properties {
 
-// The view sets of a pair's two triangles (THEORY: L3); Vv goes before the signs.
+// The view sets of a pair's two triangles (L3, detector/README.md); Vv goes before the signs.
 enum class PairBlock : std::uint8_t {
   positive_negative,
   positive_zero,

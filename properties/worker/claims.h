@@ -58,8 +58,8 @@ const std::vector<Claim>& all_claims();
 std::vector<Claim> list_of(const Claims& claims);
 
 // Of the built-in detector. exact: everything; bounded: everything but no-spurious (its intervals
-// hold the times by construction, see options.h); double and float: deterministic and total. With
-// pairs first nobody claims all-pairs.
+// hold the times by construction, see StepResult::first); double and float: deterministic and
+// total. With pairs first nobody claims all-pairs.
 Claims claims_of(const detector::Options& options);
 
 int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);

@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "properties/worker/channel.h"
-#include "properties/worker/plugin_host.h"
+#include "properties/worker/plugin/plugin_host.h"
 #include "properties/worker/wire_fields.h"
 
 namespace {

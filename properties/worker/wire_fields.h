@@ -8,7 +8,7 @@
 #include "detector/mesh/step_counts.h"
 #include "detector/step_result.h"
 #include "properties/worker/case_run.h"
-#include "properties/worker/plugin_description.h"
+#include "properties/worker/plugin/plugin_description.h"
 #include "properties/worker/wire.h"
 
 namespace assay::properties {

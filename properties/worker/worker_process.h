@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "properties/worker/case_run.h"
-#include "properties/worker/plugin_description.h"
+#include "properties/worker/plugin/plugin_description.h"
 
 namespace assay::properties {
 

@@ -10,20 +10,9 @@
 #include "reports/bench/estimate.h"
 #include "reports/bench/speed_error/error_summary.h"
 #include "reports/bench/stability/stability_cell.h"
+#include "reports/bench/wanted.h"
 
 namespace assay::reports {
-
-// What DESIGN's table asks for.
-struct Wanted {
-  enum class Sense : unsigned char { at_most, at_least, below } sense = Sense::at_most;
-  double bound = 0;
-};
-inline Wanted at_most(double bound) { return {Wanted::Sense::at_most, bound}; }
-inline Wanted at_least(double bound) { return {Wanted::Sense::at_least, bound}; }
-inline Wanted below(double bound) { return {Wanted::Sense::below, bound}; }
-inline std::optional<Wanted> wanted_if(bool condition, Wanted wanted) {
-  return condition ? std::optional(wanted) : std::nullopt;
-}
 
 enum class RowOutcome : unsigned char { holds, fails, not_judged, no_data };
 

@@ -25,7 +25,7 @@ std::string bunny_file(const BenchSettings& settings);
 // As it is bent into a ring in five steps; nothing where it is not there. Throws UnusableData.
 std::optional<corpus::Sequence> bent_bunny(const BenchSettings& settings);
 
-// The step of rod-twist alone, which DESIGN's table asks for; nothing where it is not there. Throws
+// The step of rod-twist alone, of which wanted.h asks most; nothing where it is not there. Throws
 // UnusableData.
 std::optional<corpus::Sequence> rod_twist_step(const BenchSettings& settings);
 

@@ -7,7 +7,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using properties::RunFindings;
 
-// What the row says of it, under the keys of evidence.cpp.
+// What the row says of it, under the keys of properties/campaign/stored/evidence.cpp.
 template <class T>
 Json facts_of(const T& evidence) {
   return Json::parse(to_row(evidence).facts);

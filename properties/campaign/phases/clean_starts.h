@@ -8,8 +8,9 @@
 
 namespace assay::properties {
 
-// Whether the oracle calls every triangle clean (THEORY: L9) wherever a step of the case is a new
-// start. Closed meshes alone: of others the answer depends on where the detector puts its apexes.
+// Whether the oracle calls every triangle clean (L9, detector/README.md) wherever a step of the
+// case is a new start. Closed meshes alone: of others the answer depends on where the detector puts
+// its apexes.
 bool starts_clean(const corpus::Case& c);
 
 // Whether trial `index` of a family vouches for the start of its case: to the built-in detector, in

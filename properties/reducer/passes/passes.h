@@ -1,7 +1,8 @@
 // The passes of the reducer, in the order in which they run. Each proposes cases to the search and
 // leaves the best one there; whether it made progress shows in the search's size.
 //
-// To add one: a function here, a row in passes.cpp, a test in tests/properties/reducer_passes_test.
+// To add one: a function here, a row in passes.cpp, a test in
+// tests/properties/reducer/reducer_passes_test.
 #pragma once
 
 #include <span>

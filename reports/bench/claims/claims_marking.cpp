@@ -54,10 +54,10 @@ void measure_marking(const BenchSettings& settings, BenchReport& report) {
       touched += static_cast<double>(counts.marked + counts.cleared);
     }
     if (shares.empty() || changed == 0) continue;
-    constexpr double low = 5;  // how the thesis's "low" is read here
     report.add(fmt::format("marking's share of a step, {}", name), "%", median_of(shares),
-               at_most(low),
-               fmt::format("{} steps that search; 5 % is read as `low`", shares.size()));
+               wanted::marking_percent,
+               fmt::format("{} steps that search; {} % is read as `low`", shares.size(),
+                           wanted::marking_percent.bound));
     report.add(fmt::format("nodes touched for a triangle that changed, {}", name), "nodes",
                exactly(touched / changed), {},
                fmt::format("{:.0f} changes, marked and cleared nodes together", changed));

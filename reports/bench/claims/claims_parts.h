@@ -30,8 +30,8 @@ void measure_marking(const BenchSettings& settings, BenchReport& report);
 // Free steps touch no tree.
 void count_traversals_of_free_steps(const BenchSettings& settings, BenchReport& report);
 
-// The whole step: view cullings over bvh, exact over double. The limit in seconds and the ratios of
-// DESIGN are asked of rod-twist, which is the last of `steps` where it is there.
+// The whole step: view cullings over bvh, exact over double. What is wanted of rod-twist (wanted.h)
+// is asked of the last of `steps`, which is rod-twist where that is there.
 void time_whole_steps(const std::vector<NamedStep>& steps, bool has_rod_twist,
                       const BenchSettings& settings, BenchReport& report);
 

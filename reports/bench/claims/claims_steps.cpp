@@ -25,29 +25,30 @@ void compare(const NamedStep& named, bool is_rod_twist, int rounds, BenchReport&
       interleave(rounds, {[&] { return bvh.time(); }, [&] { return point.time(); },
                           [&] { return line.time(); }, [&] { return chosen.time(); },
                           [&] { return in_doubles.time(); }});
-  const auto only_rods = [&](Wanted wanted) { return wanted_if(is_rod_twist, wanted); };
+  const auto only_rods = [&](Wanted bound) { return wanted_if(is_rod_twist, bound); };
   report.add(fmt::format("whole step, {}, bvh", name), "s", scaled(median_of(samples[0]), 1e-9), {},
              fmt::format("{} pairs", bvh.result().pairs.size()));
   const auto with_views = [&](TimedStep& views, const std::vector<double>& times,
                               const char* culling) {
     report.add(
         fmt::format("whole step, {}, {}", name, culling), "s", scaled(median_of(times), 1e-9),
-        only_rods(at_most(1.2)),
+        only_rods(wanted::rod_twist_step_s),
         fmt::format("all pairs, exact, clean start; V+ {:.1f} %", 100 * views.positive_share()));
     const auto of_views = views.result().counts.search.candidate_pairs,
                of_bvh = bvh.result().counts.search.candidate_pairs;
     report.add(fmt::format("K and closure: candidates over bvh's, {}, {}", name, culling), "times",
                exactly(static_cast<double>(of_views) / static_cast<double>(of_bvh)),
-               only_rods(at_most(0.7)), fmt::format("{} over {}", of_views, of_bvh));
+               only_rods(wanted::rod_twist_candidates_over_bvh),
+               fmt::format("{} over {}", of_views, of_bvh));
     report.add(fmt::format("K and closure: time over bvh's, {}, {}", name, culling), "times",
-               ratio_of(times, samples[0]), only_rods(at_most(0.85)));
+               ratio_of(times, samples[0]), only_rods(wanted::rod_twist_step_over_bvh));
     check_same_pairs(name, views.result(), bvh.result(), report);
   };
   with_views(point, samples[1], "view-point");
   with_views(line, samples[2], "view-line");
   with_views(chosen, samples[3], "view-auto");
   report.add(fmt::format("exact over double, whole step, {}", name), "times",
-             ratio_of(samples[1], samples[4]), at_most(1.3),
+             ratio_of(samples[1], samples[4]), wanted::exact_over_double,
              fmt::format("view-point; integers decide {} of {} tests",
                          point.result().counts.narrow.rungs.exact,
                          point.result().counts.narrow.elementary_tests));

@@ -1,4 +1,4 @@
-// Suite `elementary`: DESIGN's first row of speeds.
+// Suite `elementary`: the elementary test, its answers against labels and its times.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string rungs_of(const std::vector<FourPoints>& queries) {
 
 // Mean us a query of each arithmetic, in turn. Bounds are asked of exact.
 void time_means(const std::string& what, const std::vector<FourPoints>& queries, Want want,
-                double bound, int rounds, const std::string& note, BenchReport& report) {
+                Wanted bound, int rounds, const std::string& note, BenchReport& report) {
   std::vector<Measurement> measurements;
   for (const auto arithmetic : every_arithmetic) {
     measurements.push_back([&queries, want, arithmetic] {
@@ -40,7 +40,7 @@ void time_means(const std::string& what, const std::vector<FourPoints>& queries,
     const bool exact = every_arithmetic[i] == Arithmetic::exact;
     report.add(fmt::format("{}, {}", what, name_of(every_arithmetic[i])), "us",
                scaled(median_of(samples[i]), 1e-3 / static_cast<double>(queries.size())),
-               wanted_if(exact, at_most(bound)), exact ? note + "; " + rungs_of(queries) : "");
+               wanted_if(exact, bound), exact ? note + "; " + rungs_of(queries) : "");
   }
 }
 
@@ -87,8 +87,8 @@ void time_hits(const std::string& what, const std::vector<FourPoints>& queries, 
     report.wrong_answers.push_back(
         fmt::format("{}: {} times are wider than adjacent doubles", what, wide));
   }
-  time_means("a hit with its time, " + what, hits, Want::first_time, 8, rounds,
-             fmt::format("{} hits", hits.size()), report);
+  time_means("a hit with its time, " + what, hits, Want::first_time, wanted::hit_with_its_time_us,
+             rounds, fmt::format("{} hits", hits.size()), report);
 }
 
 // ms of one query: the least of three times where it is short. In processor time, whose clock takes
@@ -105,7 +105,7 @@ double ms_of_one(const FourPoints& query, Arithmetic arithmetic) {
   return 1e-6 * least;
 }
 
-void time_tails(const std::string& what, const std::vector<FourPoints>& queries, double bound_ms,
+void time_tails(const std::string& what, const std::vector<FourPoints>& queries, Wanted bound,
                 BenchReport& report) {
   for (const auto arithmetic : every_arithmetic) {
     std::vector<double> ms;
@@ -117,14 +117,14 @@ void time_tails(const std::string& what, const std::vector<FourPoints>& queries,
     const bool exact = arithmetic == Arithmetic::exact;
     report.add(
         fmt::format("p99.9 of one query, {}, {}", what, name_of(arithmetic)), "ms",
-        exactly(quantile(ms, 0.999)), wanted_if(exact, below(bound_ms)),
+        exactly(quantile(ms, 0.999)), wanted_if(exact, bound),
         fmt::format("p99 {:.3g}, max {:.3g}, mean {:.3g} of {} queries{}", quantile(ms, 0.99),
                     quantile(ms, 1), sum / static_cast<double>(ms.size()), ms.size(),
                     exact ? "; " + rungs_of(queries) : ""));
   }
 }
 
-void labelled(const std::string& what, const std::optional<LabelledSet>& set, double bound,
+void labelled(const std::string& what, const std::optional<LabelledSet>& set, Wanted bound,
               int rounds, const std::string& path, BenchReport& report) {
   if (!set) {
     report.add_no_data(what, path);
@@ -152,7 +152,8 @@ void rod_twist_candidates(const BenchSettings& settings, int rounds, BenchReport
   constexpr double most = 100'000;
   const auto candidates =
       mesh_candidates(step.value(), static_cast<std::size_t>(most * settings.scale));
-  time_means("yes/no, " + what, candidates.queries, Want::yes_no, 0.3, rounds,
+  time_means("yes/no, " + what, candidates.queries, Want::yes_no, wanted::yes_no_of_a_candidate_us,
+             rounds,
              fmt::format("{} of {} feature pairs whose moving boxes meet",
                          candidates.queries.size(), candidates.all),
              report);
@@ -167,15 +168,18 @@ BenchReport elementary_suite(const BenchSettings& settings, Progress& progress) 
   progress.phase("candidates of a mesh");
   rod_twist_candidates(settings, rounds, report);
   progress.phase("labelled queries");
-  labelled("simulation queries", simulation_queries(settings), 1, rounds,
-           settings.file("scalable-ccd/rod-twist"), report);
-  labelled("hand-made queries", hand_made_queries(settings), 10, rounds,
-           settings.file("sample-queries"), report);
+  labelled("simulation queries", simulation_queries(settings),
+           wanted::yes_no_of_a_simulation_query_us, rounds, settings.file("scalable-ccd/rod-twist"),
+           report);
+  labelled("hand-made queries", hand_made_queries(settings), wanted::yes_no_of_a_hand_made_query_us,
+           rounds, settings.file("sample-queries"), report);
   progress.phase("random exponents");
   const auto some = static_cast<std::size_t>(20'000 * settings.scale);
-  time_tails("exponents within 2^+-100", random_exponents(some, -100, 100), 1, report);
+  time_tails("exponents within 2^+-100", random_exponents(some, -100, 100),
+             wanted::slow_query_of_usual_numbers_ms, report);
   const auto fewer = static_cast<std::size_t>(2'000 * settings.scale);  // 10 ms each on the mean
-  time_tails("exponents over all doubles", random_exponents(fewer, -1074, 1022), 10, report);
+  time_tails("exponents over all doubles", random_exponents(fewer, -1074, 1022),
+             wanted::slow_query_of_any_numbers_ms, report);
   return report;
 }
 

@@ -1,4 +1,4 @@
-// Suite `harness`: DESIGN's rows on the oracle and on campaigns, what judging costs.
+// Suite `harness`: what judging costs, of the oracle by itself and of campaigns.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -37,15 +37,16 @@ void judge_rod_twist(const corpus::Sequence& step, const BenchSettings& settings
   // The memory first: what is freed is given back to the system then, and none is kept for reuse.
   const auto bytes = peak_memory_of(judge);
   const auto samples = interleave(settings.rounds(5), {[&] { return wall_seconds_of(judge); }});
-  report.add("oracle, rod-twist step", "s", bootstrap_median(samples[0]), at_most(30),
+  report.add("oracle, rod-twist step", "s", bootstrap_median(samples[0]),
+             wanted::oracle_rod_twist_s,
              fmt::format("wall time, {} threads, {} pairs; bootstrap", jobs, pairs));
   if (!bytes) {
     report.add_no_data("oracle, rod-twist step, memory", "/proc/self");
     return;
   }
   constexpr double gigabyte = 1 << 30;
-  report.add("oracle, rod-twist step, memory", "GB", exactly(*bytes / gigabyte), at_most(3),
-             "highest over what the mesh itself takes");
+  report.add("oracle, rod-twist step, memory", "GB", exactly(*bytes / gigabyte),
+             wanted::oracle_rod_twist_gb, "highest over what the mesh itself takes");
 }
 
 void ask_simulation_queries(const BenchSettings& settings, BenchReport& report) {
@@ -64,7 +65,7 @@ void ask_simulation_queries(const BenchSettings& settings, BenchReport& report) 
                                   }});
   const auto count = static_cast<double>(set->queries.size());
   report.add("oracle, a simulation query, yes/no", "us",
-             scaled(bootstrap_median(samples[0]), 1e-3 / count), at_most(20),
+             scaled(bootstrap_median(samples[0]), 1e-3 / count), wanted::oracle_simulation_query_us,
              fmt::format("mean of {} queries; bootstrap over rounds", count));
 }
 
@@ -97,8 +98,9 @@ Trials judge_cases(const properties::Family& family, int cases) {
 }
 
 std::optional<Wanted> wanted_of(const properties::Family& family) {
-  if (family.degenerate) return at_least(10);
-  if (family.name.find("generic") != std::string_view::npos) return at_least(100);
+  if (family.degenerate) return wanted::judged_degenerate_steps_a_second;
+  if (family.name.find("generic") != std::string_view::npos)
+    return wanted::judged_generic_steps_a_second;
   return std::nullopt;
 }
 

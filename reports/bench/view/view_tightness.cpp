@@ -101,7 +101,7 @@ void settled_on_tubes(const BenchSettings& settings, BenchReport& report) {
       }
       report.add(fmt::format("V+ or V- on scene {}, {}", name, properties::name_of(culling)), "%",
                  exactly(100 * sum / static_cast<double>(steps.size())),
-                 wanted_if(culling == Culling::view_line, at_least(95)),
+                 wanted_if(culling == Culling::view_line, wanted::tube_settled_from_a_line_percent),
                  fmt::format("mean of {} steps, least {:.1f} %", steps.size(), 100 * least));
     }
   }
@@ -122,16 +122,18 @@ void bunny(const BenchSettings& settings, BenchReport& report) {
   if (!bent) throw UnusableData(bent.error().message);
   for (const auto culling : {Culling::view_point, Culling::view_line}) {
     const char* name = properties::name_of(culling);
-    const auto wanted = at_least(culling == Culling::view_line ? 94 : 89);
+    const Wanted bound = culling == Culling::view_line
+                             ? wanted::bunny_positive_from_a_line_percent
+                             : wanted::bunny_positive_from_a_point_percent;
     report.add(fmt::format("V+ of the bunny at rest, {}", name), "%",
-               exactly(100 * shares_over(rest, culling)[0].positive_share()), wanted);
+               exactly(100 * shares_over(rest, culling)[0].positive_share()), bound);
     std::vector<double> shares;
     for (const auto& step : shares_over(bent.value(), culling)) {
       shares.push_back(100 * step.positive_share());
     }
     const double last = shares.back();
     report.add(fmt::format("V+ of the bunny bent, {}", name), "%", median_of(std::move(shares)),
-               wanted, fmt::format("5 steps, the last {:.1f} %", last));
+               bound, fmt::format("5 steps, the last {:.1f} %", last));
   }
 }
 
@@ -149,13 +151,13 @@ void measure_tightness(const BenchSettings& settings, BenchReport& report) {
                             culling, beyond, report);
       }
     }
-    const auto add = [&](const char* arithmetic, std::size_t count, std::optional<Wanted> wanted) {
+    const auto add = [&](const char* arithmetic, std::size_t count, Wanted bound) {
       report.add(fmt::format("V0 beyond the exact V0, {}, {}", culling_name, arithmetic), "%",
                  exactly(100 * static_cast<double>(count) / static_cast<double>(beyond.triangles)),
-                 wanted,
+                 bound,
                  fmt::format("{} of {} triangles of generic meshes", count, beyond.triangles));
     };
-    add("bounded", beyond.bounded, at_most(0.1));
+    add("bounded", beyond.bounded, wanted::zero_beyond_exact_in_bounded_percent);
     add("exact", beyond.exact, at_most(0));
   }
   settled_on_tubes(settings, report);

@@ -47,7 +47,7 @@ const char* name_of(InstructionSet set) {
 }
 
 // bound: asked of the instruction set that this machine chooses.
-void compare(const std::string& what, const ViewStep& step, double bound, int rounds,
+void compare(const std::string& what, const ViewStep& step, Wanted bound, int rounds,
              BenchReport& report) {
   std::vector<SweptBox> boxes(step.mesh.triangles.size());
   std::vector<InstructionSet> sets;
@@ -80,7 +80,7 @@ void compare(const std::string& what, const ViewStep& step, double bound, int ro
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const bool chosen = sets[i] == best_instruction_set();
     report.add(fmt::format("view test over boxes, {}, {}", what, name_of(sets[i])), "times",
-               ratio_of(samples[i + 1], samples[0]), wanted_if(chosen, at_most(bound)),
+               ratio_of(samples[i + 1], samples[0]), wanted_if(chosen, bound),
                fmt::format("{:.2f} ns a triangle{}", median_of(samples[i + 1]).value * a_triangle,
                            chosen ? "; chosen here" : ""));
     if (signs[i] != signs[0]) {
@@ -93,7 +93,7 @@ void compare(const std::string& what, const ViewStep& step, double bound, int ro
 void add_whole_step(const std::string& what, const std::vector<double>& samples,
                     const StepResult& result, bool full_size, BenchReport& report) {
   report.add("free step, " + what, "ms", scaled(median_of(samples), 1e-6),
-             wanted_if(full_size, at_most(10)),
+             wanted_if(full_size, wanted::free_step_ms),
              fmt::format("{} triangles, {}", result.signs.size(),
                          result.counts.free_components == 1 ? "free by L5" : "NOT free by L5"));
 }
@@ -101,21 +101,23 @@ void add_whole_step(const std::string& what, const std::vector<double>& samples,
 }  // namespace
 
 void time_view_test(const BenchSettings& settings, BenchReport& report) {
-  const int triangles = settings.triangles(327'680), rounds = settings.rounds(21);
+  const int triangles = settings.triangles(wanted::free_step_triangles),
+            rounds = settings.rounds(21);
   const auto sphere = bench_scene("breathing-sphere", triangles, 11);
-  compare("point, sphere", view_step(sphere, 1, Culling::view_point, report), 2.5, rounds, report);
+  compare("point, sphere", view_step(sphere, 1, Culling::view_point, report),
+          wanted::view_test_of_a_point_over_boxes, rounds, report);
   compare("point, sphere shuffled", view_step(shuffled(sphere), 1, Culling::view_point, report),
-          2.5, rounds, report);
+          wanted::view_test_of_a_point_over_boxes, rounds, report);
   const auto tube = bench_scene("bend", triangles, 21);
-  compare("line, bent tube", view_step(tube, 5, Culling::view_line, report), 3, rounds, report);
+  compare("line, bent tube", view_step(tube, 5, Culling::view_line, report),
+          wanted::view_test_of_a_line_over_boxes, rounds, report);
   const auto twisted = bench_scene("twist", triangles, 21);
-  compare("line, twisted tube", view_step(twisted, 5, Culling::view_line, report), 3, rounds,
-          report);
+  compare("line, twisted tube", view_step(twisted, 5, Culling::view_line, report),
+          wanted::view_test_of_a_line_over_boxes, rounds, report);
 }
 
 void time_free_steps(const BenchSettings& settings, BenchReport& report) {
-  constexpr int wanted_at = 327'680;
-  const int triangles = settings.triangles(wanted_at);
+  const int triangles = settings.triangles(wanted::free_step_triangles);
   const auto sphere = bench_scene("breathing-sphere", triangles, 11);
   const std::span frames(sphere.frames.data(), 3);  // the first step is committed, the next timed
   TimedStep point("view-point, breathing sphere", sphere.triangles, frames,
@@ -128,10 +130,11 @@ void time_free_steps(const BenchSettings& settings, BenchReport& report) {
       settings.rounds(7),
       {[&] { return point.time(); }, [&] { return line.time(); }, [&] { return bvh.time(); }});
   report.add("free step over bvh's, view-point", "times", ratio_of(samples[0], samples[2]),
-             at_most(1. / 50));
+             wanted::free_step_over_bvh);
   report.add("free step over bvh's, view-line", "times", ratio_of(samples[1], samples[2]),
-             at_most(1. / 50));
-  add_whole_step("view-point", samples[0], point.result(), triangles == wanted_at, report);
+             wanted::free_step_over_bvh);
+  add_whole_step("view-point", samples[0], point.result(), triangles == wanted::free_step_triangles,
+                 report);
   add_whole_step("view-line", samples[1], line.result(), false, report);
   report.add("the same step, bvh", "ms", scaled(median_of(samples[2]), 1e-6), {});
 }

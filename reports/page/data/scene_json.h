@@ -1,4 +1,4 @@
-// The scene of a case in `assay-report/1`: what the viewer draws.
+// The scene of a case in `assay-report/2`: what the viewer draws.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,10 +1,11 @@
+#include "detector/contact/elementary.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/contact_filter.h"
-#include "detector/contact/elementary.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {

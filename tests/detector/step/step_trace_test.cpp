@@ -1,5 +1,5 @@
-// The order in which a step calls its stages: that of the pseudo-code in detector/step.cpp. What a
-// step need not do must not be called at all.
+// The order in which a step calls its stages: that of the pseudo-code in detector/step/step.cpp.
+// What a step need not do must not be called at all.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,8 +1,9 @@
+#include "detector/view/view_signs.h"
+
 #include <gtest/gtest.h>
 
 #include "detector/view/view_exact.h"
 #include "detector/view/view_filter.h"
-#include "detector/view/view_signs.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
@@ -70,7 +71,7 @@ TEST(ViewTest, L2_TouchingZeroIsNotPositive) {
 }
 
 TEST(ViewTest, L1_EachVertexHasItsOwnNearestPoint) {
-  // THEORY's example: the three vertices give -1.28, +1.28 and 0.
+  // The three vertices give -1.28, +1.28 and 0: one of them does not speak for all (L1).
   const MovingTriangle t = {still({.4, 1, .1}), still({-.4, 1, .9}), still({0, 5, .5})};
   EXPECT_EQ(sign(t, {still({0, 0, 0}), still({0, 0, 1})}), ViewSign::zero);
 }

@@ -8,13 +8,10 @@
 #include <functional>
 #include <map>
 
-<<<<<<< HEAD
 #include "detector/contact/elementary.h"
 #include "detector/contact/four_points.h"
 #include "detector/step/stages.h"
-=======
 #include "properties/faults/fault.h"
->>>>>>> 009e647138a874206cb647e6eddf22efaeb58f58
 #include "properties/laws/facts/exact_view_values.h"
 #include "properties/laws/law.h"
 #include "tests/properties/laws/judged_case.h"

@@ -1,4 +1,4 @@
-#include "properties/worker/plugin_host.h"
+#include "properties/worker/plugin/plugin_host.h"
 
 #include <dlfcn.h>
 
@@ -8,7 +8,7 @@
 #include <new>
 
 #include "detector/step_result.h"
-#include "properties/worker/plugin_result.h"
+#include "properties/worker/plugin/plugin_result.h"
 
 namespace assay::properties {
 

@@ -1,4 +1,4 @@
-#include "properties/worker/plugin_result.h"
+#include "properties/worker/plugin/plugin_result.h"
 
 #include <algorithm>
 

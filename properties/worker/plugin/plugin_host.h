@@ -6,7 +6,7 @@
 
 #include "detector/plugin/assay_detector.h"
 #include "properties/worker/case_run.h"
-#include "properties/worker/plugin_description.h"
+#include "properties/worker/plugin/plugin_description.h"
 
 namespace assay::properties {
 

@@ -1,0 +1,68 @@
+// The project's files, as the tests of the house read them. Paths are relative to the top.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace assay::tests {
+
+inline const std::filesystem::path root = ASSAY_SOURCE_DIR;
+
+inline constexpr const char* rooms[] = {"detector",   "oracle",  "corpus",
+                                        "properties", "reports", "tests"};
+
+// What builds, installs and tools leave beside the sources.
+inline bool is_left_behind(const std::string& name) {
+  return name.front() == '.' || name == "build" || name == "node_modules" || name == "__pycache__";
+}
+
+// In order. `folder` may be empty: the top.
+inline std::vector<std::string> files_below(const std::string& folder) {
+  std::vector<std::string> files;
+  const std::filesystem::recursive_directory_iterator end;
+  for (std::filesystem::recursive_directory_iterator at(root / folder); at != end; ++at) {
+    if (is_left_behind(at->path().filename().string())) {
+      at.disable_recursion_pending();
+    } else if (at->is_regular_file()) {
+      files.push_back(at->path().lexically_relative(root).generic_string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// "" of a file at the top.
+inline std::string folder_of(const std::string& path) {
+  return std::filesystem::path(path).parent_path().generic_string();
+}
+
+// Those that hold files, or folders with files; not the top.
+inline std::set<std::string> folders_of(const std::vector<std::string>& files) {
+  std::set<std::string> folders;
+  for (const auto& file : files) {
+    for (auto f = folder_of(file); !f.empty() && folders.insert(f).second;) f = folder_of(f);
+  }
+  return folders;
+}
+
+// The first part of a path: "" of a file at the top.
+inline std::string room_of_file(const std::string& path) {
+  const auto end = path.find('/');
+  return end == std::string::npos ? "" : path.substr(0, end);
+}
+
+inline bool is_source(const std::string& path) {
+  return path.ends_with(".h") || path.ends_with(".cpp");
+}
+
+inline std::string text_of(const std::string& path) {
+  std::ifstream in(root / path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace assay::tests
