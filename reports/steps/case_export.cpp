@@ -52,15 +52,11 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
   const char* const arithmetics[] = {"exact", "bounded", "double_precision", "single_precision"};
   const bool exact = options.arithmetic == detector::Arithmetic::exact;
   std::string out = fmt::format(
-      "// Case {}.\n#include <gtest/gtest.h>\n\n#include <algorithm>\n\n#include " detector / mesh /
-          problem.h
-          "
-#include "
-          "\"detector/detector.h\"\n\nusing "
-          "namespace "
-          "assay::detector;\n\nTEST(AssayCase, Holds) {{\n  Triangles triangles({}, 3);\n  "
-          "triangles "
-          "<< ",
+      "// Case {}.\n#include <gtest/gtest.h>\n\n#include <algorithm>\n\n#include "
+      "\"detector/detector.h\"\n\nusing "
+      "namespace "
+      "assay::detector;\n\nTEST(AssayCase, Holds) {{\n  Triangles triangles({}, 3);\n  triangles "
+      "<< ",
       c.id, c.triangles.rows());
   for (Eigen::Index i = 0; i < c.triangles.size(); ++i) {
     out += fmt::format("{}{}",
