@@ -22,8 +22,8 @@ class Instant {
  public:
   // Vertices at rest at x. REQUIRES finite coordinates.
   explicit Instant(const detector::PositionsView& x);
-  // Vertices on their way from x_t0 to x_t1. REQUIRES denominator > 0, 0 <= numerator <=
-  // denominator < 2^31.
+  // Vertices on their way from x_t0 to x_t1.
+  // REQUIRES 0 <= numerator <= denominator, 0 < denominator < 2^31.
   Instant(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
           const RationalTime& t);
 
