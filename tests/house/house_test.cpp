@@ -88,7 +88,8 @@ TEST(House, TheWorkerKnowsNoOracle) {
       "properties/(judging/claims|words|numbering|random).h)");
   // What they may use beside their own folders is held to the same.
   std::vector<fs::path> files;
-  for (const auto* name : {"judging/claims.h", "judging/claims.cpp", "words.h", "numbering.h", "random.h"}) {
+  for (const auto* name :
+       {"judging/claims.h", "judging/claims.cpp", "words.h", "numbering.h", "random.h"}) {
     files.push_back(root / "properties" / name);
   }
   for (const auto* folder : {"properties/worker", "properties/faults"}) {
