@@ -69,8 +69,8 @@ struct Case {
   std::vector<CaseStep> script;
   std::optional<CaseView> view;
   std::optional<CaseGhosts> ghosts;
-  std::map<std::string, std::string, std::less<>> options;  // culling, start, ...: as on the
-                                                            // command line
+  // culling, start, ...: as on the command line.
+  std::map<std::string, std::string, std::less<>> options;
   ExpectedFacts expected;
   // A JSON object in compact text, kept verbatim: facts that no code checks yet. "{}" when none.
   std::string pending = "{}";

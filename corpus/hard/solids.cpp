@@ -2,10 +2,11 @@
 
 namespace assay::corpus {
 
-// Corners (-a, -b), (c, -d), (e, f) with a, b, c, d, f in [3/4, 1] and |e| <= 1/8 of reach. The
-// lower edge stays 3/4 below; the left one passes y = 0 at -a + (e + a) b / (b + f) <= -3/4 + 7/8 *
-// 4/7 = -1/4, with a slope of at least (3/4 + 3/4) / (1 + 1/8) = 4/3: at least 1/4 * 4/5 = 1/5
-// away.
+// Corners (-a, -b), (c, -d), (e, f) with a, b, c, d, f in [3/4, 1] and |e| <= 1/8 of reach. How far
+// the edges stay away from the origin:
+// - The lower edge stays 3/4 below.
+// - The left one passes y = 0 at x = -a + (e + a) b / (b + f) <= -3/4 + 7/8 * 4/7 = -1/4. Its slope
+//   is at least (3/4 + 3/4) / (1 + 1/8) = 4/3, so it stays at least 1/4 * 4/5 = 1/5 away.
 std::array<GridPoint, 3> wide_face(Variation& vary, std::int64_t reach) {
   const auto far = [&] { return vary.between(3 * reach / 4, reach); };
   const std::int64_t a = far(), b = far(), c = far(), d = far(), f = far();

@@ -1,23 +1,36 @@
-// Bernstein coefficients over [0,1] of products of linearly moving vectors, in double or
-// float.
+// Bernstein coefficients over [0,1] of products of linearly moving vectors, in double or float.
 //
 // A polynomial lies between the least and the greatest of its coefficients; the first and the last
-// are its values at the ends. Error bounds of everything here, first order in u = 2^-53, for
-// vectors whose coordinate k is a rounded difference of two doubles, off by at most u M_k with
-// |coordinate k| <= M_k (second-order terms are below the slack of a few u in the constants):
-//   minors      x y - z w: two products, each off by 2u M M (entries) + u M M (rounding), and the
-//               difference, at most 2 M M, rounded: 8u M M
-//   cross       middle coefficient (minor + minor) / 2, sum at most 4 M M rounded: 8u + 2u = 10u M
-//   M dot         (x . y, both linear) each term 3u M M, two sums of at most 2 S and 3 S rounded
-//   where
-//               S is the sum of the three M M: 5u S; middle coefficient (x + y) / 2: 6u S
-//   w . n       each of three terms: W 10u M M + 2 M M u W (entry) + 2u W M M (rounding) = 14u W M
-//   M;
-//               partial sums at most 2 S and 2 S, S the sum of the three W M M: 18u S
-//   (2x + y)/3  18u S; the sum, at most 6 S, rounded: 2u S; the quotient, at most 2 S: 2u S; 22u S
-//   halving     (x + y) / 2 rounded by u max|coefficient|; older errors are averaged, not added;
-//               three levels for a cubic, two for a quadratic
-// All hold while no product overflows and underflow stays below them: see `in_range`.
+// are its values at the ends.
+//
+// Error bounds. Every filter of the detector derives its bound from the table below, and writes it
+// in the same notation:
+//   u         2^-53. An operation rounds its result by at most u times the size of that result.
+//   M         bounds the size of an entry: a coordinate of a vector, at both ends of the step.
+//   MM, WMM   products of such bounds, of the entries that the row multiplies.
+//   S, T      sums over the three coordinates: S of MM (x . y), T of WMM (w . n).
+//   B         the largest size among the coefficients that are halved.
+//   error     in units of u. First comes what the errors of the operands make of the result, then
+//             the rounding of each operation in turn: 3 + 3 + 2 = 8 MM stands for 8 u MM.
+//   middle    a coefficient that is neither the first nor the last: its error is the larger one.
+// A division by 2 and a product with 2 are exact. Errors are of first order in u: the constants in
+// the code are larger by some u, and these cover what is of second order.
+//
+//   quantity         | operations                    | error in u                     | size
+//   entry            | a difference of two doubles   | 1 M                            | M
+//   x y              | a product of two entries      | 1 + 1 + 1 = 3 MM               | MM
+//   minor            | x y - z w                     | 3 + 3 + 2 = 8 MM               | 2 MM
+//   cross, middle    | (minor + minor) / 2           | (8 + 8 + 4) / 2 = 10 MM        | 2 MM
+//   x . y            | three x y, two sums           | 3 + 1 + 1 = 5 S                | S
+//   x . y, middle    | (x . y + x . y) / 2           | (5 + 5 + 2) / 2 = 6 S          | S
+//   w n              | an entry w times a cross      | 10 + 2 + 2 = 14 WMM            | 2 WMM
+//   w . n            | three w n, two sums           | 14 + 2 + 2 = 18 T              | 2 T
+//   w . n, middle    | (2 (w . n) + w . n) / 3       | (36 + 18 + 6) / 3 + 2 = 22 T   | 2 T
+//   quadratic halved | (x + y) / 2 at two levels     | as before + 1 + 1 = + 2 B      | B
+//   cubic halved     | (x + y) / 2 at three levels   | as before + 1 + 1 + 1 = + 3 B  | B
+//
+// Halving averages older errors and never adds them up. All of this holds while no product
+// overflows and underflow stays below the bounds: see `in_range`.
 #pragma once
 
 #include <algorithm>

@@ -9,11 +9,16 @@
 // At a root of F: one L_k,i > 0 and another < 0 for some axis k -> no contact; all of one sign, not
 // all zero, for some axis -> contact.
 //
-// Error bounds (bernstein.h has the steps), all M alike, u = 2^-53:
-//   lam_1..3    10u M M (cross)
-//   lam_0       three of those: 30u, sums at most 4 and 6 M M rounded: 10u; 40u M M
-//   F           22u S with S = 3 MxMyMz: 66u MxMyMz
-//   halving     coefficients of F are at most 6 MxMyMz, those of lam_0 6 M M: 18u and 12u a level
+// Error bounds, in the notation of bernstein.h. All u_j have the same bounds M_k, so T is 3 MxMyMz.
+//
+//   quantity      | operations                      | error in u               | size
+//   lam_1..3      | cross, middle                   | 10 MM                    | 2 MM
+//   lam_0         | three of these, two sums        | 30 + 4 + 6 = 40 MM       | 6 MM
+//   F             | w . n, middle                   | 22 T = 66 MxMyMz         | 2 T = 6 MxMyMz
+//   lam_0 halved  | a quadratic with B = 6 MM       | as before + 12 MM        | 6 MM
+//   F halved      | a cubic with B = 6 MxMyMz       | as before + 18 MxMyMz    | 6 MxMyMz
+//
+// quadratic_error and cubic_error are these and one u more.
 #pragma once
 
 #include "detector/bernstein/bernstein.h"
@@ -41,13 +46,17 @@ struct ContactPiece {
   Number lo, hi;  // dyadic: exact
 };
 
-// `Search` says what to do where the signs tell:
-//   bool may_halve(int depth)             whether a piece of that depth that is not settled is
-//   split bool open(const Piece&)               such a piece that is not: true ends the search void
-//   contact(const Piece&, Number f_bound, int f_lo)
-//                                         F changes sign over the piece, from f_lo, by coefficients
-//                                         off by at most f_bound; a contact at each of its roots
-// Pieces without contact are passed over. After contact() the search ends.
+// `Search` says what to do where the signs tell. It has three functions:
+//
+//   bool may_halve(int depth);
+//   bool open(const Piece&);
+//   void contact(const Piece&, Number f_bound, int f_lo);
+//
+// may_halve says whether a piece of that depth that is not settled is split. open is told of such a
+// piece that is not split, and ends the search when it returns true. contact is told of a piece
+// with a contact at each root of F: F changes its sign over the piece, beginning with f_lo, and its
+// coefficients are off by at most f_bound. Pieces without contact are passed over. After contact()
+// the search ends.
 template <class Bounds, class Search>
 class ContactPieces {
  public:

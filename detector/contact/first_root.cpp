@@ -3,12 +3,17 @@
 // changed its sign at the other when its value there says so. Where several roots are near, or a
 // double one, halvings find the two places.
 //
-// Error bounds, u = 2^-53, B the largest |coefficient| that is split:
-//   splitting at s  each of three levels takes (1-s) x + s y: 1-s, two products and a sum rounded,
-//                   at most 3u B; older errors are averaged: 9u B, and u B slack
-//   halving         each of three levels rounds a sum (the division by 2 is exact): 3u B, u B slack
-// s itself is exact: a time t in [lo,hi] and lo are multiples of the last place of t, so t - lo is
-// a double, and hi - lo is a power of two.
+// Error bounds, in the notation of bernstein.h; B is the largest |coefficient| that is split.
+//
+//   quantity         | operations                             | error in u                | size
+//   a level at s     | (1 - s) x + s y, s in [0,1]            | as before + at most 3 B   | B
+//   split at s       | three such levels                      | as before + 9 B           | B
+//   halved           | (x + y) / 2 at three levels            | as before + 3 B           | B
+//
+// Of the 3 B of a level, 1 - s costs (1 - s) B, its product with x as much, the product of s and y
+// costs s B, and the sum costs B. The code adds 10 B for a split and 4 B for a halving: 1 B is
+// slack. s itself is exact: a time t in [lo,hi] and lo are multiples of the last place of t, so
+// t - lo is a double, and hi - lo is a power of two.
 #include "detector/contact/first_root.h"
 
 #include <cmath>

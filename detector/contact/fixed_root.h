@@ -1,10 +1,17 @@
 // The time at which the coplanarity cubic changes sign, from its coefficients in integers of fixed
 // width.
 //
-// With B0..B3 of fixed_products.h the cubic is c0 + c1 t + c2 t^2 + c3 t^3, c0 = B0,
-// c1 = B1 - 3 B0, c2 = B2 - 2 B1 + 3 B0, c3 = B3 - B2 + B1 - B0. At t = m 2^-e <= 1, times 2^(3e),
-// each term is below 2^(3c + 11 + 3e) and so the sum below 2^(3c + 13 + 3e): with e <= 64 it fits
-// 3 W + 3 limbs, 192 W + 192 bits, as 3c <= 192 W - 24; with e <= 128 it fits 3 W + 6.
+// With B0..B3 and c of fixed_products.h the cubic is c0 + c1 t + c2 t^2 + c3 t^3:
+//
+//   quantity                 | below, in size     | bits
+//   c0 = B0                  |  3 * 2^(3c + 4)    | 3c + 6
+//   c1 = B1 - 3 B0           | 18 * 2^(3c + 4)    | 3c + 9
+//   c2 = B2 - 2 B1 + 3 B0    | 36 * 2^(3c + 4)    | 3c + 10
+//   c3 = B3 - B2 + B1 - B0   | 24 * 2^(3c + 4)    | 3c + 9
+//
+// Its value at t = m 2^-e <= 1, times 2^(3e), is a sum of four terms, each below 2^(3c + 10 + 3e),
+// so it is below 2^(3c + 12 + 3e). As 3c <= 192 W - 24, with e <= 64 it fits 3 W + 3 limbs, which
+// are 192 W + 192 bits, and with e <= 128 it fits 3 W + 6 limbs.
 #pragma once
 
 #include "detector/bernstein/bernstein.h"
@@ -47,7 +54,7 @@ class FixedRoot {
   }
 
  private:
-  // Of c0..c3 the greatest is below 2^(3c + 11).
+  // Of c0..c3 the greatest is below 2^(3c + 10).
   using Coefficient = FixedInteger<3 * W>;
 
   template <std::size_t limbs>

@@ -2,22 +2,45 @@
 // by a resultant: no interval has to be made small, and common roots are no special case.
 //
 // Let p be the root of L. On (0,1) F has the sign f before r and -f after it, L the sign l before p
-// and -l after it. So F(p) tells the order of the two: F(p) = 0 means r = p, L(r) = 0; F(p) = f
-// means p < r, L(r) = -l; else L(r) = l. With L = l2 s^2 + l1 s + l0, l2 not 0, l2^2 F = (...) L +
-// R, R = a s + b: F(p) has the sign of R(p). Where R has one sign at 0 and 1, that is it. Else R
-// vanishes at q = -b/a in (0,1), and L(q) tells the order of p and q in the same way: a^2 L(q) = l2
-// b^2 - l1 a b + l0 a^2. With l2 = 0, p = -l0/l1 is put into F.
+// and -l after it. So F(p) tells the order of the two:
 //
-// Widths, c the bits of a coordinate, depth <= 4 (fixed_products.h): coefficients of F as powers
-// 3c + 20 + 4, of L 2c + 14 + 3: 3 W + 1 and 2 W + 1 limbs, as c <= 64 W - 8. The steps of the
-// division: 5c + 42 and 7c + 60: 5 W + 1 and 7 W + 1 limbs. The values: 16c + 141 in
-// 16 W + 3 limbs, 9c + 77 in 9 W + 4.
+//   F(p) = 0      r = p, and L(r) = 0
+//   F(p) has f    p < r, and L(r) has -l
+//   F(p) has -f   r < p, and L(r) has l
 //
-// Doubles first, u = 2^-53: a coefficient as a double is off by 4u of itself, a quotient p by 9u of
-// itself. A term is a product of at most four of these, so off by at most 4 (9 + 1) u of itself,
-// and a sum of seven terms by 6u of the sum S of their sizes more: 46u S; 2^-46 S = 128u S is asked
-// for. Where S
-// is so small that a term may have lost bits by underflow, nothing is decided.
+// F(p) is found by division. With L = l2 s^2 + l1 s + l0, l2 not 0, there are a and b with
+//
+//   l2^2 F = (...) L + R,   R = a s + b,
+//
+// so F(p) has the sign of R(p). Where R has one sign at 0 and 1, that is it. Else R vanishes at
+// q = -b/a in (0,1), and L(q) tells the order of p and q in the same way:
+//
+//   a^2 L(q) = l2 b^2 - l1 a b + l0 a^2.
+//
+// With l2 = 0 the root p = -l0/l1 is put into F.
+//
+// Widths. As in fixed_products.h W is the number of limbs of a coordinate and c its bits, at most
+// 64 W - 8. After 4 halvings the Bernstein coefficients of F have 3c + 20 bits, those of L 2c + 14.
+//
+//   quantity                          | below, in size            | bits       | limbs
+//   f0..f3: F by powers of s          | 12 * 2^(3c + 20)          | 3c + 24    | 3 W + 1
+//   l0..l2: L by powers of s          | 4 * 2^(2c + 14)           | 2c + 16    | 2 W + 1
+//   first step of the division        | 2 * 2^(5c + 40)           | 5c + 41    | 5 W + 1
+//   a, b: the second step             | 2 * 2^(7c + 57)           | 7c + 58    | 7 W + 1
+//   a^2 L(q)                          | 3 * 2^(16c + 132)         | 16c + 134  | 16 W + 3
+//   l1^3 F(-l0/l1)                    | 4 * 2^(9c + 72)           | 9c + 74    | 9 W + 4
+//
+// Doubles come first. Their errors, in units of u = 2^-53 of the quantity itself, or of S, the sum
+// of the sizes of all terms:
+//
+//   quantity                      | operations                         | error in u
+//   a coefficient as a double     | two limbs rounded, one sum         | less than 4
+//   the quotient p = -l0/l1       | a division                         | 4 + 4 + 1 = 9
+//   a term                        | four of these at most, multiplied  | at most 4 (9 + 1) = 40
+//   a sum of seven terms at most  | six sums                           | 40 + 6 = 46 S
+//
+// The code asks for 2^-46 S = 128 u S. Where S is so small that a term may have lost bits by
+// underflow, nothing is decided.
 #pragma once
 
 #include "detector/bernstein/bernstein.h"
@@ -31,8 +54,8 @@ class SignAtRoot {
   using Minor = typename FixedProducts<W>::Minor;
   using Triple = typename FixedProducts<W>::Triple;
 
-  // Bernstein coefficients of F over (0,1); its sign before the root.
-  // `bits` of the coordinates.
+  // f: Bernstein coefficients of F over (0,1). sign_before: its sign before the root. bits: of the
+  // coordinates.
   SignAtRoot(const FixedCubic<Triple>& f, int sign_before, int bits)
       : f_before_(sign_before), bits_(bits) {
     const FixedCubic<F> b = {F(f[0]), F(f[1]), F(f[2]), F(f[3])};

@@ -4,8 +4,9 @@
 // in the projection along every axis. There the two are apart when a line through an edge of the
 // triangle, or through the segment, has the one strictly on its one side and the other not there.
 //
-// Error bound of a side in the projection along axis k, p and q the other two axes, M the largest
-// |difference|: (b-a) x (c-a) is one minor of differences: 8u Mp Mq (bernstein.h).
+// Error bound of a side in the projection along axis k. With p and q the other two axes, and M_p
+// and M_q the largest |difference| along them, (b-a) x (c-a) is one minor, off by 8 u M_p M_q
+// (bernstein.h). side_error is this and one u more.
 #include "detector/contact/piercing.h"
 
 #include "detector/geometry/orientation_filter.h"

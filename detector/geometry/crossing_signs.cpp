@@ -1,9 +1,22 @@
-// Coordinates are taken 4 times as large, so that the origin (2 p0 + p1 + p2) / 4, inside a
-// triangle, is exact as well. Filter: A_k = 4 (a_k - o_k) is computed as a sum of differences
-// 2 (a - p0) + (a - p1) + (a - p2), each off by u times its size, two sums rounded: off by less
-// than 8u W_k + 2 * 4u W_k, W_k the largest |a_k - p_k| involved, while |A_k| <= 4 W_k. For entries
-// of size 4 W with error 16 u W = 4u (4W): a determinant is off by at most 6 * 3 * 4u V (entries) +
-// 30u V (arithmetic), V = product of the 4 W_k: less than 128u V.
+// Coordinates are taken 4 times as large, so that the origin o = (2 p0 + p1 + p2) / 4, inside a
+// triangle, is exact as well.
+//
+// Error bounds of the filter, in the notation of bernstein.h. The determinant's entries are those
+// of A = 4 (a - o); W_k is the largest |a_k - p_k| involved. V is the product of the sizes 4 W_k of
+// the three entries of a term.
+//
+//   quantity       | operations                         | error in u               | size
+//   a - p0, ...    | differences of two doubles         | 1 W                      | W
+//   A_k            | 2 (a - p0) + (a - p1) + (a - p2)   | 4 + 3 + 4 = 11 W         | 4 W
+//   minor          | x y - z w                          | 1 + 1 + 2 = 4 V          | 2 V
+//   term           | an entry times a minor             | 4 + 2 = 6 V              | 2 V
+//   determinant    | three terms, two sums              | 3 * 6 + 4 + 6 = 28 V     | 6 V
+//   its entries    | 6 products of 3 entries            | 6 * 3 * 4 = 72 V         | 6 V
+//
+// The rows of minor, term and determinant count roundings alone. The last row adds what the errors
+// of the entries make of it: 11 W is taken for 16 W, so each entry is off by 4 u of its size 4 W.
+// Together these are 100 u V. The code asks for 128 u V, which also covers what is of second order
+// and the rounding of V. A ray's direction is exact.
 //
 // Where the filter cannot tell: exact arithmetic asks integers; bounded arithmetic leaves the sign
 // 0, which gives a direction up or the count altogether, never counts wrongly.

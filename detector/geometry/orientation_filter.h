@@ -1,8 +1,14 @@
 // Sign of a 3x3 determinant of coordinate differences in double or float, by the policy's bounds.
 //
-// Error bound, u = 2^-53, M_k the largest |coordinate k| of the three differences: as for one
-// coefficient of the coplanarity cubic (contact_pieces.h) without its middle terms: minors 8u,
-// each of three terms 8u + 2u + 2u = 12u, sums 10u: 46u MxMyMz.
+// Error bound, in the notation of bernstein.h. M_k is the largest |coordinate k| of the three
+// differences, and MMM is MxMyMz.
+//
+//   quantity      | operations                        | error in u                | size
+//   minor         | x y - z w                         | 8 MM                      | 2 MM
+//   term          | an entry times a minor            | 8 + 2 + 2 = 12 MMM        | 2 MMM
+//   determinant   | three terms, two sums             | 36 + 4 + 6 = 46 MMM       | 6 MMM
+//
+// orientation_error is this and two u more.
 #pragma once
 
 #include <algorithm>

@@ -14,8 +14,8 @@
 namespace assay::detector {
 
 // Winding number of the cycle formed by `triangles` around `point`; outward spheres have 1 inside.
-// Nothing when the point lies on the surface. About 10 ns a triangle, once for each ray
-// tried (a ray that meets an edge or a corner is given up; the first one nearly always does).
+// Nothing when the point lies on the surface. About 10 ns a triangle, once for each ray tried: a
+// ray that meets an edge or a corner is given up; the first one nearly always does.
 std::optional<int> winding_number(const Topology& mesh, std::span<const std::int32_t> triangles,
                                   const PositionsView& x, const Point& point,
                                   Arithmetic arithmetic = Arithmetic::exact);

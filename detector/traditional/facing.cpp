@@ -1,10 +1,15 @@
 // N(t).d is a quadratic in t and lies between the least and the greatest of its Bernstein
-// coefficients b_i.d: if all are positive, so is N.d over the step. Computed with u = 2^-53, M_k
-// the largest size of coordinate k of the two edges and S_k the product of the other two M (the
-// entries of the first paragraph of bernstein.h): a coordinate k of b_i is off by at most 10u S_k
-// and at most 2 S_k in size. Times d_k it is exact, |d_k| <= 2. Of the two sums the first is at
-// most 4 (S_x + S_y) and the second at most 4 S in size, S = S_x + S_y + S_z, each rounded: 8u S.
-// Together 20u S + 8u S = 28u S; 32u S leaves slack for second-order terms and the rounding of S.
+// coefficients b_i.d: if all are positive, so is N.d over the step.
+//
+// Error bounds, in the notation of bernstein.h. M_k bounds coordinate k of the two edges, S_k is
+// the product of the other two M, and S = S_x + S_y + S_z.
+//
+//   quantity            | operations               | error in u          | size
+//   b_i, coordinate k   | cross, middle            | 10 S_k              | 2 S_k
+//   times d_k           | exact, |d_k| <= 2        | 20 S_k              | 4 S_k
+//   b_i . d             | three of these, two sums | 20 + 4 + 4 = 28 S   | 4 S
+//
+// facing_units = 32 covers this, what is of second order, and the rounding of S.
 #include "detector/traditional/facing.h"
 
 #include <cmath>

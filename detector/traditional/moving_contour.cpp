@@ -5,17 +5,23 @@
 // is so in truth, and what is ordered in one sense at t=0 and t=1 is so throughout: points are
 // linear in t.
 //
-// Turns and cosines of differences of coordinates, with u = 2^-53 and M_u, M_v the largest sizes of
-// a difference along the two axes, in truth at most d_m M_k + |d_k| M_m of the differences in
-// space:
-//   difference  those in space are off by u M; times 1 or 2 exact; their sum rounded: 2u M_u
-//   turn        x_u y_v - x_v y_u: each product off by 2u + 2u (entries) + u (rounding) = 5u M_u
-//   M_v;
-//               their difference, at most 2 M_u M_v, rounded: 12u M_u M_v; the middle coefficient,
-//               half of a sum of at most 4 M_u M_v: 12u + 2u = 14u M_u M_v
-//   cosine      x_u y_u + x_v y_v: with D = M_u^2 + M_v^2 likewise 5u D + u D = 6u D, middle 7u D
-//   halving     half of a sum of at most 4 M_u M_v, rounded, at two levels: 4u M_u M_v a halving
-// 16u at depth 0 and 4u more for each halving cover these with the rounding of the M.
+// Error bounds of turns and cosines, in the notation of bernstein.h. x and y are differences of two
+// points in the plane. Their coordinate along the first axis is at most M_u = |d_m| M_k + |d_k| M_m
+// in size, where M_k and M_m bound the differences in space; M_v along the second axis likewise.
+// MM is M_u M_v, and D is M_u^2 + M_v^2.
+//
+//   quantity         | operations                       | error in u                 | size
+//   coordinate x_u   | d_m e_k - d_k e_m                | 1 + 1 = 2 M_u              | M_u
+//   turn             | x_u y_v - x_v y_u                | 5 + 5 + 2 = 12 MM          | 2 MM
+//   turn, middle     | (turn + turn) / 2                | (12 + 12 + 4) / 2 = 14 MM  | 2 MM
+//   turn, halved     | a quadratic with B = 2 MM        | as before + 4 MM           | 2 MM
+//   cosine           | x_u y_u + x_v y_v                | 5 + 1 = 6 D                | D
+//   cosine, middle   | (cosine + cosine) / 2            | (6 + 6 + 2) / 2 = 7 D      | D
+//   cosine, halved   | a quadratic with B = D           | as before + 2 D            | D
+//
+// A product of two coordinates is off by 2 + 2 (entries) + 1 (rounding) = 5. e is a difference in
+// space, off by 1 M, and its products with 1 or 2 are exact. turn_units(depth), 16 and 4 more a
+// halving, covers all of these and the rounding of the M.
 #include "detector/traditional/moving_contour.h"
 
 #include <algorithm>

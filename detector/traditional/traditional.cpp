@@ -33,8 +33,7 @@
 // - Patches count as adjacent that have a vertex in common. They may lie one over the other.
 // - N.V >= 0 is taken for N.V > 0. Triangles seen edge-on may hide others.
 // - Edges of one triangle are taken for the contour. An edge with three triangles is on it too:
-// here
-//   it is wherever its triangles do not cancel, and L13 counts with that.
+//   here it is wherever its triangles do not cancel, and L13 counts with that.
 #include "detector/traditional/traditional.h"
 
 namespace assay::detector {

@@ -1,27 +1,43 @@
-// u = 2^-53. All differences of coordinates k that a lane computes are at most E_k (edges), W_k
-// (p - q, both ends of a line) or D_k (q1 - q0) in size, computed ones too: these are computed
-// from the least and greatest coordinate, and rounding keeps order. Each is off by at most u times
-// that. With S = W_x E_y E_z + W_y E_z E_x + W_z E_x E_y, by the steps of bernstein.h:
-//   N        b0, b2: at most 2 E E, off by 8u E E; b1, twice the coefficient, is a sum of two:
-//            16u E E and a rounding of at most 4 E E: 20u E E
-//   w . b0   terms W 8u EE + 2 EE u W + 2u W EE = 12u; two sums of at most 2 S: 16u S
-//   w . b1   terms W 20u EE + 4 EE u W + 4u W EE = 28u; two sums of at most 4 S: 36u S
-//   h        ends: 16u S, size 2 S. Middle ones, times 3: 36u S + 16u S and a sum of at most 6 S
-//            rounded: 58u S, size 6 S.            cubic_error = 64u S covers all four
-//   value    b0 + s (b1 - b0) at a given s of [0,1]: the mean of two coefficients, 58u S;
-//            difference at most 12 S, product at most 12 S, sum at most 6 S, each rounded: 30u S.
-//            Together 88u S.                       value_error = 112u S
-// The slack covers second-order terms and the rounding of S and of the products here.
+// Error bounds of the lanes, in the notation of bernstein.h. All differences of coordinates k that
+// a lane computes are at most E_k (edges), W_k (p - q, both ends of a line) or D_k (d = q1 - q0) in
+// size. So are the computed ones: E_k, W_k and D_k are computed from the least and the greatest
+// coordinate, and rounding keeps order.
+//   T = W_x E_y E_z + W_y E_z E_x + W_z E_x E_y
+//   G = W_x D_x + W_y D_y + W_z D_z
+//   L = D_x^2 + D_y^2 + D_z^2
+// N is the normal with Bernstein coefficients b0, b1, b2; a lane holds 2 b1 in place of b1, and the
+// two middle coefficients of h times 3.
 //
-// s: with G = sum of W_k D_k and L = sum of D_k^2, a coefficient a of (p-q0).d is off by 6u G and
-// one of d.d, l >= l_min > 0, by 6u L (bernstein.h; the middle ones are both taken times 2). |a| <=
-// G, so a/l is off by 6u G / l_min + 6u G L / l_min^2 to first order; the reciprocal and the
-// product are rounded: 2u G / l_min. axial_error = (16u + 12u L / l_min) G / l_min, as long as
-// L / l_min <= 2^40 (where second-order terms are negligible) and with 2^-1000 for underflow;
+//   quantity         | operations                            | error in u               | size
+//   b0, b2           | minor of two edges                    | 8 EE                     | 2 EE
+//   2 b1             | minor + minor                         | 8 + 8 + 4 = 20 EE        | 4 EE
+//   w b0             | an entry of p - q times b0            | 8 + 2 + 2 = 12 WEE       | 2 WEE
+//   w . b0           | three w b0, two sums                  | 12 + 2 + 2 = 16 T        | 2 T
+//   w (2 b1)         | an entry of p - q times 2 b1          | 20 + 4 + 4 = 28 WEE      | 4 WEE
+//   w . (2 b1)       | three w (2 b1), two sums              | 28 + 4 + 4 = 36 T        | 4 T
+//   h, at the ends   | w . b0 or w . b2                      | 16 T                     | 2 T
+//   3 h, middle      | w . (2 b1) + w . b0 or + w . b2       | 36 + 16 + 6 = 58 T       | 6 T
+//   value            | h0 + s (h1 - h0), s given in [0,1]    | 58 + 12 + 12 + 6 = 88 T  | 6 T
+//
+// The value is a mean of h0 and h1, which carries over their 58 T; h1 - h0 and its product with s
+// are at most 12 T in size. lane_cubic_units = 64 covers h and 3 h, lane_value_units = 112 the
+// value; the slack covers what is of second order and the rounding of T and of the products here.
+//
+// The ratio s = a / l of a coefficient a of (p-q0).d and the one l of d.d, l >= l_min > 0 (of the
+// middle ones a is taken times 2, and l too):
+//
+//   quantity      | operations                      | error in u                     | size
+//   a             | x . y, middle                   | 6 G                            | G
+//   l             | x . y, middle                   | 6 L                            | L
+//   a / l         | the errors of a and of l        | 6 G / l_min + 6 G L / l_min^2  | G / l_min
+//   a * (1 / l)   | a reciprocal and a product      | as before + 2 G / l_min        | G / l_min
+//
+// The errors add up to u (8 + 6 L / l_min) G / l_min. axial_error is twice that, and 2^-1000 for
+// underflow. It holds as long as L / l_min <= 2^40, where what is of second order is negligible;
 // else s may be anything in [0,1], and axial_error = 2 says so.
 //
-// At t=0 and t=1 the value at a computed s is off by value_error and |b1 - b0| <= 4 S times the
-// error of s: end_error = 112u S + 5 S axial_error.
+// At t=0 and t=1 the value is taken at a computed s. It is off by value_error, and by the error of
+// s times |h1 - h0| <= 4 T: end_error = value_error + 5 T axial_error.
 #include "detector/view/view_bounds.h"
 
 #include <cmath>

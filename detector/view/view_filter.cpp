@@ -8,12 +8,21 @@
 // coefficients, bounds each vertex's s likewise, and bounds the value from these; pieces that stay
 // open are halved. Moving ends need no other treatment.
 //
-// Error bounds (bernstein.h has the steps), u = 2^-53; E_k, W_k, D_k bound coordinate k of the
-// edges p1-p0, p2-p0, of p-q, and of d, over both ends of the step:
-//   h0, h1      22u S, S = W_x E_y E_z + W_y E_z E_x + W_z E_x E_y; coefficients are at most 2 S,
-//   so
-//               halving adds 6u S a level
-//   (p-q0).d    6u G, G = sum of W_k D_k; coefficients at most G: halving adds 2u G; d.d likewise
+// Error bounds, in the notation of bernstein.h. Over both ends of the step E_k bounds coordinate k
+// of the edges p1-p0 and p2-p0, W_k that of p-q, and D_k that of d.
+//   T = W_x E_y E_z + W_y E_z E_x + W_z E_x E_y
+//   G = W_x D_x + W_y D_y + W_z D_z
+//   L = D_x^2 + D_y^2 + D_z^2
+//
+//   quantity          | operations                  | error in u         | size
+//   h0, h1            | w . n, middle               | 22 T               | 2 T
+//   h0, h1 halved     | a cubic with B = 2 T        | as before + 6 T    | 2 T
+//   (p-q0).d          | x . y, middle               | 6 G                | G
+//   (p-q0).d halved   | a quadratic with B = G      | as before + 2 G    | G
+//   d.d               | x . y, middle               | 6 L                | L
+//   d.d halved        | a quadratic with B = L      | as before + 2 L    | L
+//
+// view_cubic_error and view_axial_error are these and two u more.
 #include "detector/view/view_filter.h"
 
 #include <algorithm>

@@ -2,12 +2,13 @@
 // ASSAY_LANES before it includes this. Everything here has internal linkage and no header with
 // inline functions is included: code for one instruction set must not reach the others.
 //
-// All in one lane, with N = (p1-p0) x (p2-p0) and Bernstein coefficients over the step:
-//   h = (p0-q).N     h[0], 3 h[1], 3 h[2], h[3]: one sign of all four is a sign of the cubic
-//   s = (p-q0).d / d.d   a ratio of quadratics is a mean of the ratios of their coefficients (the
-//                    weights are those of d.d, all positive): between the least and greatest
-//   (1-s) h0 + s h1  is, for s at one time, a mean of its values at h0[j], h1[j]; linear in s, its
-//                    least and greatest are at the ends of s's range over the step and the corners
+// One triangle a lane, with N = (p1-p0) x (p2-p0) and Bernstein coefficients over the step:
+//
+// - h = (p0-q).N is kept as h[0], 3 h[1], 3 h[2], h[3]: one sign of all four is the cubic's sign.
+// - s = (p-q0).d / d.d is a ratio of quadratics: a mean of the ratios of their coefficients, whose
+//   weights are the coefficients of d.d, all positive. It lies between the least and the greatest.
+// - (1-s) h0 + s h1 is, for s at one time, a mean of its values at h0[j], h1[j]. It is linear in s,
+//   so its least and greatest are at the ends of s's range over the step and the corners.
 #include <cstddef>
 #include <cstdint>
 

@@ -1,9 +1,13 @@
 // Signs that prove a claim [lo, hi], F not identically zero:
-//   before     F has no zero in [0, lo), or in [0, lo] where lo < hi: Descartes' rule in Bernstein
-//   form at a zero  lo = hi: F(lo) = 0. lo < hi, adjacent: F(lo) F(hi) < 0 contact    for one axis
-//   no two L of opposite sign, not all zero, at lo = hi; at lo < hi all four
-//              of one sign on [lo, hi] (Bernstein), so at the zero inside
-// Whatever these leave open, a false claim above all, is settled by solving.
+//
+//   claimed     | where lo = hi                               | where lo < hi, adjacent
+//   not before  | F has no zero in [0, lo)                    | F has no zero in [0, lo]
+//   coplanar    | F(lo) = 0                                   | F(lo) F(hi) < 0
+//   contact     | of an axis no two L have opposite signs,    | of an axis all four L have one sign
+//               | and not all are 0                           | on [lo, hi], so at the zero inside
+//
+// That a polynomial has no zero on a piece is shown by Descartes' rule in Bernstein form. Whatever
+// these signs leave open, a false claim above all, is settled by solving.
 #include "oracle/query/first_time.h"
 
 #include <cmath>

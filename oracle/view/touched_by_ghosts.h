@@ -9,8 +9,8 @@ namespace assay::oracle {
 
 struct GhostSweepOptions {
   int jobs = 1;
-  bool static_at_start =
-      false;  // also edges that pierce at t=0: at the first step and after a reset
+  // Also edges that pierce at t=0: at the first step and after a reset.
+  bool static_at_start = false;
 };
 
 // touched[t] is 1 for each triangle t of the mesh that some ghost touches at any time in [0,1]:

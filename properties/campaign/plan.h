@@ -37,10 +37,10 @@ struct Policy {
 struct CampaignPlan {
   std::string name, about;
   std::vector<StratumPlan> strata;
-  double seconds = 0;              // of the whole run, by the clock; trials left over make it
-                                   // incomplete. 0: it runs to its end
-  double case_seconds = 10;        // processor time of one case in one configuration; then it
-                                   // hangs: undecided
+  // Of the whole run, by the clock; trials left over make it incomplete. 0: it runs to its end.
+  double seconds = 0;
+  // Processor time of one case in one configuration; then it hangs: undecided.
+  double case_seconds = 10;
   std::uint64_t laws_every = 1;    // every k-th case of a family goes through the laws
   std::uint64_t law_premises = 0;  // each law's premise must hold at least so often
   std::uint64_t fault_cases = 0;   // a planted fault must show within so many cases of a seed

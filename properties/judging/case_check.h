@@ -23,11 +23,11 @@ struct CaseReport {
   std::vector<CaseStepReport> steps;
 };
 
-// Detector options from the case's own (case_options.h), with `culling` and
-// `arithmetic` in place of the case's when given. The case's view primitive is used where the
-// culling is one of views. Facts compared: refusal or answer, first time, pair set (detector and
-// oracle), view signs (detector where it tested the triangle, oracle always), agreement of detector
-// and oracle. The detector's answer, pairs and signs are held to what its arithmetic claims.
+// Detector options from the case's own (case_options.h), with `culling` and `arithmetic` in place
+// of the case's when given. The case's view primitive is used where the culling is one of views.
+// Facts compared: refusal or answer, first time, pair set (detector and oracle), view signs
+// (detector where it tested the triangle, oracle always), agreement of detector and oracle. The
+// detector's answer, pairs and signs are held to what its arithmetic claims.
 CaseReport check_case(const corpus::Case& c, std::optional<detector::Culling> culling = {},
                       int jobs = 1, std::optional<detector::Arithmetic> arithmetic = {});
 

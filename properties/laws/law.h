@@ -32,8 +32,8 @@ struct Law {
   std::string_view statement;  // in one or two sentences
   std::string_view needs;      // of the oracle
   void (*check)(CaseFacts&, LawTally&);  // adds what it met in this case
-  int one_in =
-      1;  // a LawTable asks it of one case in so many: laws that run the case again are dear
+  // A LawTable asks it of one case in so many: laws that run the case again are dear.
+  int one_in = 1;
 };
 
 // All laws in a fixed order: by number, then sets, claims, changes.

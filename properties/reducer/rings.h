@@ -20,8 +20,8 @@ struct Rings {
   static constexpr int unreached = 1 << 30;
 };
 
-// Around finding().focus of the best case; around its first triangle when that names none. O(n log
-// n).
+// Around finding().focus of the best case; around its first triangle when that names none.
+// O(n log n).
 Rings rings_of(const ReductionSearch& search);
 
 // The triangles with all vertices at a distance of `ring` or less.

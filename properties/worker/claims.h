@@ -10,12 +10,13 @@
 
 namespace assay::properties {
 
+// t* is the first contact time of the step. The contact graph at t* has the triangles as nodes, and
+// as edges the pairs that are in contact then.
 enum class Claim : std::uint8_t {
   free_sound,     // never `free` when the oracle has a contact
   not_late,       // lower end of its first time <= t*
   first_time,     // the interval of its first time holds t*
-  first_pairs,    // every connected part of the contact graph at t* (triangles as nodes, pairs in
-                  // contact then as edges) holds a reported pair
+  first_pairs,    // every connected part of the contact graph at t* holds a reported pair
   all_pairs,      // every pair of the oracle is reported, none with a time after its own
   no_spurious,    // no collision, pair or time of a pair before there is one
   deterministic,  // the same input gives the same result

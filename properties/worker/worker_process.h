@@ -41,8 +41,8 @@ class WorkerProcess {
   PluginExpected<PluginDescription> describe();
 
   // One run for each configuration, in order. A crash or a hang is reported for the configuration
-  // that had it; the others still run, in a new worker. Where no worker can be started the
-  // runs are not_run and say why.
+  // that had it; the others still run, in a new worker. Where no worker can be started the runs are
+  // not_run and say why.
   // A run whose worker is killed from outside (child_process.h) is repeated in a new one. The third
   // time in a row it has crashed: a plug-in that does this to itself is not told from bad luck by
   // one death, but by three. So may the loading of a plug-in fail.

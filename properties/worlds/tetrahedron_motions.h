@@ -52,8 +52,8 @@ class TetrahedronMotions {
  private:
   using Paths = std::array<int, 4>;  // path: start * places + end; ascending
   struct Block {
-    std::array<int, 4> resting =
-        {};  // places of those at rest, ascending; the first 4 - moving count
+    // Places of those at rest, ascending: the first 4 - moving of these count.
+    std::array<int, 4> resting = {};
     int moving = 0;
     int first_path = 0;  // of those that move
   };

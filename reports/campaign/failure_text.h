@@ -20,9 +20,8 @@ struct FailureReport {
 
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
 // under the same names in every run and shard, and a picture (.svg) of the smallest mesh of each
-// signature. A failure is told once for each signature: claim,
-// how often it was met, both sizes, triangles, feature, the line that replays it. plugin: the
-// library that failed, or empty.
+// signature. A failure is told once for each signature: claim, how often it was met, both sizes,
+// triangles, feature, the line that replays it. plugin: the library that failed, or empty.
 FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
                              const std::string& plugin);
 

@@ -10,9 +10,9 @@
 
 namespace assay::reports {
 
-// Called for each row as it is known. Curated cases: of the built-in detector held
-// to their expected facts with every culling; of a plug-in to the oracle under its claims, as
-// scenes are for both. One judgement of the oracle serves all configurations.
+// Called for each row as it is known. Curated cases: of the built-in detector held to their
+// expected facts with every culling; of a plug-in to the oracle under its claims, as scenes are for
+// both. One judgement of the oracle serves all configurations.
 using OnCorpusRow = std::function<void(const properties::CorpusRow&)>;
 
 // Called for each case that a configuration fails by the oracle, as a trial would be stored.

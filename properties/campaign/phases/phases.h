@@ -33,8 +33,8 @@ class CampaignObserver {
 
 // Does what the store does not hold yet: the trials, the shrinking of what failed, the planted
 // faults (or the request's proof of them). The canary and the worlds of tetrahedra are done again;
-// of a world what came farther stays. Faults and worlds are
-// shared out among shards by their place in the list. corpus: folder of the curated cases.
+// of a world what came farther stays. Faults and worlds are shared out among shards by their place
+// in the list. corpus: folder of the curated cases.
 //
 // What is stored stays, whatever happens. Throws StoreProblem where the store cannot be written.
 void run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,

@@ -72,7 +72,8 @@ TEST(MeetsPrimitive, Segment) {
   EXPECT_TRUE(meets(segment({0.5, 0.5, 0.5}, {0.5, 0.5, -9})));  // pierces a face at rest
   EXPECT_TRUE(meets(segment({0.5, 0.5, 0.5}, {0.5, 0.5, 0})));   // ends on a face
   EXPECT_TRUE(meets(segment({1, 1, 0}, {2, 1, 0})));             // in the plane of a face, inside
-  EXPECT_TRUE(meets(segment({2, -1, 0}, {2, -1, 9}), tetrahedron({8, -4, 4})));  // an edge comes
+  // An edge of the mesh comes to the segment.
+  EXPECT_TRUE(meets(segment({2, -1, 0}, {2, -1, 9}), tetrahedron({8, -4, 4})));
   // A segment with ends that move apart, out through a face.
   EXPECT_TRUE(meets({{{0.5, 0.5, 0.5}, {0.5, 0.5, -1}}, {{1, 1, 1}, {1, 1, 1}}}));
 }

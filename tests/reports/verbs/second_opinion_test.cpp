@@ -79,8 +79,8 @@ TEST_F(SecondOpinionRun, BadSharesAreRefusedInOneLine) {
 }
 
 TEST_F(SecondOpinionRun, RefereeAnswersQueries) {
-  // A vertex that falls through a face at t=1/2, and one that misses it, labelled
-  // wrongly as a contact too.
+  // A vertex that falls through a face at t=1/2, and one that misses it, labelled wrongly as a
+  // contact too.
   const auto rows = [](const std::string& x) {
     std::string text;
     for (const char* z : {"1", "-1"}) {
