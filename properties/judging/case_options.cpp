@@ -83,13 +83,15 @@ detector::Options options_of(const corpus::Case& c) {
   return options;
 }
 
-std::optional<std::string> wrong_option(const corpus::Case& c) {
+Expected<detector::Options> read_options(const corpus::Case& c) {
   detector::Options options;
   for (const auto& [name, word] : c.options) {
-    if (!set_option(options, name, word))
-      return fmt::format("option {} = '{}' is not known", name, word);
+    if (!set_option(options, name, word)) {
+      return Problem{ProblemKind::unknown_option,
+                     fmt::format("option {} = '{}' is not known", name, word)};
+    }
   }
-  return std::nullopt;
+  return options;
 }
 
 }  // namespace assay::properties

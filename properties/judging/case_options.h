@@ -9,6 +9,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "detector/options.h"
+#include "properties/problem.h"
 
 namespace assay::properties {
 
@@ -29,11 +30,11 @@ const char* name_of(detector::Arithmetic arithmetic);
 const char* name_of(detector::Release release);
 const char* name_of(detector::GhostTest ghost_test);
 
-// What is wrong with a case's options (an unknown name or word), as one line; nothing when they are
-// understood.
-std::optional<std::string> wrong_option(const corpus::Case& c);
+// The options that a case states, the others as they are by default. unknown_option for a name or a
+// word that is none; the case's file is not named.
+Expected<detector::Options> read_options(const corpus::Case& c);
 
-// Options of a case that wrong_option accepts.
+// The same for a case whose options are known to be understood. What is not understood is left out.
 detector::Options options_of(const corpus::Case& c);
 
 // Options as a case states them: culling, start and pairs always, the others where they are not the

@@ -57,9 +57,9 @@ bool was_killed_from_outside(const ChildEnd& end) {
   }
 }
 
-std::optional<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
-                                                const std::vector<std::string>& arguments,
-                                                int descriptor, std::string& problem) {
+Expected<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
+                                           const std::vector<std::string>& arguments,
+                                           int descriptor) {
   std::string name = program.string();
   std::vector<std::string> words = arguments;
   std::vector<char*> argv = {name.data()};
@@ -85,8 +85,7 @@ std::optional<ChildProcess> ChildProcess::start(const std::filesystem::path& pro
   ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   if (error != 0) {
-    problem = "cannot start " + name + ": " + std::strerror(error);
-    return std::nullopt;
+    return Problem{ProblemKind::cannot_start, "cannot start " + name + ": " + std::strerror(error)};
   }
   return ChildProcess(id);
 }

@@ -5,10 +5,11 @@
 
 #include <chrono>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "properties/problem.h"
 
 namespace assay::properties {
 
@@ -34,11 +35,10 @@ bool was_killed_from_outside(const ChildEnd& end);
 // aside: else a detector could outlive a signal that would end it anywhere else.
 class ChildProcess {
  public:
-  // `descriptor` becomes child_descriptor of the child; its stdin is empty. Nothing, with the
-  // reason in `problem`, when it cannot be started.
-  static std::optional<ChildProcess> start(const std::filesystem::path& program,
-                                           const std::vector<std::string>& arguments,
-                                           int descriptor, std::string& problem);
+  // `descriptor` becomes child_descriptor of the child; its stdin is empty. cannot_start, with the
+  // system's reason, where it does not start.
+  static Expected<ChildProcess> start(const std::filesystem::path& program,
+                                      const std::vector<std::string>& arguments, int descriptor);
   ChildProcess(ChildProcess&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
   ChildProcess& operator=(ChildProcess&&) = delete;
   ~ChildProcess();  // waits a fifth of a second, then kills

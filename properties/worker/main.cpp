@@ -57,7 +57,8 @@ int serve(Channel channel, const char* plugin_library) {
       plugin = std::move(opened.value());
       hello.description = plugin->description();
     } else {
-      hello.problem = opened.error().message;
+      hello.serves = false;
+      hello.problem = opened.error();
     }
   }
   if (channel.send(encode(hello)) != Transfer::done) return 0;

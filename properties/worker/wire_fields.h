@@ -5,8 +5,8 @@
 #include <span>
 
 #include "detector/mesh/problem.h"
-#include "detector/mesh/step_counts.h"
 #include "detector/step_result.h"
+#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_description.h"
 #include "properties/worker/wire.h"
@@ -84,16 +84,23 @@ void fields(Wire& wire, PluginDescription& description) {
   wire(name, version, claims, contract);
 }
 
+template <class Wire>
+void fields(Wire& wire, Problem& problem) {
+  auto& [kind, message] = problem;
+  wire(kind, message);
+}
+
 // The worker's first message: who it is, or why it cannot serve.
 struct Hello {
   std::uint64_t wire_version = 0;
   PluginDescription description;
-  std::string problem;  // empty: none
+  bool serves = true;
+  Problem problem;  // why it does not
 };
 
 template <class Wire>
 void fields(Wire& wire, Hello& hello) {
-  wire(hello.wire_version, hello.description, hello.problem);
+  wire(hello.wire_version, hello.description, hello.serves, hello.problem);
 }
 
 // One case and how to run it; a CaseRun comes back for each configuration, in order.

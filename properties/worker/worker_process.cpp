@@ -36,7 +36,6 @@ struct WorkerProcess::Parts {
   WorkerLimits limits;
   std::optional<Live> live;
   PluginDescription description;
-  std::string problem;  // why there is no worker
   // A plug-in that was loaded before, and dies or hangs when it is loaded again, does so by itself.
   bool was_loaded = false;
   RunEnd end_of_loading = RunEnd::not_run;
@@ -45,29 +44,29 @@ struct WorkerProcess::Parts {
   std::uint64_t untold = 0;  // before the run that is next
   int killed_under_way = 0;  // attempts at that run that were disturbed
 
-  // A live worker, a new one if need be; else `problem` says why not.
-  bool ensure() {
+  // A live worker, a new one if need be.
+  Expected<void> ensure() {
     if (live && live->channel.is_closed()) bury();
     for (int killed = 0; !live; ++killed) {
       end_of_loading = RunEnd::not_run;
-      if (!start()) return false;
-      const auto end = greet();
-      if (end && was_killed_from_outside(*end)) {
-        if (killed + 1 < attempts) continue;
-        problem = ended_while_loaded(every_time(*end));
-      } else if (end) {
-        problem = ended_while_loaded(end->text);
-      }
-      if (end && was_loaded && plugin_library) end_of_loading = RunEnd::crashed;
-      if (!problem.empty()) {
+      if (auto started = start(); !started) return started;
+      const auto greeted = greet();
+      if (!greeted) {
         live.reset();
-        return false;
+        return greeted.error();
+      }
+      if (const auto& end = greeted.value()) {
+        const bool is_outside = was_killed_from_outside(*end);
+        if (is_outside && killed + 1 < attempts) continue;
+        if (was_loaded && plugin_library) end_of_loading = RunEnd::crashed;
+        return Problem{
+            ProblemKind::ended_while_loaded,
+            who() + ": ended while it was loaded: " + (is_outside ? every_time(*end) : end->text)};
       }
       was_loaded = true;
       untold += static_cast<std::uint64_t>(killed);
-      return true;
     }
-    return true;
+    return boost::outcome_v2::success();
   }
 
   // One that ended between two cases owes no answer. The system kills it when the thread that
@@ -78,50 +77,47 @@ struct WorkerProcess::Parts {
     live.reset();
   }
 
-  bool start() {
-    problem.clear();
+  Expected<void> start() {
     auto ends = Channel::connected();
-    if (!ends) {
-      problem = "no socket for a worker";
-      return false;
-    }
+    if (!ends) return Problem{ProblemKind::cannot_start, "no socket for a worker"};
     std::vector<std::string> arguments = {std::to_string(child_descriptor),
                                           std::to_string(::getpid()), std::to_string(limits.bytes)};
     if (plugin_library) arguments.push_back(plugin_library->string());
-    auto child = ChildProcess::start(program, arguments, ends->second.descriptor(), problem);
-    if (!child) return false;
+    auto child = ChildProcess::start(program, arguments, ends->second.descriptor());
+    if (!child) return child.error();
     ++starts;
-    live.emplace(Live{std::move(*child), std::move(ends->first), std::this_thread::get_id()});
+    live.emplace(
+        Live{std::move(child.value()), std::move(ends->first), std::this_thread::get_id()});
     { const Channel closed_here = std::move(ends->second); }
-    return true;
+    return boost::outcome_v2::success();
   }
 
   std::string who() const { return plugin_library ? plugin_library->string() : program.string(); }
-  std::string ended_while_loaded(const std::string& how) const {
-    return who() + ": ended while it was loaded: " + how;
-  }
 
-  // How the worker ended, if it did, without a word; then there is none. Any other trouble is in
-  // `problem`.
-  std::optional<ChildEnd> greet() {
+  // Hears the worker's first message. How the worker ended, where it did so without a word; then
+  // there is none any more.
+  Expected<std::optional<ChildEnd>> greet() {
     WorkerWatch watch(live->child, limits.seconds);
     std::string message;
     const Transfer received = live->channel.receive(message, [&] { return watch.patience(); });
     Hello hello;
     if (received == Transfer::timed_out && !watch.has_ended()) {
-      problem = who() + ": hung while it was loaded: " + watch.why();
       if (was_loaded && plugin_library) end_of_loading = RunEnd::hung;
-    } else if (received != Transfer::done) {
+      return Problem{ProblemKind::hung_while_loaded,
+                     who() + ": hung while it was loaded: " + watch.why()};
+    }
+    if (received != Transfer::done) {
       const ChildEnd end = live->child.finish(last_breath);
       live.reset();
-      return end;
-    } else if (!decode(message, hello) || hello.wire_version != wire_version()) {
-      problem = program.string() + ": of another build than this program";
-    } else {
-      problem = hello.problem;
-      description = std::move(hello.description);
+      return std::optional(end);
     }
-    return std::nullopt;
+    if (!decode(message, hello) || hello.wire_version != wire_version()) {
+      return Problem{ProblemKind::another_build,
+                     program.string() + ": of another build than this program"};
+    }
+    if (!hello.serves) return hello.problem;
+    description = std::move(hello.description);
+    return std::optional<ChildEnd>();
   }
 
   // Sends what is left to do and appends what comes back, until a run ends the worker.
@@ -195,8 +191,8 @@ WorkerProcess::WorkerProcess(WorkerProcess&&) noexcept = default;
 WorkerProcess& WorkerProcess::operator=(WorkerProcess&&) noexcept = default;
 WorkerProcess::~WorkerProcess() = default;
 
-PluginExpected<PluginDescription> WorkerProcess::describe() {
-  if (!parts_->ensure()) return PluginProblem{parts_->problem};
+Expected<PluginDescription> WorkerProcess::describe() {
+  if (const auto ready = parts_->ensure(); !ready) return ready.error();
   return parts_->description;
 }
 
@@ -205,10 +201,10 @@ std::vector<CaseRun> WorkerProcess::run(const corpus::Case& c,
   std::vector<CaseRun> runs;
   while (runs.size() < configurations.size()) {
     const auto rest = configurations.subspan(runs.size());
-    if (parts_->ensure()) {
+    if (const auto ready = parts_->ensure()) {
       parts_->run_rest(c, {rest.begin(), rest.end()}, runs);
     } else {
-      parts_->keep({parts_->end_of_loading, parts_->problem, {}}, runs);
+      parts_->keep({parts_->end_of_loading, ready.error().message, {}}, runs);
     }
   }
   return runs;

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_description.h"
 
@@ -36,9 +37,10 @@ class WorkerProcess {
   WorkerProcess& operator=(WorkerProcess&&) noexcept;
   ~WorkerProcess();  // ends the worker and waits for it
 
-  // What the plug-in says of itself, or one line: not found, not a plug-in, wrong ABI version, the
-  // worker itself cannot be started. Without a plug-in: the built-in detector, all claims.
-  PluginExpected<PluginDescription> describe();
+  // What the plug-in says of itself; without a plug-in: the built-in detector, all claims. Problems
+  // are those of PluginHost::open, or of the worker: cannot_start, another_build,
+  // ended_while_loaded, hung_while_loaded.
+  Expected<PluginDescription> describe();
 
   // One run for each configuration, in order. A crash or a hang is reported for the configuration
   // that had it; the others still run, in a new worker. Where no worker can be started the runs are

@@ -12,8 +12,8 @@ corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& fi
   if (files.size() == 1 && std::filesystem::path(files[0]).extension() == ".json") {
     auto c = corpus::read_case(files[0]);
     if (!c) return c.error();
-    if (auto wrong = properties::wrong_option(c.value())) {
-      return corpus::problem_in(corpus::FileProblem::wrong_type, files[0], *wrong);
+    if (const auto options = properties::read_options(c.value()); !options) {
+      return corpus::problem_in(corpus::FileProblem::wrong_type, files[0], options.error().message);
     }
     input.c = std::move(c.value());
     input.is_case_file = true;

@@ -33,8 +33,8 @@ SceneMaker::SceneMaker(const std::optional<std::string>& library)
 std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,
                                               const std::string& configuration) {
   properties::Configuration chosen{configuration, {}};
-  if (detector_.built_in && !properties::wrong_option(c))
-    chosen.options = properties::options_of(c);
+  if (const auto options = properties::read_options(c); detector_.built_in && options)
+    chosen.options = options.value();
   auto scene = make_scene(c, detector_, chosen, {worker_ ? &*worker_ : nullptr, &reference_});
   if (scene && !absent_.empty()) scene->ended = absent_;
   return scene;

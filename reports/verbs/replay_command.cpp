@@ -88,8 +88,9 @@ corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
 std::optional<std::string> choose_configurations(const corpus::Case& c,
                                                  properties::DetectorUnderTest& detector) {
   if (!detector.built_in || c.options.empty()) return std::nullopt;
-  if (auto wrong = properties::wrong_option(c)) return wrong;
-  const auto options = properties::options_of(c);
+  const auto read = properties::read_options(c);
+  if (!read) return read.error().message;
+  const auto& options = read.value();
   const char* first = options.pairs == detector::Pairs::first ? "/first" : "";
   detector.configurations = {
       {fmt::format("{}{}", properties::name_of(options.culling), first), options}};

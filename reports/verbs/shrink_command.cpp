@@ -58,15 +58,14 @@ int run_shrink(const ShrinkRequest& request) {
   auto read = corpus::read_case(request.file);
   if (!read) return refuse(read.error().message);
   const corpus::Case& c = read.value();
-  if (auto wrong = properties::wrong_option(c)) {
-    return refuse(fmt::format("{}: {}", request.file, *wrong));
-  }
+  const auto options = properties::read_options(c);
+  if (!options) return refuse(fmt::format("{}: {}", request.file, options.error().message));
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
   if (auto chosen = choose_detector(request.detector, subject); !chosen)
     return refuse(chosen.error());
   if (subject.detector.built_in && !c.options.empty()) {
-    subject.detector.configurations = {{"the case's own", properties::options_of(c)}};
+    subject.detector.configurations = {{"the case's own", options.value()}};
   }
   constexpr double hang_seconds = 10;
   properties::WorkerProcess worker(subject.worker, subject.plugin, {hang_seconds, 0});

@@ -26,18 +26,25 @@ std::string line_of(const char* text) {
   return line;
 }
 
-std::string check_table(const assay_detector_api* api) {
-  if (!api) return "not a detector plug-in: assay_detector() returns nothing";
+// The problems that follow do not name the library yet.
+Expected<void> check_table(const assay_detector_api* api) {
+  if (!api) {
+    return Problem{ProblemKind::not_a_plugin,
+                   "not a detector plug-in: assay_detector() returns nothing"};
+  }
   if (api->abi_version != ASSAY_DETECTOR_ABI_VERSION) {
-    return "built for ABI version " + std::to_string(api->abi_version) + ", this program has " +
-           std::to_string(ASSAY_DETECTOR_ABI_VERSION);
+    return Problem{ProblemKind::other_abi_version,
+                   "built for ABI version " + std::to_string(api->abi_version) +
+                       ", this program has " + std::to_string(ASSAY_DETECTOR_ABI_VERSION)};
   }
   const bool complete =
       api->describe && api->create && api->evaluate && api->commit && api->result && api->destroy;
-  return complete ? "" : "a function is missing in its table";
+  if (!complete) return Problem{ProblemKind::broken_plugin, "a function is missing in its table"};
+  return boost::outcome_v2::success();
 }
 
-std::string read_description(const assay_description* raw, PluginDescription& description) {
+// What the description does not say sensibly; empty: nothing.
+std::string fault_of(const assay_description* raw) {
   if (!raw) return "describe() returns nothing";
   constexpr std::uint32_t all_bits = (ASSAY_CLAIM_TOTAL << 1) - 1;
   if (raw->claims & ~all_bits) return "unknown bits in its claims";
@@ -48,9 +55,15 @@ std::string read_description(const assay_description* raw, PluginDescription& de
     return "unknown coordinates " + std::to_string(raw->coordinates);
   }
   if (!std::isfinite(raw->margin) || raw->margin < 0) return "its margin is no length";
+  return line_of(raw->name).empty() ? "it has no name" : "";
+}
+
+Expected<PluginDescription> read_description(const assay_description* raw) {
+  std::string fault = fault_of(raw);
+  if (!fault.empty()) return Problem{ProblemKind::broken_plugin, std::move(fault)};
+  PluginDescription description;
   description.name = line_of(raw->name);
   description.version = line_of(raw->version);
-  if (description.name.empty()) return "it has no name";
   const auto has = [&](std::uint32_t bit) { return (raw->claims & bit) != 0; };
   description.claims = {has(ASSAY_CLAIM_FREE_SOUND),    has(ASSAY_CLAIM_NOT_LATE),
                         has(ASSAY_CLAIM_FIRST_TIME),    has(ASSAY_CLAIM_FIRST_PAIRS),
@@ -58,7 +71,7 @@ std::string read_description(const assay_description* raw, PluginDescription& de
                         has(ASSAY_CLAIM_DETERMINISTIC), has(ASSAY_CLAIM_TOTAL)};
   description.contract = {static_cast<Adjacency>(raw->adjacency),
                           static_cast<Coordinates>(raw->coordinates), raw->margin};
-  return "";
+  return description;
 }
 
 // The steps of one case through one handle.
@@ -67,34 +80,32 @@ class PluginRun {
   PluginRun(const assay_detector_api& api, assay_handle* handle, std::int32_t triangle_count)
       : api_(api), handle_(handle, api.destroy), triangle_count_(triangle_count) {}
 
-  StepResult step(const detector::Positions& x_t0, const detector::Positions& x_t1, bool commit,
-                  std::string& problem) {
-    StepResult result;
-    if (!called("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data()), result,
-                problem)) {
-      return result;
-    }
+  // The result of a step, or why it has none: out_of_memory, step_failed, broken_result.
+  Expected<StepResult> step(const detector::Positions& x_t0, const detector::Positions& x_t1,
+                            bool commit) {
+    const auto evaluated =
+        called("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data()));
+    if (!evaluated) return evaluated.error();
     assay_result raw = {};
-    if (!called("result", api_.result(handle_.get(), &raw), result, problem)) return result;
-    result = step_result(raw, triangle_count_, problem);
-    const bool answered = result.answer == Answer::free || result.answer == Answer::collision;
-    StepResult failed;
-    if (commit && answered && !called("commit", api_.commit(handle_.get()), failed, problem)) {
-      return failed;
+    const auto asked = called("result", api_.result(handle_.get(), &raw));
+    if (!asked) return asked.error();
+    auto result = step_result(raw, triangle_count_);
+    if (!result) return result;
+    const Answer answer = result.value().answer;
+    if (commit && (answer == Answer::free || answer == Answer::collision)) {
+      const auto committed = called("commit", api_.commit(handle_.get()));
+      if (!committed) return committed.error();
     }
     return result;
   }
 
  private:
-  // Whether the call did its work; else `result` is what the step becomes.
-  static bool called(const char* function, std::int32_t code, StepResult& result,
-                     std::string& problem) {
-    if (code == ASSAY_OK) return true;
-    result.answer = code == ASSAY_OUT_OF_MEMORY ? Answer::undecided : Answer::error;
-    problem = code == ASSAY_OUT_OF_MEMORY
-                  ? "out of memory"
-                  : std::string(function) + " returned " + std::to_string(code);
-    return false;
+  // Whether the call did its work.
+  static Expected<void> called(const char* function, std::int32_t code) {
+    if (code == ASSAY_OK) return boost::outcome_v2::success();
+    if (code == ASSAY_OUT_OF_MEMORY) return Problem{ProblemKind::out_of_memory, "out of memory"};
+    return Problem{ProblemKind::step_failed,
+                   std::string(function) + " returned " + std::to_string(code)};
   }
 
   const assay_detector_api& api_;
@@ -104,25 +115,32 @@ class PluginRun {
 
 }  // namespace
 
-PluginExpected<PluginHost> PluginHost::open(const std::filesystem::path& library) {
-  const auto problem = [&](const std::string& what) {
-    return PluginProblem{library.string() + ": " + line_of(what.c_str())};
+Expected<PluginHost> PluginHost::open(const std::filesystem::path& library) {
+  const auto problem = [&](ProblemKind kind, const std::string& what) {
+    return Problem{kind, library.string() + ": " + line_of(what.c_str())};
   };
   std::error_code ignored;
-  if (!std::filesystem::exists(library, ignored)) return problem("no such file");
+  if (!std::filesystem::exists(library, ignored))
+    return problem(ProblemKind::not_found, "no such file");
   // With a slash in it, so that no search path is asked.
   const auto path = std::filesystem::absolute(library, ignored);
   void* loaded = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!loaded) return problem(std::string("not a detector plug-in: ") + ::dlerror());
+  if (!loaded) {
+    return problem(ProblemKind::not_a_plugin,
+                   std::string("not a detector plug-in: ") + ::dlerror());
+  }
   const auto entry =
       reinterpret_cast<const assay_detector_api* (*)()>(::dlsym(loaded, "assay_detector"));
-  if (!entry) return problem("not a detector plug-in: it exports no assay_detector()");
+  if (!entry) {
+    return problem(ProblemKind::not_a_plugin,
+                   "not a detector plug-in: it exports no assay_detector()");
+  }
   const assay_detector_api* api = entry();
-  PluginDescription description;
-  std::string wrong = check_table(api);
-  if (wrong.empty()) wrong = read_description(api->describe(), description);
-  if (!wrong.empty()) return problem(wrong);
-  return PluginHost(api, std::move(description));
+  const auto table = check_table(api);
+  if (!table) return problem(table.error().kind, table.error().message);
+  auto description = read_description(api->describe());
+  if (!description) return problem(description.error().kind, description.error().message);
+  return PluginHost(api, std::move(description.value()));
 }
 
 CaseRun PluginHost::run(const corpus::Case& c) const {
@@ -148,12 +166,17 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
   PluginRun plugin(*api_, handle, static_cast<std::int32_t>(c.triangles.rows()));
   CaseRun run;
   for (const auto& step : corpus::steps_of(c)) {
-    std::string problem;
-    run.steps.push_back(plugin.step(frames[static_cast<std::size_t>(step.from)],
-                                    frames[static_cast<std::size_t>(step.to)], step.commit,
-                                    problem));
-    if (!problem.empty() && run.what.empty()) {
-      run.what = "step " + std::to_string(run.steps.size()) + ": " + line_of(problem.c_str());
+    auto result = plugin.step(frames[static_cast<std::size_t>(step.from)],
+                              frames[static_cast<std::size_t>(step.to)], step.commit);
+    if (result) {
+      run.steps.push_back(std::move(result.value()));
+      continue;
+    }
+    const auto& [kind, why] = result.error();
+    StepResult& failed = run.steps.emplace_back();
+    failed.answer = kind == ProblemKind::out_of_memory ? Answer::undecided : Answer::error;
+    if (run.what.empty()) {
+      run.what = "step " + std::to_string(run.steps.size()) + ": " + line_of(why.c_str());
     }
   }
   return run;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "detector/plugin/assay_detector.h"
+#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_description.h"
 
@@ -12,9 +13,10 @@ namespace assay::properties {
 
 class PluginHost {
  public:
-  // Problems: no such file, not a shared library, no assay_detector() in it, another ABI version,
-  // a table with a gap, a description that says nothing sensible. Never unloaded again.
-  static PluginExpected<PluginHost> open(const std::filesystem::path& library);
+  // not_found; not_a_plugin: not a shared library, or no assay_detector() in it; other_abi_version;
+  // broken_plugin: a table with a gap, or a description that says nothing sensible. Never unloaded
+  // again.
+  static Expected<PluginHost> open(const std::filesystem::path& library);
 
   const PluginDescription& description() const { return description_; }
 

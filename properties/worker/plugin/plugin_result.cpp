@@ -23,6 +23,7 @@ bool read_pair(const std::int32_t* raw, std::int32_t triangle_count, detector::T
   return 0 <= pair.a && pair.a < pair.b && pair.b < triangle_count;
 }
 
+// Which rule is broken; empty: none.
 std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
                        std::vector<PairContact>& pairs) {
   if (raw.pair_count > 0 && !raw.pairs) return "pairs are counted but not given";
@@ -48,6 +49,7 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
   return "";
 }
 
+// REQUIRES that the plug-in does not call it an error. Which rule is broken; empty: none.
 std::string read_result(const assay_result& raw, std::int32_t triangle_count,
                         detector::StepResult& result) {
   switch (raw.answer) {
@@ -62,8 +64,6 @@ std::string read_result(const assay_result& raw, std::int32_t triangle_count,
       result.first = {raw.first_lo, raw.first_hi};
       if (!is_interval(result.first)) return "its first time is no interval in [0, 1]";
       return read_pairs(raw, triangle_count, result.pairs);
-    case ASSAY_ERROR:
-      return raw.message && *raw.message ? raw.message : "an error without a message";
     default:
       return "answer " + std::to_string(raw.answer) + " is none";
   }
@@ -71,14 +71,15 @@ std::string read_result(const assay_result& raw, std::int32_t triangle_count,
 
 }  // namespace
 
-detector::StepResult step_result(const assay_result& raw, std::int32_t triangle_count,
-                                 std::string& problem) {
+Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count) {
+  if (raw.answer == ASSAY_ERROR) {
+    return Problem{ProblemKind::step_failed,
+                   raw.message && *raw.message ? raw.message : "an error without a message"};
+  }
   detector::StepResult result;
-  problem = read_result(raw, triangle_count, result);
-  if (problem.empty()) return result;
-  detector::StepResult error;
-  error.answer = Answer::error;
-  return error;
+  std::string broken = read_result(raw, triangle_count, result);
+  if (!broken.empty()) return Problem{ProblemKind::broken_result, std::move(broken)};
+  return result;
 }
 
 }  // namespace assay::properties

@@ -1,17 +1,16 @@
 // A plug-in's result as a StepResult.
 #pragma once
 
-#include <string>
-
 #include "detector/options.h"
 #include "detector/plugin/assay_detector.h"
 #include "detector/step_result.h"
+#include "properties/problem.h"
 
 namespace assay::properties {
 
-// Pairs a < b, ascending, each once with its least time ([0, 1] where none is stated). A result
-// that breaks the header's rules is an error, and `problem` says which, in one line.
-detector::StepResult step_result(const assay_result& raw, std::int32_t triangle_count,
-                                 std::string& problem);
+// Pairs a < b, ascending, each once with its least time ([0, 1] where none is stated).
+// broken_result where it breaks the header's rules; step_failed, with the plug-in's own words,
+// where it says that the step has no answer.
+Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count);
 
 }  // namespace assay::properties

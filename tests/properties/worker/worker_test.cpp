@@ -221,13 +221,16 @@ TEST(Worker, DiesWithItsHost) {
 TEST(Worker, WithoutAProgramNothingIsRun) {
   WorkerProcess worker("/nowhere/assay-worker", std::nullopt);
   ASSERT_FALSE(worker.describe());
+  EXPECT_EQ(worker.describe().error().kind, ProblemKind::cannot_start);
   EXPECT_NE(worker.describe().error().message.find("cannot start /nowhere/assay-worker"),
             std::string::npos);
   const auto runs = worker.run(small_case(31, 0), four);
   ASSERT_EQ(runs.size(), 4u);
   for (const auto& run : runs) EXPECT_EQ(run.end, RunEnd::not_run);
   // Another program is no worker.
-  EXPECT_FALSE(WorkerProcess("/bin/true", std::nullopt).describe());
+  const auto other = WorkerProcess("/bin/true", std::nullopt).describe();
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().kind, ProblemKind::ended_while_loaded);
 }
 
 std::string output_of(const std::string& command) {
