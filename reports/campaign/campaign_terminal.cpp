@@ -37,11 +37,10 @@ std::string rest_text(std::uint64_t done, std::uint64_t left, double seconds) {
 
 class CampaignTerminal : public properties::CampaignObserver {
  public:
-  CampaignTerminal(const properties::CampaignRequest& request, const properties::Store& store,
-                   std::string out)
-      : request_(request), store_(store), out_(std::move(out)) {
-    announce();
-  }
+  CampaignTerminal(const properties::CampaignRequest& request, std::string out)
+      : request_(request), out_(std::move(out)) {}
+
+  void on_begin(std::uint64_t trials) override { announce(trials); }
 
   void on_phase(const char* phase) override {
     phase_began_ = Clock::now();
@@ -73,10 +72,10 @@ class CampaignTerminal : public properties::CampaignObserver {
 
   void on_shrinking(const std::string& signature) override { progress_->show(signature); }
 
-  void on_failures_shrunk() override {
+  void on_failures_shrunk(const properties::KeptFailures& kept) override {
     progress_.reset();
     const auto failures =
-        write_failures(store_, out_, request_.plugin ? request_.plugin->string() : "");
+        write_failures(kept, out_, request_.plugin ? request_.plugin->string() : "");
     fmt::print("{}", failures.text);
     std::fflush(stdout);
     problem_ = failures.problem;
@@ -103,10 +102,9 @@ class CampaignTerminal : public properties::CampaignObserver {
   const std::optional<std::string>& problem() const { return problem_; }
 
  private:
-  void announce() const {
+  void announce(std::uint64_t stored) const {
     const auto& plan = request_.plan;
     const auto planned = properties::planned_trial_count(plan, request_.shard);
-    const auto stored = store_.trial_count();
     fmt::print("campaign {}, seed {}, shard {}: {} trials of {} families{}, {} configurations",
                plan.name, request_.seed, text_of(request_.shard), planned, plan.strata.size(),
                stored ? fmt::format(" ({} are stored, {} to do)", stored, planned - stored) : "",
@@ -135,7 +133,6 @@ class CampaignTerminal : public properties::CampaignObserver {
   }
 
   const properties::CampaignRequest& request_;
-  const properties::Store& store_;
   const std::string out_;
   Clock::time_point phase_began_;
   std::optional<PlainProgress> progress_;
@@ -159,7 +156,9 @@ std::optional<std::string> ask_for_campaign(const CampaignWords& words,
   request.worker = properties::worker_program();
   // Before the first code of a plug-in runs.
   if (!words.power.empty()) {
-    if (auto problem = properties::take_power(words.power, words.out, request)) return problem;
+    auto proof = properties::take_power(words.power, words.out, request);
+    if (!proof) return proof.error().message;
+    request.power = std::move(proof.value());
   }
   if (auto problem = choose_detector(words.detector, request)) return problem;
   std::error_code error;
@@ -170,9 +169,9 @@ std::optional<std::string> ask_for_campaign(const CampaignWords& words,
 
 std::optional<std::string> run_on_terminal(const properties::CampaignRequest& request,
                                            properties::Store& store, const std::string& out) {
-  note_library(store, request);
-  CampaignTerminal terminal(request, store, out);
-  properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal);
+  CampaignTerminal terminal(request, out);
+  const auto ran = properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal);
+  if (!ran) return ran.error().message;
   return terminal.problem();
 }
 

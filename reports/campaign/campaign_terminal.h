@@ -27,8 +27,8 @@ std::optional<std::string> ask_for_campaign(const CampaignWords& words,
 
 // Does all of the campaign that the store does not hold yet. Says what it is going to do, how far
 // it is and how long that will take, and shows the failures, with their files and pictures below
-// `out`, as soon as all of them are shrunk. A line for the user when a file could not be written:
-// what is stored stays then. Throws StoreProblem.
+// `out`, as soon as all of them are shrunk. A line for the user when a file could not be written,
+// or the store could not be: what is stored stays then.
 std::optional<std::string> run_on_terminal(const properties::CampaignRequest& request,
                                            properties::Store& store, const std::string& out);
 

@@ -23,7 +23,7 @@ struct FailureReport {
 // signature. A failure is told once for each signature: claim,
 // how often it was met, both sizes, triangles, feature, the line that replays it. plugin: the
 // library that failed, or empty.
-FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
+FailureReport write_failures(const properties::KeptFailures& kept, const std::filesystem::path& out,
                              const std::string& plugin);
 
 }  // namespace assay::reports

@@ -2,24 +2,28 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <set>
 
 #include "corpus/digest.h"
+#include "properties/campaign/phases/corpus_failures.h"
 #include "properties/campaign/stored/binding.h"
+#include "properties/campaign/stored/checks.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/certificate/corpus_check.h"
-#include "reports/certificate/corpus_failures.h"
 #include "reports/certificate/other_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/certificate/waivers.h"
 #include "reports/steps/json_output.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/plain_progress.h"
 #include "reports/terminal/shell_word.h"
 #include "reports/verbs/commands.h"
 #include "reports/version.h"
@@ -29,24 +33,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using properties::DroppedKind;
-using properties::Store;
 using properties::stored_shards;
 
 constexpr const char* known_failures = ASSAY_CORPUS_DIR "/../known.json";
 
 // A folder that holds shards of more than one, or a merged store: nothing of it is run here.
 bool holds_shards(const std::filesystem::path& out) {
-  std::string ignored;
-  for (const auto& file : stored_shards(out, ignored)) {
-    if (file != properties::store_file(out, {})) return true;
-  }
-  return false;
+  const auto files = stored_shards(out);
+  return files && std::any_of(files.value().begin(), files.value().end(), [&](const auto& file) {
+           return file != properties::store_file(out, {});
+         });
 }
 
 class Certification {
  public:
   Certification(const CertifyRequest& command, const properties::CampaignRequest& request,
-                Store checks)
+                properties::Checks checks)
       : command_(command),
         request_(request),
         out_(command.out),
@@ -62,6 +64,7 @@ class Certification {
     if (const auto wrong = store_waivers()) return refuse(*wrong);
     if (const auto wrong = run_corpus()) return refuse(*wrong);
     forget_corpus_failures();
+    if (const auto& lost = checks_.problem()) return refuse(lost->message);
     if (const auto wrong = holds_shards(out_) ? take_shards() : run_trials()) return refuse(*wrong);
     if (const auto wrong = show_corpus_failures()) return refuse(*wrong);
     run_self_test();
@@ -83,14 +86,14 @@ class Certification {
 
   template <class T>
   void keep(const T& evidence) {
-    checks_.set(to_row(evidence));
+    checks_.keep(evidence);
   }
 
   std::optional<std::string> store_waivers() {
     const auto waivers = read_waivers(known_failures);
     if (!waivers) return waivers.error().message;
     const auto today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
-    drop(checks_, DroppedKind::waiver);
+    checks_.drop(DroppedKind::waiver);
     for (const auto& waiver : waivers.value())
       keep(properties::StoredWaiver{waiver.signature, waiver.reason, waiver.link, waiver.expires,
                                     is_expired(waiver, today)});
@@ -99,7 +102,7 @@ class Certification {
 
   std::optional<std::string> run_corpus() {
     fmt::print("{}", corpus_heading());
-    drop(checks_, DroppedKind::corpus);
+    checks_.drop(DroppedKind::corpus);
     const auto on_row = [&](const properties::CorpusRow& row) {
       fmt::print("{}", corpus_row_text(row));
       std::fflush(stdout);
@@ -118,47 +121,45 @@ class Certification {
 
   std::optional<std::string> show_corpus_failures() {
     if (corpus_failures_.empty()) return std::nullopt;
-    keep_corpus_failures(request_, corpus_failures_, signatures_of_trials(out_), checks_);
-    const auto shown = write_failures(checks_, out_, command_.detector);
+    {
+      PlainProgress progress("shrinking");
+      properties::keep_corpus_failures(request_, corpus_failures_, out_, checks_,
+                                       [&](const std::string& text) { progress.show(text); });
+    }
+    const auto kept = checks_.failures();
+    if (!kept) return kept.error().message;
+    const auto shown = write_failures(kept.value(), out_, command_.detector);
     fmt::print("{}", shown.text);
     return shown.problem;
   }
 
   std::optional<std::string> run_trials() {
     fmt::print("\n");
-    std::string problem;
-    auto store = Store::open(properties::store_file(out_, request_.shard),
-                             properties::binding_of(request_), problem);
-    if (!store) return problem;
-    const auto wrong = run_on_terminal(request_, *store, command_.out);
-    store->seal();
+    auto store = properties::Store::open(properties::store_file(out_, request_.shard),
+                                         properties::binding_of(request_));
+    if (!store) return store.error().message;
+    const auto wrong = run_on_terminal(request_, store.value(), command_.out);
+    const auto sealed = store.value().seal();
+    if (!wrong && !sealed) return sealed.error().message;
     return wrong;
   }
 
   // What `run` stored, or `merge`: read, and made whole files of.
   std::optional<std::string> take_shards() {
-    std::string problem;
-    for (const auto& file : stored_shards(out_, problem)) {
-      auto bound = Store::read(file, problem);
-      if (!bound) return problem;
-      const std::string binding = bound->binding();
-      const auto difference = properties::difference_of(binding, properties::binding_of(request_));
-      if (!difference.empty())
-        return fmt::format("{}: of another run: {}", file.string(), difference);
-      const auto failures = write_failures(*bound, out_, command_.detector);
+    const auto files = stored_shards(out_);
+    if (!files) return files.error().message;
+    for (const auto& file : files.value()) {
+      const auto whole = properties::make_whole(file, request_);
+      if (!whole) return whole.error().message;
+      const auto failures = write_failures(whole.value().failures, out_, command_.detector);
       if (failures.problem) return failures.problem;
-      // Nobody else may hold the file when it is sealed.
-      bound.reset();
-      auto store = Store::open(file, binding, problem);
-      if (!store) return problem;
-      store->seal();
-      fmt::print("{}: {} trials\n", file.filename().string(), store->trial_count());
+      fmt::print("{}: {} trials\n", file.filename().string(), whole.value().trials);
     }
     return std::nullopt;
   }
 
   void run_self_test() {
-    drop(checks_, DroppedKind::self_test);
+    checks_.drop(DroppedKind::self_test);
     const auto queries = request_.plan.policy.self_test_queries;
     if (queries == 0) return;
     std::uint64_t asked = 0, contradictions = 0;
@@ -173,7 +174,7 @@ class Certification {
   }
 
   void run_speed() {
-    drop(checks_, DroppedKind::times);
+    checks_.drop(DroppedKind::times);
     fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
     measure_speed([&](const properties::SpeedFigure& figure) {
       fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.what, figure.median,
@@ -188,17 +189,19 @@ class Certification {
     keep(properties::Issued{fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
                             seconds});
     checks_.seal();
-    std::string problem;
-    const auto statement = make_statement(out_, problem);
-    const auto findings = statement ? properties::read_findings(out_, problem) : std::nullopt;
-    if (!findings) return refuse(problem);
+    if (const auto& lost = checks_.problem()) return refuse(lost->message);
+    const auto statement = make_statement(out_);
+    if (!statement) return refuse(statement.error().message);
+    const auto findings = properties::read_findings(out_);
+    if (!findings) return refuse(findings.error().message);
     const auto certificate = properties::certificate_file(out_).string();
-    if (const auto wrong = write_text_file(certificate, statement_text(*statement)))
+    if (const auto wrong = write_text_file(certificate, statement_text(statement.value())))
       return refuse(*wrong);
-    if (const auto wrong = write_for_ci((*statement)["predicate"], out_)) return refuse(*wrong);
-    const auto judgement = judge(*findings);
+    if (const auto wrong = write_for_ci(statement.value()["predicate"], out_))
+      return refuse(*wrong);
+    const auto judgement = judge(findings.value());
     fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nnext: assay verify {}\n",
-               findings_text(*findings), gates_text(judgement), judgement.verdict, seconds,
+               findings_text(findings.value()), gates_text(judgement), judgement.verdict, seconds,
                certificate, shell_word(certificate));
     return judgement.exit_code;
   }
@@ -206,7 +209,7 @@ class Certification {
   const CertifyRequest& command_;
   const properties::CampaignRequest& request_;
   const std::filesystem::path out_;
-  Store checks_;
+  properties::Checks checks_;
   std::vector<properties::StoredFailure> corpus_failures_;
   const Clock::time_point begin_;
 };
@@ -226,18 +229,11 @@ int run_certify(const CertifyRequest& command) {
         fmt::format("{}: its shards are judged by their own planted faults: give --power "
                     "to the run of each",
                     command.out));
-  std::string problem;
-  auto checks = Store::open(
-      properties::checks_file(command.out),
-      *properties::with_shard(properties::binding_of(request), properties::checks_shard), problem);
-  if (!checks) return refuse(problem);
+  auto checks = properties::Checks::open(command.out, request);
+  if (!checks) return refuse(checks.error().message);
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
              command.out);
-  try {
-    return Certification(command, request, std::move(*checks)).run();
-  } catch (const properties::StoreProblem& broken) {
-    return refuse(broken.what());
-  }
+  return Certification(command, request, std::move(checks.value())).run();
 }
 
 }  // namespace assay::reports

@@ -59,19 +59,14 @@ int run_campaign(const RunCommandRequest& command) {
   }
   request.shard = command.shard;
   const auto file = properties::store_file(command.out, request.shard);
-  std::string problem;
-  auto store = properties::Store::open(file, properties::binding_of(request), problem);
-  if (!store) return refuse(problem);
-  try {
-    if (const auto wrong = run_on_terminal(request, *store, command.out))
-      return refuse(*wrong + go_on);
-  } catch (const properties::StoreProblem& broken) {
-    return refuse(std::string(broken.what()) + go_on);
-  }
-  const auto findings = properties::read_one_store(file, problem);
-  if (!findings) return refuse(problem + go_on);
+  auto store = properties::Store::open(file, properties::binding_of(request));
+  if (!store) return refuse(store.error().message);
+  if (const auto wrong = run_on_terminal(request, store.value(), command.out))
+    return refuse(*wrong + go_on);
+  const auto findings = properties::read_one_store(file);
+  if (!findings) return refuse(findings.error().message + go_on);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  return conclude(command, request, *findings, took.count());
+  return conclude(command, request, findings.value(), took.count());
 }
 
 }  // namespace assay::reports
