@@ -40,8 +40,9 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   request.worker = properties::worker_program();
   // Before the first code of a plug-in runs.
   if (!words.power.empty()) {
-    if (auto problem = properties::take_power(words.power, words.out, request))
-      return Refusal(*problem);
+    auto proof = properties::take_power(words.power, words.out, request);
+    if (!proof) return Refusal(proof.error());
+    request.power = std::move(proof.value());
   }
   if (auto chosen = choose_detector(words.detector, request); !chosen) return chosen.error();
   std::error_code error;

@@ -33,11 +33,10 @@ std::string rest_text(std::uint64_t done, std::uint64_t left, double seconds) {
 
 class CampaignTerminal : public properties::CampaignObserver {
  public:
-  CampaignTerminal(const properties::CampaignRequest& request, const properties::Store& store,
-                   std::string out)
-      : request_(request), store_(store), out_(std::move(out)) {
-    announce();
-  }
+  CampaignTerminal(const properties::CampaignRequest& request, std::string out)
+      : request_(request), out_(std::move(out)) {}
+
+  void on_begin(std::uint64_t trials) override { announce(trials); }
 
   void on_phase(const char* phase) override {
     phase_began_ = Clock::now();
@@ -69,10 +68,10 @@ class CampaignTerminal : public properties::CampaignObserver {
 
   void on_shrinking(const std::string& signature) override { progress_->show(signature); }
 
-  void on_failures_shrunk() override {
+  void on_failures_shrunk(const properties::KeptFailures& kept) override {
     progress_.reset();
     const auto failures =
-        write_failures(store_, out_, request_.plugin ? request_.plugin->string() : "");
+        write_failures(kept, out_, request_.plugin ? request_.plugin->string() : "");
     fmt::print("{}", failures.text);
     std::fflush(stdout);
     written_ = failures.written;
@@ -99,10 +98,9 @@ class CampaignTerminal : public properties::CampaignObserver {
   const Expected<void>& written() const { return written_; }
 
  private:
-  void announce() const {
+  void announce(std::uint64_t stored) const {
     const auto& plan = request_.plan;
     const auto planned = properties::planned_trial_count(plan, request_.shard);
-    const auto stored = store_.trial_count();
     fmt::print("campaign {}, seed {}, shard {}: {} trials of {} families{}, {} configurations",
                plan.name, request_.seed, text_of(request_.shard), planned, plan.strata.size(),
                stored ? fmt::format(" ({} are stored, {} to do)", stored, planned - stored) : "",
@@ -131,7 +129,6 @@ class CampaignTerminal : public properties::CampaignObserver {
   }
 
   const properties::CampaignRequest& request_;
-  const properties::Store& store_;
   const std::string out_;
   Clock::time_point phase_began_;
   std::optional<PlainProgress> progress_;
@@ -142,9 +139,9 @@ class CampaignTerminal : public properties::CampaignObserver {
 
 Expected<void> run_on_terminal(const properties::CampaignRequest& request, properties::Store& store,
                                const std::string& out) {
-  note_library(store, request);
-  CampaignTerminal terminal(request, store, out);
-  properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal);
+  CampaignTerminal terminal(request, out);
+  const auto ran = properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal);
+  if (!ran) return Refusal(ran.error());
   return terminal.written();
 }
 

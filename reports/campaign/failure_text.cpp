@@ -30,10 +30,10 @@ std::string size_of_mesh(const std::string& text) {
 
 }  // namespace
 
-FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
+FailureReport write_failures(const properties::KeptFailures& kept, const std::filesystem::path& out,
                              const std::string& plugin) {
   FailureReport report;
-  auto failures = store.failures();
+  auto failures = kept.list;
   if (failures.empty()) return report;
   std::stable_partition(failures.begin(), failures.end(),
                         [](const auto& failure) { return !failure.smallest.empty(); });
@@ -46,7 +46,6 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
     return report;
   }
   SceneMaker scenes(plugin);
-  const auto met = store.signatures();
   std::set<std::string> told;
   for (const auto& failure : failures) {
     for (const auto& [path, text] :
@@ -68,10 +67,10 @@ FailureReport write_failures(const properties::Store& store, const std::filesyst
                                             failure.configuration, failure.signature);
       if (!report.written) return report;
     }
-    const auto count = met.find(failure.signature);
+    const auto count = kept.met.find(failure.signature);
     report.text += fmt::format(
         "\nDEFECT {} ({}), met {} times\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n",
-        failure.signature, failure.configuration, count == met.end() ? 1 : count->second,
+        failure.signature, failure.configuration, count == kept.met.end() ? 1 : count->second,
         failure.what, failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",

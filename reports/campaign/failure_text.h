@@ -22,7 +22,7 @@ struct FailureReport {
 // under the same names in every run and shard, and a picture (.svg) of the smallest mesh of each
 // signature. A failure is told once for each signature: claim, how often it was met, both sizes,
 // triangles, feature, the line that replays it. plugin: the library that failed, or empty.
-FailureReport write_failures(const properties::Store& store, const std::filesystem::path& out,
+FailureReport write_failures(const properties::KeptFailures& kept, const std::filesystem::path& out,
                              const std::string& plugin);
 
 }  // namespace assay::reports

@@ -29,21 +29,24 @@ std::string difference_of(const Json& a, const Json& b) {
 
 }  // namespace
 
-std::optional<Json> pool(const std::vector<Json>& predicates, std::string& problem) {
+properties::Expected<Json> pool(const std::vector<Json>& predicates) {
+  using properties::Problem;
+  using properties::ProblemKind;
   std::set<std::pair<std::string, std::uint64_t>> nights;
   for (const auto& p : predicates) {
     const auto difference = difference_of(predicates[0], p);
     const auto& campaign = p["campaign"];
     if (!difference.empty()) {
-      problem = "these nights cannot be pooled: " + difference;
-    } else if (!nights.emplace(campaign["name"], campaign["seed"]).second) {
-      problem =
-          fmt::format("these nights cannot be pooled: campaign {} with seed {} is there twice",
-                      campaign["name"].get<std::string>(), campaign["seed"].get<std::uint64_t>());
-    } else {
-      continue;
+      return Problem{ProblemKind::another_run,
+                     fmt::format("these nights cannot be pooled: {}", difference)};
     }
-    return std::nullopt;
+    if (!nights.emplace(campaign["name"], campaign["seed"]).second) {
+      return Problem{
+          ProblemKind::wrong_shards,
+          fmt::format("these nights cannot be pooled: campaign {} with seed {} is there "
+                      "twice",
+                      campaign["name"].get<std::string>(), campaign["seed"].get<std::uint64_t>())};
+    }
   }
   Json list = Json::array();
   if (predicates.empty()) return list;

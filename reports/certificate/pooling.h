@@ -2,18 +2,18 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
 #include <vector>
+
+#include "properties/problem.h"
 
 namespace assay::reports {
 
 // The strata of certificates (their predicates) added up, with the bounds of the sums: a list of
-// {family, configuration, n, holds, bound}. Nothing, and one line in `problem`, unless all speak of
-// one detector, generator and judge: equal digests of program, worker, plug-in and generator, equal
-// detector, families and bounds. A fixed bug is another program, and starts at 0. No trial twice:
-// campaign and seed differ between any two.
-std::optional<nlohmann::ordered_json> pool(const std::vector<nlohmann::ordered_json>& predicates,
-                                           std::string& problem);
+// {family, configuration, n, holds, bound}. another_run unless all speak of one detector, generator
+// and judge: equal digests of program, worker, plug-in and generator, equal detector, families and
+// bounds. A fixed bug is another program, and starts at 0. wrong_shards where a trial would count
+// twice: campaign and seed differ between any two.
+properties::Expected<nlohmann::ordered_json> pool(
+    const std::vector<nlohmann::ordered_json>& predicates);
 
 }  // namespace assay::reports

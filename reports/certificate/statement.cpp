@@ -13,13 +13,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 using properties::RunFindings;
 
-// The plan as the stores are bound to it, beside the one in the file: nothing, or one line.
-std::optional<std::string> plan_differs(const RunFindings& findings,
-                                        const properties::CampaignPlan& plan) {
+// Whether the stores are bound to the plan: its times are not part of that.
+bool is_plan_of(const RunFindings& findings, const properties::CampaignPlan& plan) {
   auto bound = plan;
   bound.seconds = bound.shrink_share = bound.tetrahedron_seconds = 0;
-  if (plan_text(bound) == plan_text(findings.run.plan)) return std::nullopt;
-  return "campaign.json is not the campaign of the stores";
+  return plan_text(bound) == plan_text(findings.run.plan);
 }
 
 template <class T>
@@ -115,25 +113,25 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
           {"times", times_json(findings)}};
 }
 
-std::optional<Json> make_statement(const std::filesystem::path& folder, std::string& problem) {
+properties::Expected<Json> make_statement(const std::filesystem::path& folder) {
+  using properties::Problem;
+  using properties::ProblemKind;
   const auto file = properties::campaign_file(folder);
   const auto digest = corpus::sha256_of_file(file);
+  if (!digest) return Problem{ProblemKind::cannot_read, digest.error().message};
   const auto plan = properties::find_plan(file.string());
-  if (!digest || !plan) {
-    problem = digest ? plan.error().message : digest.error().message;
-    return std::nullopt;
-  }
-  const auto findings = properties::read_findings(folder, problem);
-  if (!findings) return std::nullopt;
-  if (const auto differs = plan_differs(*findings, plan.value())) {
-    problem = *differs;
-    return std::nullopt;
+  if (!plan) return Problem{ProblemKind::wrong_plan, plan.error().message};
+  const auto read = properties::read_findings(folder);
+  if (!read) return read.error();
+  const auto& findings = read.value();
+  if (!is_plan_of(findings, plan.value())) {
+    return Problem{ProblemKind::another_run, "campaign.json is not the campaign of the stores"};
   }
   return Json{
       {"_type", statement_type},
-      {"subject", subject_json(*findings)},
+      {"subject", subject_json(findings)},
       {"predicateType", predicate_type},
-      {"predicate", make_predicate(*findings, judge(*findings), plan.value(), digest.value())}};
+      {"predicate", make_predicate(findings, judge(findings), plan.value(), digest.value())}};
 }
 
 std::string statement_text(const Json& statement) { return statement.dump(1) + "\n"; }

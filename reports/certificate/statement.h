@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 
 #include "properties/campaign/gates/gates.h"
@@ -21,10 +20,10 @@ nlohmann::ordered_json make_predicate(const properties::RunFindings& findings,
                                       const properties::CampaignPlan& plan,
                                       const std::string& campaign_digest);
 
-// From the stores in `folder` and its campaign.json alone: equal files give equal bytes. One line
-// in `problem` where a file is absent, damaged, or of another run.
-std::optional<nlohmann::ordered_json> make_statement(const std::filesystem::path& folder,
-                                                     std::string& problem);
+// From the stores in `folder` and its campaign.json alone: equal files give equal bytes.
+// cannot_read where campaign.json is not there, wrong_plan where it is no plan, another_run where
+// it is not that of the stores; else the problems of read_findings.
+properties::Expected<nlohmann::ordered_json> make_statement(const std::filesystem::path& folder);
 
 // As it is written: one field a line.
 std::string statement_text(const nlohmann::ordered_json& statement);

@@ -78,16 +78,16 @@ Verification verify_certificate(const std::filesystem::path& certificate) {
                     certificate.string(), *older, certificate_schema));
     return result;
   }
-  std::string problem;
-  const auto computed = make_statement(folder, problem);
-  if (!computed) {
-    lines.push_back(problem);
+  const auto made = make_statement(folder);
+  if (!made) {
+    lines.push_back(made.error().message);
     return result;
   }
-  compare_fields(result.statement, *computed, lines);
-  if (lines.empty() && bytes.value() != statement_text(*computed))
+  const Json& computed = made.value();
+  compare_fields(result.statement, computed, lines);
+  if (lines.empty() && bytes.value() != statement_text(computed))
     lines.push_back(fmt::format("{}: not written as assay writes it", certificate.string()));
-  const auto& predicate = (*computed)["predicate"];
+  const auto& predicate = computed["predicate"];
   for (const auto& failure : predicate["failures"])
     compare_file(folder / failure["file"].get<std::string>(), failure["sha256"], lines);
   compare_file(folder / "junit.xml", corpus::sha256_of(junit_text(predicate)), lines);

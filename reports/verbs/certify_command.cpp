@@ -2,25 +2,29 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <set>
 
 #include "corpus/digest.h"
+#include "properties/campaign/phases/corpus_failures.h"
 #include "properties/campaign/stored/binding.h"
+#include "properties/campaign/stored/checks.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/certificate/corpus_check.h"
-#include "reports/certificate/corpus_failures.h"
 #include "reports/certificate/other_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/certificate/waivers.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/plain_progress.h"
 #include "reports/terminal/shell_word.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/version.h"
@@ -31,24 +35,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using properties::DroppedKind;
-using properties::Store;
 using properties::stored_shards;
 
 constexpr const char* known_failures = ASSAY_CORPUS_DIR "/../known.json";
 
 // A folder that holds shards of more than one, or a merged store: nothing of it is run here.
 bool holds_shards(const std::filesystem::path& out) {
-  std::string ignored;
-  for (const auto& file : stored_shards(out, ignored)) {
-    if (file != properties::store_file(out, {})) return true;
-  }
-  return false;
+  const auto files = stored_shards(out);
+  return files && std::any_of(files.value().begin(), files.value().end(), [&](const auto& file) {
+           return file != properties::store_file(out, {});
+         });
 }
 
 class Certification {
  public:
   Certification(const CampaignWords& words, const properties::CampaignRequest& request,
-                Store checks)
+                properties::Checks checks)
       : words_(words),
         request_(request),
         out_(words.out),
@@ -62,7 +64,7 @@ class Certification {
     if (done) store_subject();
     if (done) done = store_waivers();
     if (done) done = run_corpus();
-    if (done) forget_corpus_failures();
+    if (done) done = forget_corpus_failures();
     if (done) done = holds_shards(out_) ? take_shards() : run_trials();
     if (done) done = show_corpus_failures();
     if (!done) return refuse(done.error());
@@ -85,14 +87,14 @@ class Certification {
 
   template <class T>
   void keep(const T& evidence) {
-    checks_.set(to_row(evidence));
+    checks_.keep(evidence);
   }
 
   Expected<void> store_waivers() {
     const auto waivers = read_waivers(known_failures);
     if (!waivers) return Refusal(waivers.error());
     const auto today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
-    drop(checks_, DroppedKind::waiver);
+    checks_.drop(DroppedKind::waiver);
     for (const auto& waiver : waivers.value())
       keep(properties::StoredWaiver{waiver.signature, waiver.reason, waiver.link, waiver.expires,
                                     is_expired(waiver, today)});
@@ -101,7 +103,7 @@ class Certification {
 
   Expected<void> run_corpus() {
     fmt::print("{}", corpus_heading());
-    drop(checks_, DroppedKind::corpus);
+    checks_.drop(DroppedKind::corpus);
     const auto on_row = [&](const properties::CorpusRow& row) {
       fmt::print("{}", corpus_row_text(row));
       std::fflush(stdout);
@@ -112,55 +114,55 @@ class Certification {
   }
 
   // Those of an earlier call that the corpus does not show any more.
-  void forget_corpus_failures() {
+  Expected<void> forget_corpus_failures() {
     std::set<std::string> signatures;
     for (const auto& failure : corpus_failures_) signatures.insert(failure.signature);
     checks_.keep_failures(signatures);
+    if (const auto& lost = checks_.problem()) return Refusal(*lost);
+    return outcome::success();
   }
 
   Expected<void> show_corpus_failures() {
     if (corpus_failures_.empty()) return outcome::success();
-    keep_corpus_failures(request_, corpus_failures_, signatures_of_trials(out_), checks_);
-    const auto shown = write_failures(checks_, out_, words_.detector);
+    {
+      PlainProgress progress("shrinking");
+      properties::keep_corpus_failures(request_, corpus_failures_, out_, checks_,
+                                       [&](const std::string& text) { progress.show(text); });
+    }
+    const auto kept = checks_.failures();
+    if (!kept) return Refusal(kept.error());
+    const auto shown = write_failures(kept.value(), out_, words_.detector);
     fmt::print("{}", shown.text);
     return shown.written;
   }
 
   Expected<void> run_trials() {
     fmt::print("\n");
-    std::string problem;
-    auto store = Store::open(properties::store_file(out_, request_.shard),
-                             properties::binding_of(request_), problem);
-    if (!store) return Refusal(problem);
-    auto done = run_on_terminal(request_, *store, words_.out);
-    store->seal();
+    auto store = properties::Store::open(properties::store_file(out_, request_.shard),
+                                         properties::binding_of(request_));
+    if (!store) return Refusal(store.error());
+    auto done = run_on_terminal(request_, store.value(), words_.out);
+    const auto sealed = store.value().seal();
+    if (done && !sealed) return Refusal(sealed.error());
     return done;
   }
 
   // What `run` stored, or `merge`: read, and made whole files of.
   Expected<void> take_shards() {
-    std::string problem;
-    for (const auto& file : stored_shards(out_, problem)) {
-      auto bound = Store::read(file, problem);
-      if (!bound) return Refusal(problem);
-      const std::string binding = bound->binding();
-      const auto difference = properties::difference_of(binding, properties::binding_of(request_));
-      if (!difference.empty())
-        return Refusal(fmt::format("{}: of another run: {}", file.string(), difference));
-      const auto failures = write_failures(*bound, out_, words_.detector);
+    const auto files = stored_shards(out_);
+    if (!files) return Refusal(files.error());
+    for (const auto& file : files.value()) {
+      const auto whole = properties::make_whole(file, request_);
+      if (!whole) return Refusal(whole.error());
+      const auto failures = write_failures(whole.value().failures, out_, words_.detector);
       if (!failures.written) return failures.written;
-      // Nobody else may hold the file when it is sealed.
-      bound.reset();
-      auto store = Store::open(file, binding, problem);
-      if (!store) return Refusal(problem);
-      store->seal();
-      fmt::print("{}: {} trials\n", file.filename().string(), store->trial_count());
+      fmt::print("{}: {} trials\n", file.filename().string(), whole.value().trials);
     }
     return outcome::success();
   }
 
   void run_self_test() {
-    drop(checks_, DroppedKind::self_test);
+    checks_.drop(DroppedKind::self_test);
     const auto queries = request_.plan.policy.self_test_queries;
     if (queries == 0) return;
     std::uint64_t asked = 0, contradictions = 0;
@@ -175,7 +177,7 @@ class Certification {
   }
 
   void run_speed() {
-    drop(checks_, DroppedKind::times);
+    checks_.drop(DroppedKind::times);
     fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
     measure_speed([&](const properties::SpeedFigure& figure) {
       fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.what, figure.median,
@@ -190,17 +192,18 @@ class Certification {
     keep(properties::Issued{fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
                             seconds});
     checks_.seal();
-    std::string problem;
-    const auto statement = make_statement(out_, problem);
-    const auto findings = statement ? properties::read_findings(out_, problem) : std::nullopt;
-    if (!findings) return refuse(problem);
+    if (const auto& lost = checks_.problem()) return refuse(Refusal(*lost));
+    const auto statement = make_statement(out_);
+    if (!statement) return refuse(Refusal(statement.error()));
+    const auto findings = properties::read_findings(out_);
+    if (!findings) return refuse(Refusal(findings.error()));
     const auto certificate = properties::certificate_file(out_).string();
-    auto written = write_text_file(certificate, statement_text(*statement));
-    if (written) written = write_for_ci((*statement)["predicate"], out_);
+    auto written = write_text_file(certificate, statement_text(statement.value()));
+    if (written) written = write_for_ci(statement.value()["predicate"], out_);
     if (!written) return refuse(written.error());
-    const auto judgement = judge(*findings);
+    const auto judgement = judge(findings.value());
     fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nnext: assay verify {}\n",
-               findings_text(*findings), gates_text(judgement), judgement.verdict, seconds,
+               findings_text(findings.value()), gates_text(judgement), judgement.verdict, seconds,
                certificate, shell_word(certificate));
     return judgement.exit_code;
   }
@@ -208,7 +211,7 @@ class Certification {
   const CampaignWords& words_;
   const properties::CampaignRequest& request_;
   const std::filesystem::path out_;
-  Store checks_;
+  properties::Checks checks_;
   std::vector<properties::StoredFailure> corpus_failures_;
   const Clock::time_point begin_;
 };
@@ -222,18 +225,11 @@ int run_certify(const CampaignWords& words) {
         fmt::format("{}: its shards are judged by their own planted faults: give --power "
                     "to the run of each",
                     words.out));
-  std::string problem;
-  auto checks = Store::open(
-      properties::checks_file(words.out),
-      *properties::with_shard(properties::binding_of(request), properties::checks_shard), problem);
-  if (!checks) return refuse(problem);
+  auto checks = properties::Checks::open(words.out, request);
+  if (!checks) return refuse(Refusal(checks.error()));
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
              words.out);
-  try {
-    return Certification(words, request, std::move(*checks)).run();
-  } catch (const properties::StoreProblem& broken) {
-    return refuse(broken.what());
-  }
+  return Certification(words, request, std::move(checks.value())).run();
 }
 
 void add_options(Verb& verb, CampaignWords& words) {

@@ -58,13 +58,12 @@ int list_campaigns() {
 }
 
 int list_failures(const std::string& folder) {
-  std::string problem;
-  const auto findings = properties::read_findings(folder, problem);
-  if (!findings) return refuse(problem);
+  const auto findings = properties::read_findings(folder);
+  if (!findings) return refuse(findings.error().message);
   std::string told;
-  for (const auto& failure : findings->failures) {
+  for (const auto& failure : findings.value().failures) {
     if (failure.signature != told)
-      fmt::print("{:>8} times  {}\n", findings->met_count(failure), failure.signature);
+      fmt::print("{:>8} times  {}\n", findings.value().met_count(failure), failure.signature);
     told = failure.signature;
     fmt::print("    {} ({}): {}\n", failure.id, failure.configuration, failure.what);
   }

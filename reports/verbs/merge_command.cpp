@@ -20,45 +20,45 @@ struct MergeRequest {
   std::string out;
 };
 
-// Nothing, and `problem` set, where a folder holds no store.
-std::vector<std::filesystem::path> stores_of(const std::vector<std::string>& folders,
-                                             std::string& problem) {
+properties::Expected<std::vector<std::filesystem::path>> stores_of(
+    const std::vector<std::string>& folders) {
   std::vector<std::filesystem::path> stores;
   for (const auto& folder : folders) {
-    auto found = properties::stored_shards(folder, problem);
-    if (!problem.empty()) return {};
-    stores.insert(stores.end(), found.begin(), found.end());
+    const auto found = properties::stored_shards(folder);
+    if (!found) return found.error();
+    stores.insert(stores.end(), found.value().begin(), found.value().end());
   }
   return stores;
 }
 
 int run_merge(const MergeRequest& request) {
-  std::string problem;
-  const auto stores = stores_of(request.folders, problem);
-  if (!problem.empty()) return refuse(problem);
+  const auto stores = stores_of(request.folders);
+  if (!stores) return refuse(stores.error().message);
   std::error_code error;
   std::filesystem::create_directories(request.out, error);
   if (error) return refuse(fmt::format("{}: cannot be made: {}", request.out, error.message()));
   const auto out = properties::merged_file(request.out);
-  if (const auto wrong = properties::merge_stores(stores, out)) return refuse(*wrong);
-  const auto merged = properties::Store::read(out, problem);
-  if (!merged) return refuse(problem);
-  const auto findings = properties::read_one_store(out, problem);
-  if (!findings) return refuse(problem);
-  const auto& run = findings->run;
-  const auto planned = findings->planned(), trials = findings->tally.trials();
-  fmt::print("{} stores of campaign {}, seed {}: {} of {} trials; writes {}\n", stores.size(),
-             run.plan.name, run.seed, trials, planned, out.string());
-  const auto failures = write_failures(*merged, request.out, findings->library);
+  const auto merged = properties::merge_stores(stores.value(), out);
+  if (!merged) return refuse(merged.error().message);
+  const auto kept = properties::read_failures(out);
+  if (!kept) return refuse(kept.error().message);
+  const auto read = properties::read_one_store(out);
+  if (!read) return refuse(read.error().message);
+  const auto& findings = read.value();
+  const auto& run = findings.run;
+  const auto planned = findings.planned(), trials = findings.tally.trials();
+  fmt::print("{} stores of campaign {}, seed {}: {} of {} trials; writes {}\n",
+             stores.value().size(), run.plan.name, run.seed, trials, planned, out.string());
+  const auto failures = write_failures(kept.value(), request.out, findings.library);
   fmt::print("{}", failures.text);
   if (!failures.written) return refuse(failures.written.error());
-  const auto judgement = judge(*findings, properties::asked_of_a_run());
-  fmt::print("\n{}\n{}, so far\n", gates_text(judgement), verdict_text(*findings, judgement));
+  const auto judgement = judge(findings, properties::asked_of_a_run());
+  fmt::print("\n{}\n{}, so far\n", gates_text(judgement), verdict_text(findings, judgement));
   if (trials < planned) {
     fmt::print("{} trials are absent: merge the shards that hold them too\n", planned - trials);
   } else {
     fmt::print("next: assay certify --campaign {} --seed {}{} --out {}\n", run.plan.name, run.seed,
-               detector_words(findings->library), shell_word(request.out));
+               detector_words(findings.library), shell_word(request.out));
   }
   // That they are one now: whether it holds is for certify to say.
   return exit_holds;

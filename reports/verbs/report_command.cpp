@@ -26,24 +26,23 @@ using Json = nlohmann::ordered_json;
 
 // All that the page says of the run in a folder. What stands in a certificate there is believed
 // only where it verifies.
-std::optional<Json> describe_run(const std::string& folder, PlainProgress& progress,
-                                 std::string& problem) {
-  const auto findings = properties::read_findings(folder, problem);
-  if (!findings) return std::nullopt;
-  progress.show(fmt::format("{}: {} trials, {} failures kept", folder, findings->tally.trials(),
-                            findings->failures.size()));
+properties::Expected<Json> describe_run(const std::string& folder, PlainProgress& progress) {
+  const auto read = properties::read_findings(folder);
+  if (!read) return read.error();
+  const auto& findings = read.value();
+  progress.show(fmt::format("{}: {} trials, {} failures kept", folder, findings.tally.trials(),
+                            findings.failures.size()));
   const auto certificate = properties::certificate_file(folder);
   std::error_code ignored;
   Json json;
   if (std::filesystem::exists(certificate, ignored)) {
     const auto [differences, statement] = verify_certificate(certificate);
-    json = differences.empty()
-               ? run_json(*findings, judge(*findings), statement)
-               : run_json(*findings, judge(*findings), nullptr, differences.front());
+    json = differences.empty() ? run_json(findings, judge(findings), statement)
+                               : run_json(findings, judge(findings), nullptr, differences.front());
   } else {
-    json = run_json(*findings, judge(*findings, properties::asked_of_a_run()));
+    json = run_json(findings, judge(findings, properties::asked_of_a_run()));
   }
-  json["failures"] = failure_scenes(*findings);
+  json["failures"] = failure_scenes(findings);
   return json;
 }
 
@@ -52,10 +51,9 @@ int run_report(const ReportRequest& request) {
   Json runs = Json::array();
   PlainProgress progress("report");
   for (const auto& folder : request.folders) {
-    std::string wrong;
-    auto run = describe_run(folder, progress, wrong);
-    if (!run) return refuse(wrong);
-    runs.push_back(std::move(*run));
+    auto run = describe_run(folder, progress);
+    if (!run) return refuse(run.error().message);
+    runs.push_back(std::move(run.value()));
   }
   progress.finish();
   const Json data = {

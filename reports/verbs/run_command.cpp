@@ -62,19 +62,14 @@ int run_campaign(const RunRequest& command) {
   auto& request = asked.value();
   request.shard = command.shard;
   const auto file = properties::store_file(out, request.shard);
-  std::string problem;
-  auto store = properties::Store::open(file, properties::binding_of(request), problem);
-  if (!store) return refuse(problem);
-  try {
-    if (const auto done = run_on_terminal(request, *store, out); !done)
-      return refuse(done.error().line + go_on);
-  } catch (const properties::StoreProblem& broken) {
-    return refuse(std::string(broken.what()) + go_on);
-  }
-  const auto findings = properties::read_one_store(file, problem);
-  if (!findings) return refuse(problem + go_on);
+  auto store = properties::Store::open(file, properties::binding_of(request));
+  if (!store) return refuse(Refusal(store.error()));
+  if (const auto done = run_on_terminal(request, store.value(), out); !done)
+    return refuse(done.error().line + go_on);
+  const auto findings = properties::read_one_store(file);
+  if (!findings) return refuse(findings.error().message + go_on);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  return conclude(request, *findings, out, took.count());
+  return conclude(request, findings.value(), out, took.count());
 }
 
 // "2/8"

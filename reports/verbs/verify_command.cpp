@@ -19,13 +19,12 @@ struct VerifyRequest {
 using Json = nlohmann::ordered_json;
 
 int print_pooled(const std::vector<Json>& predicates) {
-  std::string problem;
-  const auto pooled = pool(predicates, problem);
-  if (!pooled) return refuse(problem);
+  const auto pooled = pool(predicates);
+  if (!pooled) return refuse(pooled.error().message);
   fmt::print("{} nights together, all bounds at {} %:\n{:24} {:18} {:>9} {:>9} {:>9}\n",
              predicates.size(), 100 * predicates[0]["confidence"]["family"].get<double>(),
              "stratum", "configuration", "n", "holds", "bound");
-  for (const auto& row : *pooled) {
+  for (const auto& row : pooled.value()) {
     fmt::print("{:24} {:18} {:>9} {:>9} {:>9.2e}\n", row["family"].get<std::string>(),
                row["configuration"].get<std::string>(), row["n"].get<std::uint64_t>(),
                row["holds"].get<std::uint64_t>(), row["bound"].get<double>());

@@ -71,11 +71,11 @@ struct RunToStore {
   }
   std::string store(const std::string& folder) const {
     std::filesystem::create_directories(folder);
-    std::string problem;
-    auto made = properties::Store::open(properties::store_file(folder, request.shard),
-                                        properties::binding_of(request), problem);
-    EXPECT_TRUE(made) << problem;
-    if (!made) return folder;
+    auto opened = properties::Store::open(properties::store_file(folder, request.shard),
+                                          properties::binding_of(request));
+    EXPECT_TRUE(opened) << opened.error().message;
+    if (!opened) return folder;
+    properties::Store* const made = &opened.value();
     properties::note_library(*made, request);
     for (const auto& found : evidence) made->set(found);
     // Every defect was met as the first failure.

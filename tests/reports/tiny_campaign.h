@@ -39,12 +39,11 @@ inline void expect_refused(const Outcome& outcome, const std::string& word) {
 // Each trial of the run in a line, without its times.
 inline std::vector<std::string> trials_of(const std::string& out,
                                           const std::string& store_name = "shard-1-of-1") {
-  std::string problem;
-  const auto store = properties::Store::read(out + "/" + store_name + ".sqlite", problem);
-  EXPECT_TRUE(store) << problem;
+  const auto store = properties::Store::read(out + "/" + store_name + ".sqlite");
+  EXPECT_TRUE(store) << store.error().message;
   std::vector<std::string> lines;
   if (!store) return lines;
-  store->for_each_trial([&](const properties::TrialRecord& r) {
+  store.value().for_each_trial([&](const properties::TrialRecord& r) {
     std::ostringstream line;
     line << r.id << ' ' << r.outcomes << ' ' << r.triangles << ' ' << r.steps << ' ' << r.collisions
          << ' ' << r.pairs << ' ' << properties::counts_text(r.counts);
@@ -56,10 +55,9 @@ inline std::vector<std::string> trials_of(const std::string& out,
 
 inline properties::Counts signatures_of(const std::string& out,
                                         const std::string& store_name = "shard-1-of-1") {
-  std::string problem;
-  const auto store = properties::Store::read(out + "/" + store_name + ".sqlite", problem);
-  EXPECT_TRUE(store) << problem;
-  return store ? store->signatures() : properties::Counts{};
+  const auto store = properties::Store::read(out + "/" + store_name + ".sqlite");
+  EXPECT_TRUE(store) << store.error().message;
+  return store ? store.value().signatures() : properties::Counts{};
 }
 
 // What stands behind "replay: assay " in each such line.

@@ -11,8 +11,6 @@
 namespace assay::properties {
 namespace {
 
-constexpr const char* library_note = "library";
-
 // A configuration is near its limit from a third of it on.
 constexpr double near_share = 1. / 3;
 
@@ -50,9 +48,7 @@ class Reader {
   explicit Reader(const std::filesystem::path& folder) { found_.folder = folder; }
 
   RunFindings read_folder() {
-    std::string problem;
-    auto files = stored_shards(found_.folder, problem);
-    if (!problem.empty()) throw StoreProblem(problem);
+    auto files = value_or_throw(stored_shards(found_.folder));
     const auto merged = merged_file(found_.folder), checks = checks_file(found_.folder);
     if (std::find(files.begin(), files.end(), merged) != files.end()) {
       refuse_newer_shards(files, merged);
@@ -71,10 +67,10 @@ class Reader {
     });
     for (const auto& row : evidence_) found_.evidence.take(row);
     if (found_.evidence.power.size() > 1)
-      throw StoreProblem(
-          fmt::format("{}: its shards took their proofs of planted faults from "
-                      "different runs",
-                      found_.folder.string()));
+      throw StoreProblem(ProblemKind::contradiction,
+                         fmt::format("{}: its shards took their proofs of planted faults from "
+                                     "different runs",
+                                     found_.folder.string()));
     if (found_.evidence.paths) found_.library = found_.evidence.paths->detector;
     std::sort(found_.failures.begin(), found_.failures.end(), is_before);
     found_.rows = rows_.value();
@@ -92,39 +88,39 @@ class Reader {
   // A merged store goes before the shards that it was made of.
   static void refuse_newer_shards(const std::vector<std::filesystem::path>& files,
                                   const std::filesystem::path& merged) {
-    std::string problem;
-    const auto whole = Store::read(merged, problem);
+    const auto whole = Store::read(merged);
     for (const auto& file : files) {
-      const auto shard = file == merged ? std::nullopt : Store::read(file, problem);
+      if (file == merged) continue;
+      const auto shard = Store::read(file);
       if (!whole || !shard) continue;  // told where it is read
-      shard->for_each_trial([&](const TrialRecord& r) {
-        if (!whole->has_trial(r.id))
-          throw StoreProblem(fmt::format("{}: holds {}, which {} does not: merge again",
-                                         file.string(), r.id, merged.filename().string()));
+      shard.value().for_each_trial([&](const TrialRecord& r) {
+        if (whole.value().has_trial(r.id)) return;
+        throw StoreProblem(ProblemKind::stale_merge,
+                           fmt::format("{}: holds {}, which {} does not: merge again",
+                                       file.string(), r.id, merged.filename().string()));
       });
     }
   }
 
   void add(const std::filesystem::path& file) {
-    std::string problem;
-    const auto store = Store::read(file, problem);
-    if (!store) throw StoreProblem(problem);
-    const auto binding = read_binding(store->binding(), file);
+    const Store store = value_or_throw(Store::read(file));
+    const auto binding = value_or_throw(read_binding(store.binding(), file));
     if (binding_.empty()) {
-      binding_ = store->binding();
+      binding_ = store.binding();
       found_.run = binding;
       found_.tally.near_from_us =
           static_cast<std::uint64_t>(1e6 * near_share * std::min(binding.plan.case_seconds, 1e9));
     }
-    const auto difference = difference_of(binding_, store->binding());
+    const auto difference = difference_of(binding_, store.binding());
     if (!difference.empty())
-      throw StoreProblem(fmt::format("{}: holds stores of different runs: {}",
+      throw StoreProblem(ProblemKind::another_run,
+                         fmt::format("{}: holds stores of different runs: {}",
                                      found_.folder.string(), difference));
     const auto digest = corpus::sha256_of_file(file);
-    if (!digest) throw StoreProblem(digest.error().message);
+    if (!digest) throw StoreProblem(ProblemKind::cannot_read, digest.error().message);
     found_.files.push_back({file.filename().string(), digest.value()});
-    if (const auto library = store->note(library_note)) found_.library = *library;
-    take_rows(*store, file, binding.shard);
+    if (const auto library = noted_library(store)) found_.library = *library;
+    take_rows(store, file, binding.shard);
   }
 
   void take_rows(const Store& store, const std::filesystem::path& file, const std::string& name) {
@@ -135,10 +131,10 @@ class Reader {
           std::any_of(found_.shards.begin(), found_.shards.end(),
                       [&](const Shard& other) { return other.index == shard->index; });
       if (is_there || (!is_first && shard->count != found_.shard_count))
-        throw StoreProblem(
-            fmt::format("{}: shard {} does not stand beside the others: it is there "
-                        "already, or of another number of shards",
-                        file.string(), name));
+        throw StoreProblem(ProblemKind::wrong_shards,
+                           fmt::format("{}: shard {} does not stand beside the others: it is there "
+                                       "already, or of another number of shards",
+                                       file.string(), name));
       found_.shards.push_back(*shard);
       found_.shard_count = shard->count;
     } else if (name == merged_shard) {
@@ -153,7 +149,8 @@ class Reader {
                               r.id == trial_id(plan, found_.run.seed, r.family, r.index);
       const bool is_of_shard = shard ? shard->holds(r.index) : name == merged_shard;
       if (!is_planned || !is_of_shard)
-        throw StoreProblem(fmt::format("{}: {} is no trial of this shard", file.string(), r.id));
+        throw StoreProblem(ProblemKind::damaged_store,
+                           fmt::format("{}: {} is no trial of this shard", file.string(), r.id));
       found_.tally.add(r);
       rows_.add(row_of(r));
     });
@@ -183,7 +180,8 @@ class Reader {
     });
     if (known == evidence_.end()) return false;
     if (known->facts != row.facts)
-      throw StoreProblem(fmt::format("{}: evidence {} {} differs from that of another store",
+      throw StoreProblem(ProblemKind::contradiction,
+                         fmt::format("{}: evidence {} {} differs from that of another store",
                                      file.string(), row.kind, row.name));
     return true;
   }
@@ -203,17 +201,14 @@ class Reader {
 };
 
 template <class Read>
-std::optional<RunFindings> told(const std::filesystem::path& name, std::string& problem,
-                                const Read& read) {
+Expected<RunFindings> told(const std::filesystem::path& name, const Read& read) {
   try {
-    return read();
-  } catch (const StoreProblem& failure) {
-    problem = failure.what();
+    return catch_store_problem(read);
   } catch (const std::exception& failure) {
     // Numbers inside of a store that somebody changed.
-    problem = fmt::format("{}: not what a run stores: {}", name.string(), failure.what());
+    return Problem{ProblemKind::damaged_store,
+                   fmt::format("{}: not what a run stores: {}", name.string(), failure.what())};
   }
-  return std::nullopt;
 }
 
 std::uint64_t count_planted(const std::vector<FaultProof>& faults, bool only_found) {
@@ -290,17 +285,12 @@ bool RunFindings::has_more_to_do() const {
 std::uint64_t RunFindings::planted() const { return count_planted(evidence.faults, false); }
 std::uint64_t RunFindings::found() const { return count_planted(evidence.faults, true); }
 
-std::optional<RunFindings> read_one_store(const std::filesystem::path& file, std::string& problem) {
-  return told(file, problem, [&] { return Reader(file.parent_path()).read_alone(file); });
+Expected<RunFindings> read_one_store(const std::filesystem::path& file) {
+  return told(file, [&] { return Reader(file.parent_path()).read_alone(file); });
 }
 
-std::optional<RunFindings> read_findings(const std::filesystem::path& folder,
-                                         std::string& problem) {
-  return told(folder, problem, [&] { return Reader(folder).read_folder(); });
-}
-
-void note_library(Store& store, const CampaignRequest& request) {
-  if (request.plugin) store.set_note(library_note, request.plugin->string());
+Expected<RunFindings> read_findings(const std::filesystem::path& folder) {
+  return told(folder, [&] { return Reader(folder).read_folder(); });
 }
 
 }  // namespace assay::properties

@@ -58,15 +58,13 @@ struct RunFindings {
   std::uint64_t planted() const, found() const;
 };
 
-// Of one store alone. One line in `problem` where it cannot be read.
-std::optional<RunFindings> read_one_store(const std::filesystem::path& file, std::string& problem);
+// Of one store alone; the problems are those of Store::read.
+Expected<RunFindings> read_one_store(const std::filesystem::path& file);
 
-// Reads merged.sqlite where there is one, else every shard-*.sqlite, and checks.sqlite. One line in
-// `problem` where there is nothing, a file cannot be read, two are of different runs, or a trial is
-// none that its shard plans. O(trials).
-std::optional<RunFindings> read_findings(const std::filesystem::path& folder, std::string& problem);
-
-// Keeps the path of a plug-in's library, as it was named to the run. Throws StoreProblem.
-void note_library(Store& store, const CampaignRequest& request);
+// Reads merged.sqlite where there is one, else every shard-*.sqlite, and checks.sqlite. Besides the
+// problems of Store::read: no_run where there is nothing; another_run and contradiction where two
+// files do not belong together; wrong_shards; stale_merge; damaged_store, also for a trial that is
+// none which its shard plans. O(trials).
+Expected<RunFindings> read_findings(const std::filesystem::path& folder);
 
 }  // namespace assay::properties

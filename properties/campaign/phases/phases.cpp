@@ -4,6 +4,7 @@
 
 #include "properties/campaign/phases/canary.h"
 #include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "properties/worlds/tetrahedron_world.h"
 
 namespace assay::properties {
@@ -25,6 +26,8 @@ class CampaignRun {
       : request_(request), corpus_(corpus), store_(store), observer_(observer) {}
 
   void run() {
+    note_library(store_, request_);
+    observer_.on_begin(store_.trial_count());
     const Canary canary = meet_canary(request_);
     store_.set(to_row(canary));
     observer_.on_canary(canary);
@@ -32,7 +35,7 @@ class CampaignRun {
     judge_trials();
     observer_.on_phase("shrinking");
     shrink();
-    observer_.on_failures_shrunk();
+    observer_.on_failures_shrunk(value_or_throw(store_.kept_failures()));
     if (request_.power) {
       take_power();
     } else if (request_.plan.fault_cases > 0) {
@@ -56,7 +59,7 @@ class CampaignRun {
     const bool others = request_.plan.fault_cases > 0 || request_.plan.tetrahedron_seconds > 0;
     const auto end = run_trials(request_, store_, after(others ? trials_share : 1),
                                 [&](const TrialProgress& state) { observer_.on_trial(state); });
-    if (!end.store_problem.empty()) throw StoreProblem(end.store_problem);
+    if (end.store_problem) throw StoreProblem(*end.store_problem);
     store_.set(
         to_row(HarnessProblem{text_of(request_.shard), end.harness_problem, store_.trial_count()}));
     observer_.on_trials(end);
@@ -126,9 +129,9 @@ class CampaignRun {
 
 }  // namespace
 
-void run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-                  CampaignObserver& observer) {
-  CampaignRun(request, corpus, store, observer).run();
+Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
+                            Store& store, CampaignObserver& observer) {
+  return catch_store_problem([&] { CampaignRun(request, corpus, store, observer).run(); });
 }
 
 double shrinking_seconds(const CampaignPlan& plan) {

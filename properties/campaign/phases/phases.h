@@ -17,15 +17,17 @@ namespace assay::properties {
 class CampaignObserver {
  public:
   virtual ~CampaignObserver() = default;
-  // Before the canary is met nothing is told. "trials", "shrinking", "faults", "tetrahedron": what
-  // begins now.
+  // First of all: so many trials are in the store already.
+  virtual void on_begin(std::uint64_t /*trials*/) {}
+  // "trials", "shrinking", "faults", "tetrahedron": what begins now. The first is told after the
+  // canary.
   virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}
   virtual void on_trials(const TrialsEnd&) {}
   virtual void on_shrinking(const std::string& /*signature*/) {}
   // Trials and their failures are all stored now; faults and worlds are still to come.
-  virtual void on_failures_shrunk() {}
+  virtual void on_failures_shrunk(const KeptFailures&) {}
   virtual void on_hunt(const HuntProgress&) {}
   virtual void on_fault_shrunk(const std::string& /*fault*/) {}
   virtual void on_world(const std::string& /*world*/) {}
@@ -36,9 +38,10 @@ class CampaignObserver {
 // of a world what came farther stays. Faults and worlds are shared out among shards by their place
 // in the list. corpus: folder of the curated cases.
 //
-// What is stored stays, whatever happens. Throws StoreProblem where the store cannot be written.
-void run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus, Store& store,
-                  CampaignObserver& observer);
+// What is stored stays, whatever happens. cannot_write, damaged_store, ... where the store cannot
+// be read or written any more.
+Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
+                            Store& store, CampaignObserver& observer);
 
 // Seconds of the clock that shrinking failures may take: the plan's share of its own limit, or two
 // minutes where it has none.

@@ -18,7 +18,8 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
                       const ReduceLimits& limits, const OnBetter& on_better = {});
 
 // One failure of each signature that has none shrunk yet; each better mesh is stored as it is
-// found. At most `limits` each, and not beyond the deadline.
+// found. At most `limits` each, and not beyond the deadline. Throws StoreProblem: for campaign/
+// alone.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const std::function<void(const std::string&)>& progress);
 

@@ -101,22 +101,21 @@ class Trials {
 
   void work() {
     WorkerProcess worker(request_.worker, request_.plugin, {request_.plan.case_seconds, 0});
-    while (const PlannedTrial* trial = next_trial()) {
-      try {
-        judge(*trial, worker);
-      } catch (const StoreProblem& problem) {
-        const std::lock_guard lock(mutex_);
-        end_.store_problem = problem.what();
-      } catch (const std::exception& failure) {
-        const std::lock_guard lock(mutex_);
-        end_.harness_problem = failure.what();
-      }
+    // Whatever goes wrong in one thread ends all of them.
+    try {
+      while (const PlannedTrial* trial = next_trial()) judge(*trial, worker);
+    } catch (const StoreProblem& failure) {
+      const std::lock_guard lock(mutex_);
+      end_.store_problem = failure.problem();
+    } catch (const std::exception& failure) {
+      const std::lock_guard lock(mutex_);
+      end_.harness_problem = failure.what();
     }
   }
 
   const PlannedTrial* next_trial() {
     const std::lock_guard lock(mutex_);
-    while (next_ < planned_.size() && end_.harness_problem.empty() && end_.store_problem.empty() &&
+    while (next_ < planned_.size() && end_.harness_problem.empty() && !end_.store_problem &&
            Clock::now() < deadline_) {
       const PlannedTrial& trial = planned_[next_++];
       if (!store_.has_trial(id_of(trial))) return &trial;

@@ -20,13 +20,14 @@ struct TrialsEnd {
   double seconds = 0;           // of this call
   std::uint64_t trials = 0;     // judged in this call
   std::string harness_problem;  // what kept the harness itself from going on; empty: nothing
-  std::string store_problem;    // why the store could not be written; empty: it could
+  std::optional<Problem> store_problem;  // why the store could not be written
 };
 
 // Makes and judges what is not in the store yet, families in turn, until all is done or the
 // deadline is over. Every record is stored as soon as it is known: a killed run loses only the
 // cases at work. The records do not depend on the number of jobs. `progress` is called from one
-// thread at a time.
+// thread at a time. Throws StoreProblem where the store cannot even be read at the beginning: for
+// campaign/ alone.
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
                      const std::function<void(const TrialProgress&)>& progress);
 

@@ -61,15 +61,16 @@ std::string binding_of(const CampaignRequest& request) {
 Json json_of(const BoundDetector& detector) { return detector; }
 Json json_of(const BoundDigests& digests) { return digests; }
 
-BoundRun read_binding(const std::string& text, const std::filesystem::path& file) try {
+Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file) try {
   const Json json = Json::parse(text);
   auto plan = parse_plan(json.at("campaign").dump(), file);
-  if (!plan) throw StoreProblem(plan.error().message);
+  if (!plan) return Problem{ProblemKind::damaged_store, plan.error().message};
   auto run = json.get<BoundRun>();
   run.plan = std::move(plan.value());
   return run;
 } catch (const Json::exception& wrong) {
-  throw StoreProblem(fmt::format("{}: not the store of a run: {}", file.string(), wrong.what()));
+  return Problem{ProblemKind::damaged_store,
+                 fmt::format("{}: not the store of a run: {}", file.string(), wrong.what())};
 }
 
 std::string generator_digest() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "properties/campaign/request.h"
+#include "properties/problem.h"
 
 namespace assay::properties {
 
@@ -47,8 +48,8 @@ struct BoundRun {
 nlohmann::json json_of(const BoundDetector& detector);
 nlohmann::json json_of(const BoundDigests& digests);
 
-// Throws StoreProblem where the text is no binding of this schema. file: named in the problem.
-BoundRun read_binding(const std::string& text, const std::filesystem::path& file);
+// damaged_store where the text is no binding of this schema. file: named in the problem.
+Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file);
 
 // The same binding, of another shard; nothing for a text that is no binding.
 std::optional<std::string> with_shard(const std::string& binding, const std::string& shard);

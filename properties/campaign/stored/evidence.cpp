@@ -38,7 +38,7 @@ void from_json(const nlohmann::json& j, FaultStatus& status) {
   for (const auto one : {FaultStatus::planted, FaultStatus::open, FaultStatus::equivalent}) {
     if (j == name_of(one)) return void(status = one);
   }
-  throw StoreProblem("no status of a fault: " + j.dump());
+  throw StoreProblem(ProblemKind::damaged_store, fmt::format("no status of a fault: {}", j.dump()));
 }
 
 namespace {
@@ -167,10 +167,12 @@ void EvidenceFacts::take(const Evidence& r) try {
     speed.push_back(told<SpeedFigure>(r));
     speed.back().what = r.name;
   } else {
-    throw StoreProblem(fmt::format("no run stores evidence {} {}", r.kind, r.name));
+    throw StoreProblem(ProblemKind::damaged_store,
+                       fmt::format("no run stores evidence {} {}", r.kind, r.name));
   }
 } catch (const nlohmann::json::exception& wrong) {
-  throw StoreProblem(fmt::format("evidence {} {}: {}", r.kind, r.name, wrong.what()));
+  throw StoreProblem(ProblemKind::damaged_store,
+                     fmt::format("evidence {} {}: {}", r.kind, r.name, wrong.what()));
 }
 
 void drop(Store& store, DroppedKind kind) {

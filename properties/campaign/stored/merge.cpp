@@ -64,6 +64,7 @@ void join(const Database& from, const Database& into, const Table& table) {
     std::string key = rows.text(0);
     for (int c = 1; c < table.key_columns; ++c) key += ", " + rows.text(c);
     throw StoreProblem(
+        ProblemKind::contradiction,
         fmt::format("{}: {} {} differs from that of another store", from.file(), table.what, key));
   }
 }
@@ -96,11 +97,12 @@ class Merge {
 
  private:
   void check(const std::filesystem::path& file) {
-    std::string problem;
-    const auto store = Store::read(file, problem);
-    if (!store) throw StoreProblem(problem);
-    const auto binding = with_shard(store->binding(), merged_shard);
-    if (!binding) throw StoreProblem(fmt::format("{}: not the store of a shard", file.string()));
+    const auto store = value_or_throw(Store::read(file));
+    const auto binding = with_shard(store.binding(), merged_shard);
+    if (!binding) {
+      throw StoreProblem(ProblemKind::damaged_store,
+                         fmt::format("{}: not the store of a shard", file.string()));
+    }
     if (!binding_) {
       binding_ = binding;
       first_ = file;
@@ -108,7 +110,8 @@ class Merge {
     }
     const std::string difference = difference_of(*binding_, *binding);
     if (!difference.empty()) {
-      throw StoreProblem(fmt::format("{} and {} are of different runs: {}", first_.string(),
+      throw StoreProblem(ProblemKind::another_run,
+                         fmt::format("{} and {} are of different runs: {}", first_.string(),
                                      file.string(), difference));
     }
   }
@@ -134,8 +137,8 @@ class Merge {
 
 }  // namespace
 
-std::optional<std::string> merge_stores(std::span<const std::filesystem::path> stores,
-                                        const std::filesystem::path& out) {
+Expected<void> merge_stores(std::span<const std::filesystem::path> stores,
+                            const std::filesystem::path& out) {
   std::vector<std::filesystem::path> files(stores.begin(), stores.end());
   std::error_code ignored;
   if (std::filesystem::exists(out, ignored)) files.push_back(out);
@@ -145,20 +148,21 @@ std::optional<std::string> merge_stores(std::span<const std::filesystem::path> s
     return std::filesystem::path(fmt::format("{}.{}-{}", out.string(), what, getpid()));
   };
   const auto building = named("building"), whole = named("whole");
-  std::optional<std::string> problem;
-  try {
-    Merge merge(building);
-    for (const auto& file : files) merge.add(file);
-    merge.write(whole);
-    std::filesystem::rename(whole, out);
-  } catch (const StoreProblem& failure) {
-    problem = failure.what();
-  } catch (const std::filesystem::filesystem_error& failure) {
-    problem = fmt::format("{}: cannot be written: {}", out.string(), failure.code().message());
-  }
+  auto merged = catch_store_problem([&] {
+    try {
+      Merge merge(building);
+      for (const auto& file : files) merge.add(file);
+      merge.write(whole);
+      std::filesystem::rename(whole, out);
+    } catch (const std::filesystem::filesystem_error& failure) {
+      throw StoreProblem(
+          ProblemKind::cannot_write,
+          fmt::format("{}: cannot be written: {}", out.string(), failure.code().message()));
+    }
+  });
   std::filesystem::remove(building, ignored);
   std::filesystem::remove(whole, ignored);
-  return problem;
+  return merged;
 }
 
 }  // namespace assay::properties

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
-#include <string>
+
+#include "properties/problem.h"
 
 namespace assay::properties {
 
@@ -12,12 +12,13 @@ namespace assay::properties {
 // is written depends on the rows alone: the order of merging does not matter, nor does merging
 // again; equal rows give equal bytes. `out` is whole or as it was, whatever happens.
 //
-// One line, and nothing is written, when two stores are of different runs (plan, seed, detector,
-// digests: all of the binding but the shard), when one trial has two outcomes, one failure two
-// meshes, or one piece of evidence two results at equal progress; or when a file cannot be read or
-// written. Of what may rightly differ the smaller is taken: times of a trial, shrunk meshes; of
-// evidence the one with more progress. A store that is being written is merged as it is now.
-std::optional<std::string> merge_stores(std::span<const std::filesystem::path> stores,
-                                        const std::filesystem::path& out);
+// Nothing is written on a problem. another_run: two stores are of different runs (plan, seed,
+// detector, digests: all of the binding but the shard). contradiction: one trial has two outcomes,
+// one failure two meshes, or one piece of evidence two results at equal progress. cannot_write, and
+// the problems of Store::read. Of what may rightly differ the smaller is taken: times of a trial,
+// shrunk meshes; of evidence the one with more progress. A store that is being written is merged as
+// it is now.
+Expected<void> merge_stores(std::span<const std::filesystem::path> stores,
+                            const std::filesystem::path& out);
 
 }  // namespace assay::properties

@@ -16,12 +16,14 @@ bool is_below(const std::filesystem::path& folder, const std::filesystem::path& 
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-// What keeps the findings from being a proof for the plan.
-std::string lack_of(const RunFindings& proof, const BoundRun& build, const CampaignPlan& plan) {
+bool is_of_build(const RunFindings& proof, const BoundRun& build) {
   const auto &digests = proof.run.digests, &ours = build.digests;
-  if (digests.program != ours.program || digests.worker != ours.worker ||
-      digests.generator != ours.generator)
-    return "is of another build of assay";
+  return digests.program == ours.program && digests.worker == ours.worker &&
+         digests.generator == ours.generator;
+}
+
+// What keeps the findings from being a proof for the plan; empty: nothing.
+std::string lack_of(const RunFindings& proof, const BoundRun& build, const CampaignPlan& plan) {
   if (!proof.evidence.power.empty()) return "took its own proof from another run";
   if (proof.planted() != build.planted_faults || proof.found() != build.planted_faults)
     return fmt::format("shows {} of {} planted faults found", proof.found(), build.planted_faults);
@@ -39,27 +41,36 @@ std::string lack_of(const RunFindings& proof, const BoundRun& build, const Campa
 
 }  // namespace
 
-std::optional<std::string> take_power(const std::filesystem::path& folder,
-                                      const std::filesystem::path& out, CampaignRequest& request) {
-  if (request.plan.fault_cases == 0)
-    return fmt::format("campaign {} plants no faults: no proof of them is needed",
-                       request.plan.name);
-  if (is_below(folder, out))
-    return fmt::format("{}: a proof must lie outside of the folder that the run writes",
-                       folder.string());
-  std::string problem;
-  const auto proof = read_findings(folder, problem);
-  if (!proof) return problem;
+Expected<PowerProof> take_power(const std::filesystem::path& folder,
+                                const std::filesystem::path& out, const CampaignRequest& request) {
+  if (request.plan.fault_cases == 0) {
+    return Problem{
+        ProblemKind::no_proof_needed,
+        fmt::format("campaign {} plants no faults: no proof of them is needed", request.plan.name)};
+  }
+  if (is_below(folder, out)) {
+    return Problem{ProblemKind::proof_in_the_way,
+                   fmt::format("{}: a proof must lie outside of the folder that the run writes",
+                               folder.string())};
+  }
+  const auto read = read_findings(folder);
+  if (!read) return read.error();
+  const RunFindings& findings = read.value();
   const auto build = read_binding(binding_of(request), folder);
-  const auto lack = lack_of(*proof, build, request.plan);
-  if (!lack.empty()) return fmt::format("{}: the run {}", folder.string(), lack);
-  const auto& run = proof->run;
-  request.power =
-      PowerProof{{run.plan.name, run.detector.name, run.seed, run.digests.program.value_or(""),
-                  run.digests.worker.value_or(""), run.digests.generator, proof->rows},
-                 proof->evidence.faults};
-  for (auto& fault : request.power->faults) fault.shard = power_shard;
-  return std::nullopt;
+  if (!build) return build.error();
+  if (!is_of_build(findings, build.value())) {
+    return Problem{ProblemKind::another_build,
+                   fmt::format("{}: the run is of another build of assay", folder.string())};
+  }
+  const auto lack = lack_of(findings, build.value(), request.plan);
+  if (!lack.empty())
+    return Problem{ProblemKind::weak_proof, fmt::format("{}: the run {}", folder.string(), lack)};
+  const auto& run = findings.run;
+  PowerProof proof{{run.plan.name, run.detector.name, run.seed, run.digests.program.value_or(""),
+                    run.digests.worker.value_or(""), run.digests.generator, findings.rows},
+                   findings.evidence.faults};
+  for (auto& fault : proof.faults) fault.shard = power_shard;
+  return proof;
 }
 
 }  // namespace assay::properties

@@ -4,21 +4,21 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
 
 #include "properties/campaign/request.h"
+#include "properties/problem.h"
 
 namespace assay::properties {
 
-// Puts the proof in `folder` into the request. A line for the user where the folder holds no run or
-// one of another build (program, worker and generator digests), where not every fault that is
-// planted was found by that run itself, where it gave a fault fewer cases or seeds than the plan
-// asks for, or where the plan plants none.
+// The proof in `folder` for the request. no_proof_needed where its plan plants no faults;
+// proof_in_the_way where the folder is `out` or lies below it; another_build (program, worker and
+// generator digests); weak_proof where not every fault that is planted was found by that run
+// itself, or where it gave a fault fewer cases or seeds than the plan asks for; and the problems of
+// read_findings.
 //
 // REQUIRES that no code of a plug-in ran in this process's workers before: what it could write to
-// is then read already. The folder may not be `out`, nor lie below it.
-std::optional<std::string> take_power(const std::filesystem::path& folder,
-                                      const std::filesystem::path& out, CampaignRequest& request);
+// is then read already.
+Expected<PowerProof> take_power(const std::filesystem::path& folder,
+                                const std::filesystem::path& out, const CampaignRequest& request);
 
 }  // namespace assay::properties

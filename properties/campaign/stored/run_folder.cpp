@@ -5,14 +5,20 @@
 #include <algorithm>
 #include <cctype>
 
+#include "properties/campaign/stored/binding.h"
+
 namespace assay::properties {
+namespace {
+
+constexpr const char* library_note = "library";
+
+}  // namespace
 
 std::filesystem::path store_file(const std::filesystem::path& out, const Shard& shard) {
   return out / fmt::format("shard-{}-of-{}.sqlite", shard.index, shard.count);
 }
 
-std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& folder,
-                                                 std::string& problem) {
+Expected<std::vector<std::filesystem::path>> stored_shards(const std::filesystem::path& folder) {
   std::error_code error;
   std::vector<std::filesystem::path> stores;
   for (const auto& file : std::filesystem::directory_iterator(folder, error)) {
@@ -20,14 +26,42 @@ std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& fo
     const bool is_shard = name.starts_with("shard-") && name.ends_with(".sqlite");
     if (is_shard || name == merged_file("").filename()) stores.push_back(file.path());
   }
-  if (error) {
-    problem = fmt::format("{}: {}", folder.string(), error.message());
-  } else if (stores.empty()) {
-    problem = fmt::format("{}: no run is stored here", folder.string());
-  }
+  if (error)
+    return Problem{ProblemKind::cannot_read,
+                   fmt::format("{}: {}", folder.string(), error.message())};
+  if (stores.empty())
+    return Problem{ProblemKind::no_run, fmt::format("{}: no run is stored here", folder.string())};
   std::sort(stores.begin(), stores.end());
   return stores;
 }
+
+Expected<WholeShard> make_whole(const std::filesystem::path& file, const CampaignRequest& request) {
+  return catch_store_problem([&] {
+    WholeShard whole;
+    std::string binding;
+    {
+      const Store bound = value_or_throw(Store::read(file));
+      binding = bound.binding();
+      const auto difference = difference_of(binding, binding_of(request));
+      if (!difference.empty()) {
+        throw StoreProblem(ProblemKind::another_run,
+                           fmt::format("{}: of another run: {}", file.string(), difference));
+      }
+      whole.trials = bound.trial_count();
+      whole.failures = value_or_throw(bound.kept_failures());
+    }
+    // Nobody else may hold the file when it is sealed.
+    Store store = value_or_throw(Store::open(file, binding));
+    value_or_throw(store.seal());
+    return whole;
+  });
+}
+
+void note_library(Store& store, const CampaignRequest& request) {
+  if (request.plugin) store.set_note(library_note, request.plugin->string());
+}
+
+std::optional<std::string> noted_library(const Store& store) { return store.note(library_note); }
 
 std::filesystem::path failure_file(const StoredFailure& failure, bool smallest) {
   std::string stem = fmt::format("{}-{}", failure.id, failure.configuration);

@@ -28,10 +28,23 @@ inline std::filesystem::path certificate_file(const std::filesystem::path& out) 
   return out / "certificate.json";
 }
 
-// The stores of trials in a folder, by name: of shards, and a merged one. One line in `problem`
-// where there are none.
-std::vector<std::filesystem::path> stored_shards(const std::filesystem::path& folder,
-                                                 std::string& problem);
+// The stores of trials in a folder, by name: of shards, and a merged one. no_run where there are
+// none, cannot_read where the folder is not listed.
+Expected<std::vector<std::filesystem::path>> stored_shards(const std::filesystem::path& folder);
+
+// A shard's store as a certificate takes it.
+struct WholeShard {
+  std::uint64_t trials = 0;
+  KeptFailures failures;
+};
+// Reads the store and seals its file. another_run where it is of another run than the request, its
+// shard aside; else the problems of Store::read and Store::open.
+Expected<WholeShard> make_whole(const std::filesystem::path& file, const CampaignRequest& request);
+
+// Keeps the path of a plug-in's library, as it was named to the run, and finds it again; nothing
+// where none was kept. They throw StoreProblem, and are for campaign/ alone.
+void note_library(Store& store, const CampaignRequest& request);
+std::optional<std::string> noted_library(const Store& store);
 
 // Below OUT, the same in every run that finds it: failures/tiny-1-broken-3-bvh-smallest.json.
 std::filesystem::path failure_file(const StoredFailure& failure, bool smallest);

@@ -4,15 +4,43 @@
 #include <sqlite3.h>
 
 namespace assay::properties {
+namespace {
+
+// What a result of SQLite's means to the user of a store. What is not in the list is about the
+// rows, such as a table that is not there: somebody changed the file.
+ProblemKind kind_of(int code) {
+  constexpr int primary = 0xff;  // without the further detail of extended codes
+  switch (code & primary) {
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+    case SQLITE_NOMEM:
+      return ProblemKind::cannot_read;
+    case SQLITE_FULL:
+    case SQLITE_READONLY:
+    case SQLITE_IOERR:
+      return ProblemKind::cannot_write;
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return ProblemKind::busy;
+    case SQLITE_NOTADB:
+      return ProblemKind::foreign_file;
+    default:
+      return ProblemKind::damaged_store;
+  }
+}
+
+}  // namespace
 
 Database::Database(const std::filesystem::path& file, Mode mode) {
   const int flags =
       mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  if (sqlite3_open_v2(file.c_str(), &db_, flags, nullptr) != SQLITE_OK) {
+  const int code = sqlite3_open_v2(file.c_str(), &db_, flags, nullptr);
+  if (code != SQLITE_OK) {
     const std::string reason =
         fmt::format("{}: {}", file.string(), db_ ? sqlite3_errmsg(db_) : "no memory");
     sqlite3_close(db_);
-    throw StoreProblem(reason);
+    throw StoreProblem(kind_of(code), reason);
   }
   constexpr int patience_ms = 5000;
   sqlite3_busy_timeout(db_, patience_ms);
@@ -26,14 +54,15 @@ std::string Database::file() const {
 }
 
 void Database::run(const std::string& sql) const {
-  if (sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
-    throw StoreProblem(fmt::format("{}: {}", file(), sqlite3_errmsg(db_)));
+  const int code = sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK)
+    throw StoreProblem(kind_of(code), fmt::format("{}: {}", file(), sqlite3_errmsg(db_)));
 }
 
 void Database::check_whole() const {
   Statement query(*this, "PRAGMA quick_check(1)");
   if (!query.next() || query.text(0) != "ok")
-    throw StoreProblem(fmt::format("{}: the file is damaged", file()));
+    throw StoreProblem(ProblemKind::damaged_store, fmt::format("{}: the file is damaged", file()));
 }
 
 Statement::Statement(const Database& database, const std::string& sql) : database_(database) {
@@ -73,8 +102,9 @@ std::uint64_t Statement::number(int column) const {
 bool Statement::changed_a_row() const { return sqlite3_changes(database_.handle()) > 0; }
 
 void Statement::check(int code) const {
-  if (code != SQLITE_OK)
-    throw StoreProblem(fmt::format("{}: {}", database_.file(), sqlite3_errmsg(database_.handle())));
+  if (code == SQLITE_OK) return;
+  throw StoreProblem(kind_of(code),
+                     fmt::format("{}: {}", database_.file(), sqlite3_errmsg(database_.handle())));
 }
 
 }  // namespace assay::properties

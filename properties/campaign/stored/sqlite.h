@@ -3,32 +3,29 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
+
+#include "properties/campaign/stored/store_problem.h"
 
 struct sqlite3;
 struct sqlite3_stmt;
 
 namespace assay::properties {
 
-// The disk is full, or the file cannot be read or written any more: no fault of the harness.
-class StoreProblem : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;  // one line, names the file
-};
-
+// Everything here throws StoreProblem: the disk is full, the file is damaged or none of SQLite's,
+// or it cannot be read or written any more. The message is SQLite's own and names the file.
 class Database {
  public:
   enum class Mode : std::uint8_t { read, write };
-  // write makes the file where there is none. Throws StoreProblem.
+  // write makes the file where there is none.
   Database(const std::filesystem::path& file, Mode mode);
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
   ~Database();
 
-  // One statement or several, without results. Throws StoreProblem.
+  // One statement or several, without results.
   void run(const std::string& sql) const;
-  // Throws StoreProblem when a page is damaged.
+  // damaged_store when a page is damaged.
   void check_whole() const;
   std::string file() const;
   sqlite3* handle() const { return db_; }
@@ -37,7 +34,7 @@ class Database {
   sqlite3* db_ = nullptr;
 };
 
-// A prepared statement, finalized with the object. Everything throws StoreProblem.
+// A prepared statement, finalized with the object.
 class Statement {
  public:
   Statement(const Database& database, const std::string& sql);

@@ -40,10 +40,14 @@ class FileLock {
   explicit FileLock(const std::filesystem::path& file) {
     const std::string name = file.string() + ".lock";
     lock_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock_ < 0) throw StoreProblem(fmt::format("{}: {}", name, std::strerror(errno)));
+    if (lock_ < 0) {
+      throw StoreProblem(ProblemKind::cannot_write,
+                         fmt::format("{}: {}", name, std::strerror(errno)));
+    }
     if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
     ::close(lock_);
-    throw StoreProblem(fmt::format("{}: another run is writing it", file.string()));
+    throw StoreProblem(ProblemKind::busy,
+                       fmt::format("{}: another run is writing it", file.string()));
   }
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
@@ -78,35 +82,31 @@ Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 Store::~Store() = default;
 
-std::optional<Store> Store::read(const std::filesystem::path& file, std::string& problem) {
+Expected<Store> Store::read(const std::filesystem::path& file) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) {
-    problem = fmt::format("{}: no such file", file.string());
-    return std::nullopt;
-  }
-  try {
+  if (!std::filesystem::is_regular_file(file, ignored))
+    return Problem{ProblemKind::not_found, fmt::format("{}: no such file", file.string())};
+  return catch_store_problem([&] {
     auto parts = std::make_unique<Parts>(file, Database::Mode::read);
     const bool is_store =
         Statement(parts->db, "SELECT 1 FROM sqlite_master WHERE name='note'").next();
     Store store(std::move(parts));
     const auto binding = is_store ? store.note("binding") : std::nullopt;
     if (!binding) {
-      problem = fmt::format("{}: not the store of a run", file.string());
-    } else if (const auto older = other_schema(*binding)) {
-      problem = fmt::format("{}: is of schema {}, this assay reads {}: run it again", file.string(),
-                            *older, store_schema);
-    } else {
-      return store;
+      throw StoreProblem(ProblemKind::foreign_file,
+                         fmt::format("{}: not the store of a run", file.string()));
     }
-  } catch (const StoreProblem& failure) {
-    problem = failure.what();
-  }
-  return std::nullopt;
+    if (const auto older = other_schema(*binding)) {
+      throw StoreProblem(ProblemKind::other_schema,
+                         fmt::format("{}: is of schema {}, this assay reads {}: run it again",
+                                     file.string(), *older, store_schema));
+    }
+    return store;
+  });
 }
 
-std::optional<Store> Store::open(const std::filesystem::path& file, const std::string& binding,
-                                 std::string& problem) {
-  try {
+Expected<Store> Store::open(const std::filesystem::path& file, const std::string& binding) {
+  return catch_store_problem([&] {
     auto parts = std::make_unique<Parts>(file, Database::Mode::write);
     // A killed process loses nothing that add() returned from; only a power cut may lose the end.
     parts->db.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
@@ -117,15 +117,23 @@ std::optional<Store> Store::open(const std::filesystem::path& file, const std::s
     if (!bound) {
       store.set_note("binding", binding);
     } else if (*bound != binding) {
-      problem = fmt::format(
-          "{}: holds another run (of another plan, seed, shard, detector or build)", file.string());
-      return std::nullopt;
+      throw StoreProblem(
+          ProblemKind::another_run,
+          fmt::format("{}: holds another run (of another plan, seed, shard, detector or build)",
+                      file.string()));
     }
     return store;
-  } catch (const StoreProblem& failure) {
-    problem = failure.what();
-    return std::nullopt;
-  }
+  });
+}
+
+Expected<KeptFailures> Store::kept_failures() const {
+  return catch_store_problem([&] { return KeptFailures{failures(), signatures()}; });
+}
+
+Expected<KeptFailures> read_failures(const std::filesystem::path& file) {
+  const auto store = Store::read(file);
+  if (!store) return store.error();
+  return store.value().kept_failures();
 }
 
 std::string Store::binding() const { return note("binding").value_or(""); }
@@ -278,6 +286,8 @@ std::vector<Evidence> Store::evidence() const {
   return list;
 }
 
-void Store::seal() { parts_->db.run("PRAGMA journal_mode=DELETE"); }
+Expected<void> Store::seal() {
+  return catch_store_problem([&] { parts_->db.run("PRAGMA journal_mode=DELETE"); });
+}
 
 }  // namespace assay::properties

@@ -39,6 +39,12 @@ struct MetFailure {
   std::string configuration, signature;  // as of StoredFailure
 };
 
+// All failures that a store holds.
+struct KeptFailures {
+  std::vector<StoredFailure> list;  // by signature, then id
+  Counts met;                       // how many of each signature were met, kept or not
+};
+
 // What a run found out besides its trials: the canary, planted faults, worlds, ...
 struct Evidence {
   std::string kind, name;
@@ -47,22 +53,29 @@ struct Evidence {
   std::string facts;           // a JSON object, without times where the kind does not say so
 };
 
+// What returns Expected is for all rooms. The rest throws StoreProblem and is for campaign/ alone
+// (store_problem.h).
 class Store {
  public:
-  // Opens or makes the file. `binding` says what the trials are of (plan, seed, shard, detector):
-  // a file that was made for another one is refused, and so is a damaged one, and one that another
-  // process has open in this way. Nothing, and `problem` set, on failure.
-  static std::optional<Store> open(const std::filesystem::path& file, const std::string& binding,
-                                   std::string& problem);
-  // An existing file, whatever it was made for; it is not written to.
-  static std::optional<Store> read(const std::filesystem::path& file, std::string& problem);
+  // Opens or makes the file. `binding` says what the trials are of (plan, seed, shard, detector).
+  // another_run for a file that was made for another one, busy for one that another process has
+  // open in this way; foreign_file, damaged_store, cannot_read, cannot_write.
+  static Expected<Store> open(const std::filesystem::path& file, const std::string& binding);
+  // An existing file, whatever it was made for; it is not written to. not_found, foreign_file,
+  // other_schema, damaged_store, cannot_read.
+  static Expected<Store> read(const std::filesystem::path& file);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
   ~Store();
 
+  Expected<KeptFailures> kept_failures() const;
+  // From now on the file stands alone: nothing beside it belongs to it, and reading it leaves its
+  // bytes as they are.
+  Expected<void> seal();
+
   std::string binding() const;
 
-  // Each is whole on disk when it returns, or throws StoreProblem. Not for several threads at once.
+  // Each is whole on disk when it returns. Not for several threads at once.
   void add(const TrialRecord& record);
   // A trial with what it showed, all of it or nothing: the failures kept, and all that were met.
   void add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
@@ -75,9 +88,6 @@ class Store {
   // In place of what the same shard found out before, unless that came farther.
   void set(const Evidence& evidence);
   void drop_evidence(const std::string& kind);
-  // From now on the file stands alone: nothing beside it belongs to it, and reading it leaves its
-  // bytes as they are.
-  void seal();
 
   bool has_trial(const std::string& id) const;
   std::uint64_t trial_count() const;
@@ -96,5 +106,8 @@ class Store {
   explicit Store(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };
+
+// Of an existing store; the problems are those of Store::read.
+Expected<KeptFailures> read_failures(const std::filesystem::path& file);
 
 }  // namespace assay::properties

@@ -79,9 +79,9 @@ TEST(CleanStarts, AreVouchedForInEverySecondTrialOfTheBuiltIn) {
 TEST(CleanStarts, OfATrialAreStoredWithItsFailures) {
   const auto request = test::faulty("pair/zero-zero-dropped", 60);
   const tests::Scratch scratch;
-  std::string problem;
-  auto store = Store::open(scratch / "store", "b", problem);
-  ASSERT_TRUE(store) << problem;
+  auto opened = Store::open(scratch / "store", "b");
+  ASSERT_TRUE(opened) << opened.error().message;
+  Store* const store = &opened.value();
   ASSERT_TRUE(run_trials(request, *store, test::in_a_minute(), {}).complete);
   std::map<std::string, bool> vouched;
   store->for_each_trial([&](const TrialRecord& r) {

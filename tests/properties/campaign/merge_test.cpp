@@ -67,25 +67,27 @@ class Merged : public testing::Test {
     return {{"bvh", "s"}, {"view-point", i % 2 ? "t" : "s"}};
   }
   Store open(const std::string& name, const std::string& binding) const {
-    std::string problem;
-    auto store = Store::open(scratch / name, binding, problem);
-    EXPECT_TRUE(store) << problem;
-    return std::move(*store);
+    auto store = Store::open(scratch / name, binding);
+    EXPECT_TRUE(store) << store.error().message;
+    return std::move(store.value());
   }
   std::string merge(const Paths& files, const std::string& out) const {
-    const auto problem = merge_stores(files, scratch / out);
-    EXPECT_FALSE(problem) << *problem;
+    const auto merged = merge_stores(files, scratch / out);
+    EXPECT_TRUE(merged) << merged.error().message;
     return read_text(scratch / out);
   }
   // The store is refused beside the first shard, in a line that holds each word, and what is there
   // stays.
-  void expect_refused(const std::filesystem::path& other, const std::string& word) const {
+  void expect_refused(const std::filesystem::path& other, ProblemKind kind,
+                      const std::string& word) const {
     const auto before = merge({shards[0]}, "kept");
     for (const auto& files : {Paths{shards[0], other}, Paths{other, shards[0]}, Paths{other}}) {
-      const auto problem = merge_stores(files, scratch / "kept");
-      ASSERT_TRUE(problem);
-      EXPECT_NE(problem->find(word), std::string::npos) << *problem;
-      EXPECT_EQ(problem->find('\n'), std::string::npos) << *problem;
+      const auto merged = merge_stores(files, scratch / "kept");
+      ASSERT_FALSE(merged);
+      const auto& [told, message] = merged.error();
+      EXPECT_EQ(name_of(told), name_of(kind)) << message;
+      EXPECT_NE(message.find(word), std::string::npos) << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
       EXPECT_EQ(read_text(scratch / "kept"), before);
     }
     for (const auto& file : std::filesystem::directory_iterator(scratch / "")) {
@@ -96,9 +98,9 @@ class Merged : public testing::Test {
 
 TEST_F(Merged, HoldAllOfEach) {
   merge(shards, "all");
-  std::string problem;
-  const auto all = Store::read(scratch / "all", problem);
-  ASSERT_TRUE(all) << problem;
+  const auto read = Store::read(scratch / "all");
+  ASSERT_TRUE(read) << read.error().message;
+  const Store* const all = &read.value();
   EXPECT_EQ(all->trial_count(), 9u);
   std::uint64_t i = 0;
   all->for_each_trial([&](const TrialRecord& r) {
@@ -149,8 +151,9 @@ TEST_F(Merged, JoinWhatMayRightlyDiffer) {
   const auto joined = merge({shards[0], scratch / "again"}, "joined");
   EXPECT_EQ(merge({scratch / "again", shards[0]}, "other"), joined);
   EXPECT_EQ(merge({scratch / "other", shards[0]}, "other"), joined);
-  std::string problem;
-  const auto store = Store::read(scratch / "joined", problem);
+  const auto read = Store::read(scratch / "joined");
+  ASSERT_TRUE(read) << read.error().message;
+  const Store* const store = &read.value();
   EXPECT_EQ(store->trial_count(), 3u);
   store->for_each_trial([](const TrialRecord& r) {
     EXPECT_EQ(r.oracle_us, r.index == 0 ? 5u : 50u);
@@ -166,9 +169,11 @@ TEST_F(Merged, OtherRunsAreRefused) {
   const auto refused = [&](const std::string& name, const std::string& word) {
     { open(name, binding_of(other)); }
     const auto before = merge({shards[0]}, "kept");
-    const auto problem = merge_stores(Paths{shards[0], scratch / name}, scratch / "kept");
-    ASSERT_TRUE(problem) << name;
-    EXPECT_NE(problem->find("different runs: " + word), std::string::npos) << *problem;
+    const auto merged = merge_stores(Paths{shards[0], scratch / name}, scratch / "kept");
+    ASSERT_FALSE(merged) << name;
+    EXPECT_EQ(merged.error().kind, ProblemKind::another_run);
+    const std::string& problem = merged.error().message;
+    EXPECT_NE(problem.find("different runs: " + word), std::string::npos) << problem;
     EXPECT_EQ(read_text(scratch / "kept"), before);
     other = request_of({2, 3});
   };
@@ -192,7 +197,7 @@ TEST_F(Merged, ContradictionsAreRefused) {
       change(r);
       store.add(r);
     }
-    expect_refused(scratch / name, "trial test:1:broken:3 differs");
+    expect_refused(scratch / name, ProblemKind::contradiction, "trial test:1:broken:3 differs");
   };
   trial("outcome", [](TrialRecord& r) { r.outcomes = "HH"; });
   trial("steps", [](TrialRecord& r) { r.steps = 3; });
@@ -203,19 +208,23 @@ TEST_F(Merged, ContradictionsAreRefused) {
     changed.mesh = "another";
     other("failure").add(changed);
   }
-  expect_refused(scratch / "failure", "failure test:1:broken:3, bvh differs");
+  expect_refused(scratch / "failure", ProblemKind::contradiction,
+                 "failure test:1:broken:3, bvh differs");
   { other("met").add(record(3), {}, {{"bvh", "u"}}); }
-  expect_refused(scratch / "met", "failure test:1:broken:3, bvh differs");
+  expect_refused(scratch / "met", ProblemKind::contradiction,
+                 "failure test:1:broken:3, bvh differs");
   { other("evidence").set({"canary", "c", "1/3", 1, R"({"found": 3})"}); }
-  expect_refused(scratch / "evidence", "evidence canary, c, 1/3 differs");
+  expect_refused(scratch / "evidence", ProblemKind::contradiction,
+                 "evidence canary, c, 1/3 differs");
 }
 
 TEST_F(Merged, FilesThatAreNoStores) {
-  expect_refused(scratch / "none", "none: no such file");
-  expect_refused(scratch.write("text", std::string(5000, 'x')), "not a database");
+  expect_refused(scratch / "none", ProblemKind::not_found, "none: no such file");
+  expect_refused(scratch.write("text", std::string(5000, 'x')), ProblemKind::foreign_file,
+                 "not a database");
   { open("unbound", "no binding"); }
-  expect_refused(scratch / "unbound", "not the store of a shard");
-  EXPECT_TRUE(merge_stores(shards, scratch / "no/such/folder"));
+  expect_refused(scratch / "unbound", ProblemKind::damaged_store, "not the store of a shard");
+  EXPECT_FALSE(merge_stores(shards, scratch / "no/such/folder"));
 }
 
 }  // namespace

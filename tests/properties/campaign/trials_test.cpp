@@ -29,10 +29,9 @@ using tests::Scratch;
 class Trials : public testing::Test {
  protected:
   Store open(const std::string& name) const {
-    std::string problem;
-    auto store = Store::open(scratch / name, "b", problem);
-    EXPECT_TRUE(store) << problem;
-    return std::move(*store);
+    auto store = Store::open(scratch / name, "b");
+    EXPECT_TRUE(store) << store.error().message;
+    return std::move(store.value());
   }
   // Each trial in a line, without its times.
   static std::vector<std::string> lines(const Store& store) {

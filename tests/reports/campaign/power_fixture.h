@@ -42,15 +42,17 @@ class PowerFixture : public testing::Test {
   }
 
   static std::optional<properties::Store> open(const std::string& file) {
-    std::string problem;
-    auto read = properties::Store::read(file, problem);
-    EXPECT_TRUE(read) << problem;
-    if (!read) return std::nullopt;
-    const auto binding = read->binding();
-    read.reset();
-    auto opened = properties::Store::open(file, binding, problem);
-    EXPECT_TRUE(opened) << problem;
-    return opened;
+    std::string binding;
+    {
+      const auto read = properties::Store::read(file);
+      EXPECT_TRUE(read) << read.error().message;
+      if (!read) return std::nullopt;
+      binding = read.value().binding();
+    }
+    auto opened = properties::Store::open(file, binding);
+    EXPECT_TRUE(opened) << opened.error().message;
+    if (!opened) return std::nullopt;
+    return std::move(opened.value());
   }
   static Rows rows_of(const std::string& file, const std::string& kind) {
     Rows rows;
@@ -68,7 +70,7 @@ class PowerFixture : public testing::Test {
     auto binding = Json::parse(store->binding());
     binding["digests"][digest] = std::string(64, '0');
     store->set_note("binding", binding.dump());
-    store->seal();
+    EXPECT_TRUE(store->seal());
   }
   // Makes of the first planted fault that a run took over one that was not found: its name.
   static std::string hide_a_fault(const std::string& file) {
@@ -82,7 +84,7 @@ class PowerFixture : public testing::Test {
       for (auto& needed : facts["needed"]) needed = nullptr;
       row.facts = facts.dump();
       store->set(row);
-      store->seal();
+      EXPECT_TRUE(store->seal());
       return row.name;
     }
     ADD_FAILURE() << file << " has no fault that was taken over";

@@ -42,10 +42,9 @@ TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
   }
   const auto sources = rows_of(store, "power");
   ASSERT_EQ(sources.size(), 1u);
-  std::string problem;
-  const auto findings = properties::read_findings(proof_folder(), problem);
-  ASSERT_TRUE(findings) << problem;
-  EXPECT_EQ(Json::parse(sources[0].facts)["rows"], findings->rows);
+  const auto findings = properties::read_findings(proof_folder());
+  ASSERT_TRUE(findings) << findings.error().message;
+  EXPECT_EQ(Json::parse(sources[0].facts)["rows"], findings.value().rows);
 
   // The gates look at these rows: merge prints them as run does.
   const auto hidden = hide_a_fault(store);

@@ -65,12 +65,11 @@ struct Disturbed {
 };
 
 Disturbed disturbed_in(const std::string& out) {
-  std::string problem;
-  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
-  EXPECT_TRUE(store) << problem;
+  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite");
+  EXPECT_TRUE(store) << store.error().message;
   Disturbed sum;
   if (!store) return sum;
-  store->for_each_trial([&](const properties::TrialRecord& trial) {
+  store.value().for_each_trial([&](const properties::TrialRecord& trial) {
     sum.trials += trial.disturbed > 0 ? 1 : 0;
     sum.times += trial.disturbed;
   });
@@ -79,9 +78,8 @@ Disturbed disturbed_in(const std::string& out) {
 
 // None while there is no store yet.
 std::uint64_t stored_trials(const std::string& out) {
-  std::string problem;
-  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
-  return store ? store->trial_count() : 0;
+  const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite");
+  return store ? store.value().trial_count() : 0;
 }
 
 // A family of so many cases and two of half as many; without laws, for a plug-in has none.

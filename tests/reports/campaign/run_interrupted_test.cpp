@@ -30,20 +30,18 @@ class Interrupted : public testing::Test {
   void wait_for_trials(const std::string& out_folder, std::size_t least) const {
     for (int i = 0; i < 3000; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      std::string problem;
-      const auto store = properties::Store::read(out_folder + "/shard-1-of-1.sqlite", problem);
-      if (store && store->trial_count() >= least) return;
+      const auto store = properties::Store::read(out_folder + "/shard-1-of-1.sqlite");
+      if (store && store.value().trial_count() >= least) return;
     }
     FAIL() << "nothing was stored";
   }
   // How many meshes of each signature are kept: which ones depends on which threads were first.
   static properties::Counts failures_of(const std::string& out_folder) {
-    std::string problem;
-    const auto store = properties::Store::read(out_folder + "/shard-1-of-1.sqlite", problem);
-    EXPECT_TRUE(store) << problem;
+    const auto store = properties::Store::read(out_folder + "/shard-1-of-1.sqlite");
+    EXPECT_TRUE(store) << store.error().message;
     properties::Counts kept;
     if (!store) return kept;
-    for (const auto& failure : store->failures()) {
+    for (const auto& failure : store.value().failures()) {
       ++kept[failure.signature];
       EXPECT_FALSE(failure.mesh.empty());
     }
@@ -111,9 +109,8 @@ TEST_F(Interrupted, KilledAtRandomMomentsNothingReportedIsLost) {
     }
     ++killed;
     // A run killed before its store was bound has reported nothing.
-    std::string problem;
     if (!std::filesystem::exists(out + "/shard-1-of-1.sqlite")) continue;
-    if (!properties::Store::read(out + "/shard-1-of-1.sqlite", problem)) continue;
+    if (!properties::Store::read(out + "/shard-1-of-1.sqlite")) continue;
     const auto now = trials_of(out);
     between += !now.empty() && now.size() < expected.size() ? 1 : 0;
     after_trials += now.size() == expected.size() ? 1 : 0;

@@ -40,11 +40,10 @@ TEST_F(RunSelfKill, AlwaysOnOneKindOfCaseIsADefectOfTotal) {
     EXPECT_TRUE(contains(read_text(out + "/summary.md"), "## Assay: defect\n"));
 
     // On that kind of case, on each of them, and on no other.
-    std::string problem;
-    const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite", problem);
-    ASSERT_TRUE(store) << problem;
+    const auto store = properties::Store::read(out + "/shard-1-of-1.sqlite");
+    ASSERT_TRUE(store) << store.error().message;
     std::uint64_t fatal = 0;
-    store->for_each_trial([&](const properties::TrialRecord& trial) {
+    store.value().for_each_trial([&](const properties::TrialRecord& trial) {
       EXPECT_EQ(trial.outcomes, is_fatal(trial.triangles) ? "D" : "H") << trial.id;
       fatal += is_fatal(trial.triangles) ? 1 : 0;
     });

@@ -18,11 +18,10 @@ TEST_F(RunShards, ShareAFolder) {
     for (const auto& line : replay_lines(part.out)) {
       EXPECT_EQ(run_assay(line).exit_code, 1) << line;
     }
-    std::string problem;
     const auto store =
-        properties::Store::read(out + "/shard-" + shard.substr(0, 1) + "-of-3.sqlite", problem);
-    ASSERT_TRUE(store) << problem;
-    trials += store->trial_count();
+        properties::Store::read(out + "/shard-" + shard.substr(0, 1) + "-of-3.sqlite");
+    ASSERT_TRUE(store) << store.error().message;
+    trials += store.value().trial_count();
   }
   EXPECT_EQ(trials, 32u);
 }

@@ -48,11 +48,10 @@ class GeneratedFolder {
     write(campaign_file(folder_), plan_text(request_.plan) + "\n");
   }
   void issue() const {
-    std::string problem;
-    const auto statement = reports::make_statement(folder_, problem);
-    ASSERT_TRUE(statement) << problem;
-    write(certificate_file(folder_), reports::statement_text(*statement));
-    ASSERT_FALSE(reports::write_for_ci((*statement)["predicate"], folder_));
+    const auto statement = reports::make_statement(folder_);
+    ASSERT_TRUE(statement) << statement.error().message;
+    write(certificate_file(folder_), reports::statement_text(statement.value()));
+    ASSERT_FALSE(reports::write_for_ci(statement.value()["predicate"], folder_));
   }
 
  private:
@@ -63,10 +62,9 @@ class GeneratedFolder {
     std::ofstream(file, std::ios::binary) << text;
   }
   Store open(const std::filesystem::path& file, const std::string& binding) const {
-    std::string problem;
-    auto store = Store::open(file, binding, problem);
-    EXPECT_TRUE(store) << problem;
-    return std::move(*store);
+    auto store = Store::open(file, binding);
+    EXPECT_TRUE(store) << store.error().message;
+    return std::move(store.value());
   }
 
   // A trial less is incomplete; a world with a counterexample breaks a claim.
@@ -90,7 +88,7 @@ class GeneratedFolder {
     World world{"square-2", "1/1", 1, 1, 1, 0, true, std::nullopt};
     if (fails(states, Gate::claims)) world.counterexample = "pairs differ";
     store.set(to_row(world));
-    store.seal();
+    EXPECT_TRUE(store.seal());
   }
 
   void store_checks(const States& states) {
@@ -109,7 +107,7 @@ class GeneratedFolder {
     asked.certificate = asked.gates.size() == gate_rules.size();
     checks.set(to_row(asked));
     checks.set(to_row(Paths{folder_, ""}));
-    checks.seal();
+    EXPECT_TRUE(checks.seal());
   }
 
   // Read once: digests of programs take their time.
@@ -158,10 +156,9 @@ void expect_gate(const Json& gate, const GateResult& result, const std::string& 
 // `run` looks at its own store, and asks for four of the gates.
 void expect_agreement_of_run(const std::string& folder, const States& states,
                              const Judgement& judgement) {
-  std::string problem;
-  const auto findings = read_one_store(store_file(folder, {}), problem);
-  ASSERT_TRUE(findings) << problem;
-  const auto run = judge(*findings, asked_of_a_run());
+  const auto findings = read_one_store(store_file(folder, {}));
+  ASSERT_TRUE(findings) << findings.error().message;
+  const auto run = judge(findings.value(), asked_of_a_run());
   bool asks_the_same = true;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const bool is_asked = run.gates[i].state != GateState::not_judged;
@@ -173,15 +170,15 @@ void expect_agreement_of_run(const std::string& folder, const States& states,
   if (!asks_the_same) return;
   EXPECT_EQ(run.verdict, judgement.verdict);
   EXPECT_EQ(run.exit_code, judgement.exit_code);
-  EXPECT_EQ(reports::verdict_text(*findings, run), reports::verdict_text(*findings, judgement));
+  EXPECT_EQ(reports::verdict_text(findings.value(), run),
+            reports::verdict_text(findings.value(), judgement));
 }
 
 void expect_agreement(const std::string& folder, const States& states) {
   const auto [verdict, code] = expected_of(states);
-  std::string problem;
-  const auto findings = read_findings(folder, problem);
-  ASSERT_TRUE(findings) << problem;
-  const auto judgement = judge(*findings);
+  const auto findings = read_findings(folder);
+  ASSERT_TRUE(findings) << findings.error().message;
+  const auto judgement = judge(findings.value());
   for (std::size_t i = 0; i < states.size(); ++i)
     EXPECT_EQ(judgement.gates[i].state, states[i]) << gate_rules[i].name;
   EXPECT_EQ(judgement.verdict, verdict);
@@ -195,7 +192,7 @@ void expect_agreement(const std::string& folder, const States& states) {
   EXPECT_EQ(predicate["verdict"], verdict);
   EXPECT_EQ(predicate["exit_code"], code);
   // The page.
-  const auto page = reports::run_json(*findings, judgement);
+  const auto page = reports::run_json(findings.value(), judgement);
   EXPECT_EQ(page["verdict"], verdict);
   const auto junit = read_text(folder + "/junit.xml"), summary = read_text(folder + "/summary.md"),
              terminal = reports::gates_text(judgement);

@@ -21,11 +21,10 @@ Json night(std::uint64_t seed, std::uint64_t n, std::uint64_t holds) {
 }
 
 TEST(Pooling, NightsOfOneDetectorAddUp) {
-  std::string problem;
-  const auto pooled = pool({night(1, 100, 100), night(2, 300, 299)}, problem);
-  ASSERT_TRUE(pooled) << problem;
-  ASSERT_EQ(pooled->size(), 1u);
-  const auto& row = (*pooled)[0];
+  const auto pooled = pool({night(1, 100, 100), night(2, 300, 299)});
+  ASSERT_TRUE(pooled) << pooled.error().message;
+  ASSERT_EQ(pooled.value().size(), 1u);
+  const auto& row = pooled.value()[0];
   EXPECT_EQ(row["family"], "broken");
   EXPECT_EQ(row["configuration"], "bvh");
   EXPECT_EQ(row["n"], 400);
@@ -39,15 +38,19 @@ TEST(Pooling, OfDifferentDigestsIsRefused) {
         "/detector/name", "/confidence/bounds", "/strata/0/family"}) {
     Json other = night(2, 100, 100);
     other[Json::json_pointer(place)] = "other";
-    std::string problem;
-    EXPECT_FALSE(pool({night(1, 100, 100), other}, problem)) << place;
+    const auto pooled = pool({night(1, 100, 100), other});
+    ASSERT_FALSE(pooled) << place;
+    const auto& [kind, problem] = pooled.error();
+    EXPECT_EQ(kind, properties::ProblemKind::another_run);
     EXPECT_NE(problem.find("cannot be pooled: the"), std::string::npos) << problem;
   }
 }
 
 TEST(Pooling, NoTrialCountsTwice) {
-  std::string problem;
-  EXPECT_FALSE(pool({night(1, 100, 100), night(2, 100, 100), night(1, 50, 50)}, problem));
+  const auto pooled = pool({night(1, 100, 100), night(2, 100, 100), night(1, 50, 50)});
+  ASSERT_FALSE(pooled);
+  const auto& [kind, problem] = pooled.error();
+  EXPECT_EQ(kind, properties::ProblemKind::wrong_shards);
   EXPECT_NE(problem.find("seed 1 is there twice"), std::string::npos) << problem;
 }
 

@@ -19,10 +19,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 properties::RunFindings read_run(const std::string& folder) {
-  std::string problem;
-  const auto findings = properties::read_findings(folder, problem);
-  EXPECT_TRUE(findings) << problem;
-  return findings.value_or(properties::RunFindings{});
+  auto findings = properties::read_findings(folder);
+  EXPECT_TRUE(findings) << findings.error().message;
+  return findings ? std::move(findings.value()) : properties::RunFindings{};
 }
 
 TEST(PageFile, DataCannotLeaveItsElement) {
@@ -55,9 +54,12 @@ TEST(PageFile, DataStandsWhereTheTemplateHasItsMark) {
 
 class Runs : public testing::Test {
  protected:
-  void expect_refused(const std::string& folder, const std::string& word) {
-    std::string problem;
-    ASSERT_FALSE(properties::read_findings(folder, problem)) << folder;
+  using ProblemKind = properties::ProblemKind;
+  void expect_refused(const std::string& folder, ProblemKind kind, const std::string& word) {
+    const auto findings = properties::read_findings(folder);
+    ASSERT_FALSE(findings) << folder;
+    const auto& [told, problem] = findings.error();
+    EXPECT_EQ(name_of(told), name_of(kind)) << problem;
     EXPECT_NE(problem.find(word), std::string::npos) << problem;
     EXPECT_EQ(problem.find('\n'), std::string::npos) << problem;
   }
@@ -69,12 +71,12 @@ class Runs : public testing::Test {
 };
 
 TEST_F(Runs, WhatIsNoRunIsRefusedByName) {
-  expect_refused(scratch / "nowhere", "nowhere");
+  expect_refused(scratch / "nowhere", ProblemKind::cannot_read, "nowhere");
   std::filesystem::create_directory(scratch / "empty");
-  expect_refused(scratch / "empty", "no run is stored here");
+  expect_refused(scratch / "empty", ProblemKind::no_run, "no run is stored here");
   std::filesystem::create_directory(scratch / "text");
   scratch.write("text/shard-1-of-1.sqlite", "this is no store");
-  expect_refused(scratch / "text", "shard-1-of-1.sqlite");
+  expect_refused(scratch / "text", ProblemKind::foreign_file, "shard-1-of-1.sqlite");
 }
 
 TEST_F(Runs, ShardsOfDifferentRunsAreRefused) {
@@ -84,7 +86,7 @@ TEST_F(Runs, ShardsOfDifferentRunsAreRefused) {
   run.request.shard = {2, 2};
   run.request.seed = 7;
   run.store(scratch / "mixed");
-  expect_refused(scratch / "mixed", "different runs");
+  expect_refused(scratch / "mixed", ProblemKind::another_run, "different runs");
 }
 
 TEST_F(Runs, AShardThatIsThereTwiceIsRefused) {
@@ -93,13 +95,13 @@ TEST_F(Runs, AShardThatIsThereTwiceIsRefused) {
   run.judge("closed-generic", 4, 'H').store(scratch / "twice");
   std::filesystem::copy_file(scratch / "twice/shard-1-of-2.sqlite",
                              scratch / "twice/shard-2-of-2.sqlite");
-  expect_refused(scratch / "twice", "does not stand beside the others");
+  expect_refused(scratch / "twice", ProblemKind::wrong_shards, "does not stand beside the others");
   // Nor do shards of other numbers of shards.
   run.store(scratch / "mixed");
   run.request.shard = {2, 3};
   run.trials.clear();
   run.store(scratch / "mixed");
-  expect_refused(scratch / "mixed", "does not stand beside the others");
+  expect_refused(scratch / "mixed", ProblemKind::wrong_shards, "does not stand beside the others");
 }
 
 TEST_F(Runs, AShardThatAMergedStoreDoesNotHoldIsNotPassedOver) {
@@ -107,12 +109,13 @@ TEST_F(Runs, AShardThatAMergedStoreDoesNotHoldIsNotPassedOver) {
   run.request.shard = {1, 2};
   run.judge("closed-generic", 4, 'H').store(scratch / "grown");
   const std::vector<std::filesystem::path> first = {scratch / "grown/shard-1-of-2.sqlite"};
-  ASSERT_FALSE(properties::merge_stores(first, properties::merged_file(scratch / "grown")));
+  ASSERT_TRUE(properties::merge_stores(first, properties::merged_file(scratch / "grown")));
   EXPECT_EQ(read_run(scratch / "grown").tally.trials(), 4u);
   RunToStore other;
   other.request.shard = {2, 2};
   other.judge("broken", 1, 'D').store(scratch / "grown");
-  expect_refused(scratch / "grown", "which merged.sqlite does not: merge again");
+  expect_refused(scratch / "grown", ProblemKind::stale_merge,
+                 "which merged.sqlite does not: merge again");
 }
 
 TEST_F(Runs, ShardsAreSummed) {
