@@ -13,6 +13,7 @@
 #include "detector/contact/contact_fixed.h"
 #include "detector/detector.h"
 #include "detector/view/view_anchor.h"
+#include "detector/view/view_signs.h"
 
 namespace {
 std::atomic<std::uint64_t> allocations{0};

@@ -10,6 +10,7 @@
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
 #include "detector/geometry/winding.h"
+#include "detector/view/view_signs.h"
 
 namespace assay::properties {
 namespace {
