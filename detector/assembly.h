@@ -2,8 +2,10 @@
 // one that is wrong on purpose.
 //
 //   Stages stages = standard_stages(options);
-//   stages.pair_search = std::make_shared<MySearch>();       // a class derived from PairSearch
+//   stages.pair_search = std::make_shared<MySearch>();
 //   auto detector = assemble(triangles, positions, options, std::move(stages));
+//
+// Here MySearch is derived from PairSearch.
 //
 // The stages are no part of the promise of detector.h: their headers are not installed.
 #pragma once

@@ -2,7 +2,7 @@
 //
 // The harness must find every planted one; what it needs for that is its power. The detector knows
 // nothing of them: a fault derives from a stage of detector/step/stages.h and is handed to
-// detector::assemble (assembly.h).
+// detector::assemble (detector/assembly.h).
 #pragma once
 
 #include <span>

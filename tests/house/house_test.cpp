@@ -108,7 +108,7 @@ std::string inner_room_of(const std::string& path) {
 }
 
 // Plain data at a room's root that its inner rooms share. Other files at a root (the face of the
-// detector, main.cpp) stand above all inner rooms.
+// detector, the program's main) stand above all inner rooms.
 bool is_shared(const std::string& path) {
   static const std::set<std::string> shared = {"detector/options.h", "detector/step_result.h"};
   return shared.count(path) || room_of(path) != "detector";
