@@ -9,6 +9,8 @@
 #include <cstring>
 #include <memory>
 
+#include "corpus/file_bytes.h"
+
 namespace assay::corpus {
 namespace {
 
@@ -34,10 +36,6 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, Free> context_;
 };
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 }  // namespace
 
 std::string sha256_of(std::string_view bytes) {
@@ -47,7 +45,7 @@ std::string sha256_of(std::string_view bytes) {
 }
 
 Expected<std::string> sha256_of_file(const std::filesystem::path& path) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+  const OpenFile file(std::fopen(path.c_str(), "rb"));
   const auto failed = [&] {
     return problem_in(FileProblem::cannot_open, path, std::strerror(errno));
   };

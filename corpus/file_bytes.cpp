@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::size_t chunk = std::size_t{1} << 18;
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 struct EndInflate {
   void operator()(z_stream* stream) const { inflateEnd(stream); }
 };
@@ -44,7 +40,7 @@ Expected<std::string> read_raw(const std::filesystem::path& path, std::size_t li
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
     return problem_in(FileProblem::cannot_open, path, "is not a regular file");
   }
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+  const OpenFile file(std::fopen(path.c_str(), "rb"));
   if (!file) return open_problem(path, errno);
   std::string bytes;
   const auto buffer = std::make_unique<std::array<char, chunk>>();

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "corpus/problem.h"
@@ -12,6 +14,11 @@ namespace assay::corpus {
 // A file that grows beyond this (decompressed) is refused: a few hundred bytes of gzip can ask for
 // any amount of memory. Bytes; 2^32 holds a mesh of some 30 million vertices in text.
 inline constexpr std::size_t largest_file = std::size_t{1} << 32;
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
 // Problems: cannot_open, is_directory, permission_denied, empty_file, corrupt_gzip, too_large.
 // An empty gzip stream is an empty_file too.

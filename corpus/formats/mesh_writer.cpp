@@ -26,7 +26,7 @@ std::string ply_bytes(const detector::PositionsView& positions,
       "property double y\nproperty double z\nelement face {}\n"
       "property list uchar int vertex_indices\nend_header\n",
       positions.rows(), triangles.rows());
-  constexpr std::size_t vertex_size = 3 * 8, face_size = 1 + 3 * 4;
+  constexpr std::size_t vertex_size = 3 * sizeof(double), face_size = 1 + 3 * sizeof(std::int32_t);
   bytes.reserve(bytes.size() + static_cast<std::size_t>(positions.rows()) * vertex_size +
                 static_cast<std::size_t>(triangles.rows()) * face_size);
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {

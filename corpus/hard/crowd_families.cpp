@@ -5,29 +5,23 @@
 namespace assay::corpus {
 namespace {
 
-constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
-constexpr std::int64_t size = std::int64_t{1} << usual_exponent;
-
-Case bent(const GridMesh& mesh, Variation& vary, KnownFacts known) {
-  return grid_case(mesh, GridMap::any(vary), to_size_one, std::move(known));
-}
-
 // Spikes side by side over one face: all through it at half time, all stopping well above, all
 // touching it at the end.
 Case simultaneous(Variation& vary, int exponent, int kind) {
   const int spikes = 1 << exponent;
   constexpr int columns = 8;
-  constexpr std::int64_t cell = size / 64, drop = size / 16;
+  constexpr std::int64_t cell = usual_size / 64, drop = usual_size / 16;
   GridMesh mesh;
-  add_block(mesh, vary, size, size);
+  add_block(mesh, vary, usual_size, usual_size);
   const std::int64_t end[] = {-drop, drop / 4, 0};
   for (int i = 0; i < spikes; ++i) {
     const GridPoint place{cell * (i % columns - columns / 2), cell * (i / columns - columns / 2),
                           0};
-    add_spike(mesh, vary, falling(place, drop, end[kind]), cell / 4, size / 8, Side::all_around);
+    add_spike(mesh, vary, falling(place, drop, end[kind]), cell / 4, usual_size / 8,
+              Side::all_around);
   }
   constexpr double first[] = {0.5, 0, 1};
-  return bent(mesh, vary, kind == 1 ? known_free() : known_collision(first[kind]));
+  return sheared_case(mesh, vary, kind == 1 ? known_free() : known_collision(first[kind]));
 }
 
 // A triangle that tilts, and a copy of it with vertices of its own, above it by z_t0 to z_t1: while
@@ -35,15 +29,15 @@ Case simultaneous(Variation& vary, int exponent, int kind) {
 Case copies(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts known) {
   GridMesh mesh;
   std::array<GridVertex, 3> corners, copy;
-  const auto face = wide_face(vary, size);
+  const auto face = wide_face(vary, usual_size);
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::int64_t start = vary.between(-size / 2, size / 2);
-    corners[i] = falling(face[i], start, vary.between(-size / 2, size / 2));
+    const std::int64_t start = vary.between(-usual_size / 2, usual_size / 2);
+    corners[i] = falling(face[i], start, vary.between(-usual_size / 2, usual_size / 2));
     copy[i] = {corners[i].t0 + GridPoint{0, 0, z_t0}, corners[i].t1 + GridPoint{0, 0, z_t1}};
   }
   mesh.add_triangle(corners);
   mesh.add_triangle(copy);
-  return bent(mesh, vary, std::move(known));
+  return sheared_case(mesh, vary, std::move(known));
 }
 
 Case duplicates(Variation& vary, int exponent, int kind) {
@@ -56,13 +50,13 @@ Case duplicates(Variation& vary, int exponent, int kind) {
   }
   // A spike whose four triangles have vertices of their own: neighbours meet along open seams.
   GridMesh closed, mesh;
-  add_spike(closed, vary, falling(under_the_face(vary, size, 0), gap, 0), size / 2, gap,
+  add_spike(closed, vary, falling(under_the_face(vary, usual_size, 0), gap, 0), usual_size / 2, gap,
             Side::all_around);
   const auto corner = [&](std::int32_t v) { return closed.vertices[static_cast<std::size_t>(v)]; };
   for (const auto& t : closed.triangles) {
     mesh.add_triangle({corner(t[0]), corner(t[1]), corner(t[2])});
   }
-  return bent(mesh, vary, known_collision(0));
+  return sheared_case(mesh, vary, known_collision(0));
 }
 
 // A sheet in one plane, its vertices up to an eighth of a cell off a grid. It moves within the
@@ -72,17 +66,17 @@ Case duplicates(Variation& vary, int exponent, int kind) {
 // overlaps.
 Case coplanar_sheet(Variation& vary, int exponent, int kind) {
   const int rows = 1 << ((exponent - 1) / 2), columns = 1 << (exponent - 1 - (exponent - 1) / 2);
-  const std::int64_t cell = size / columns;
+  const std::int64_t cell = usual_size / columns;
   const int i_moved = columns / 2 - 1, j_moved = rows / 2;
-  const GridPoint moved{kind == 0 ? vary.between(-size, size) : 0,
-                        kind == 0 ? vary.between(-size, size) : 0, 0};
+  const GridPoint moved{kind == 0 ? vary.between(-usual_size, usual_size) : 0,
+                        kind == 0 ? vary.between(-usual_size, usual_size) : 0, 0};
   GridMesh mesh;
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
       const bool beside = std::abs(i - i_moved) <= 2 && std::abs(j - j_moved) <= 1;
       const auto off = [&] { return kind == 1 && beside ? 0 : vary.between(-cell / 8, cell / 8); };
-      const std::int64_t x = cell * i - size / 2 + off();
-      const GridPoint p{x, cell * j - size / 2 + off(), 0};
+      const std::int64_t x = cell * i - usual_size / 2 + off();
+      const GridPoint p{x, cell * j - usual_size / 2 + off(), 0};
       GridVertex vertex{p, p + moved};
       if (kind == 1 && i == i_moved && j == j_moved) vertex.t1.x += 2 * cell;
       mesh.add(vertex);
@@ -95,7 +89,7 @@ Case coplanar_sheet(Variation& vary, int exponent, int kind) {
       mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
     }
   }
-  Case c = bent(mesh, vary, kind == 0 ? known_free() : known_collision(0.5));
+  Case c = sheared_case(mesh, vary, kind == 0 ? known_free() : known_collision(0.5));
   // From a chosen primitive every ghost of a flat sheet is swept against every triangle: n^1.5.
   c.options["culling"] = "view-auto";
   return c;

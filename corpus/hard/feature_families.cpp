@@ -6,96 +6,93 @@
 namespace assay::corpus {
 namespace {
 
-constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
-constexpr std::int64_t size = std::int64_t{1} << usual_exponent;
-constexpr std::int64_t drop = size / 4;
-
-Case bent(const GridMesh& mesh, Variation& vary, KnownFacts known) {
-  return grid_case(mesh, GridMap::any(vary), to_size_one, std::move(known));
-}
+constexpr std::int64_t drop = usual_size / 4;
 
 // A flat spike over a flat block: all eight vertices within a few gaps of one plane, and the tip
 // within one gap of it all the time.
 Case near_coplanar(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   GridMesh mesh;
-  add_block(mesh, vary, size, 2 * gap);
-  const GridPoint place = under_the_face(vary, size, 0);
+  add_block(mesh, vary, usual_size, 2 * gap);
+  const GridPoint place = under_the_face(vary, usual_size, 0);
   const std::int64_t end[] = {-gap, gap, gap, 0};
   GridVertex tip = falling(place, kind == 1 ? 2 * gap : gap, end[kind]);
-  if (kind == 2) tip.t1.x += size / 16;  // it glides over the face
-  add_spike(mesh, vary, tip, size / 2, gap, Side::all_around);
+  if (kind == 2) tip.t1.x += usual_size / 16;  // it glides over the face
+  add_spike(mesh, vary, tip, usual_size / 2, gap, Side::all_around);
   constexpr double first[] = {0.5, 0, 0, 1};
-  return bent(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
+  return sheared_case(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
 }
 
 // The lower edge of one tetrahedron over the upper edge of another. They cross over the origin at
-// an angle of about gap / size; kind 2: they would cross only beyond their ends, and y is at most
-// gap in the one and at least twice that in the other.
+// an angle of about gap / usual_size; kind 2: they would cross only beyond their ends, and y is at
+// most gap in the one and at least twice that in the other.
 Case near_parallel(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   const auto some = [&](std::int64_t n) { return vary.between(n / 2, n); };
   GridMesh mesh;
-  const std::int64_t reach = some(size);
-  mesh.add_tetrahedron({at_rest({-reach, -gap, 0}), at_rest({reach, gap, 0}),
-                        at_rest({-some(size), -some(size / 2), -some(size)}),
-                        at_rest({some(size), gap - some(size / 2), -some(size)})});
+  const std::int64_t reach = some(usual_size);
+  mesh.add_tetrahedron(
+      {at_rest({-reach, -gap, 0}), at_rest({reach, gap, 0}),
+       at_rest({-some(usual_size), -some(usual_size / 2), -some(usual_size)}),
+       at_rest({some(usual_size), gap - some(usual_size / 2), -some(usual_size)})});
   const bool beside = kind == 2;
   const std::int64_t y = beside ? 2 * gap : 0;
   const std::int64_t end[] = {-drop, gap, -drop, 0};
-  const GridVertex left = falling({-some(size / 2), y, 0}, kind == 1 ? 2 * gap : drop, end[kind]);
+  const GridVertex left =
+      falling({-some(usual_size / 2), y, 0}, kind == 1 ? 2 * gap : drop, end[kind]);
   mesh.add_tetrahedron(
-      {left, carried(left, {some(size / 2) + size / 2, 0, 0}),
-       carried(left, {0, some(size / 2), some(size)}),
-       carried(left, {some(size), beside ? some(size) : -some(size), some(size)})});
+      {left, carried(left, {some(usual_size / 2) + usual_size / 2, 0, 0}),
+       carried(left, {0, some(usual_size / 2), some(usual_size)}),
+       carried(left, {some(usual_size), beside ? some(usual_size) : -some(usual_size),
+                      some(usual_size)})});
   constexpr double first[] = {0.5, 0, 0, 1};
-  return bent(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
+  return sheared_case(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
 }
 
 // A face of this width and the usual length, and a spike that comes down through it, as far beside
 // its long edge, on that edge, or on its far corner.
 Case slivers(Variation& vary, int exponent, int kind) {
   const std::int64_t width = two_to(exponent);
-  const auto far = [&] { return vary.between(size / 2, size); };
+  const auto far = [&] { return vary.between(usual_size / 2, usual_size); };
   GridMesh mesh;
   mesh.add_tetrahedron({at_rest({-far(), 0, 0}), at_rest({far(), 0, 0}), at_rest({0, width, 0}),
                         at_rest({0, width, -far()})});
-  const std::int64_t on_the_edge = vary.between(-size / 4, size / 4);
+  const std::int64_t on_the_edge = vary.between(-usual_size / 4, usual_size / 4);
   const GridPoint places[] = {
       {0, (width + 1) / 2, 0}, {on_the_edge, -width, 0}, {on_the_edge, 0, 0}, {0, width, 0}};
   const bool misses = kind == 1;
-  add_spike(mesh, vary, falling(places[kind], drop, -drop), size / 2, far(),
+  add_spike(mesh, vary, falling(places[kind], drop, -drop), usual_size / 2, far(),
             misses ? Side::negative_y : Side::all_around);
-  return bent(mesh, vary, misses ? known_free() : known_collision(0.5));
+  return sheared_case(mesh, vary, misses ? known_free() : known_collision(0.5));
 }
 
 // A spike that passes the straight edge (y = 0) of a block in y <= 0: outside, inside by the gap,
 // or on it.
 Case vertex_passes(Variation& vary, std::int64_t y) {
-  const auto far = [&] { return vary.between(size / 2, size); };
+  const auto far = [&] { return vary.between(usual_size / 2, usual_size); };
   GridMesh mesh;
   mesh.add_tetrahedron({at_rest({-far(), 0, 0}), at_rest({far(), 0, 0}),
-                        at_rest({0, -size - far() / 4, 0}),
+                        at_rest({0, -usual_size - far() / 4, 0}),
                         at_rest({far() / 4, -far() / 2, -far()})});
-  const GridPoint place{vary.between(-size / 16, size / 16), y, 0};
-  add_spike(mesh, vary, falling(place, drop, -drop), size / 2, far(),
+  const GridPoint place{vary.between(-usual_size / 16, usual_size / 16), y, 0};
+  add_spike(mesh, vary, falling(place, drop, -drop), usual_size / 2, far(),
             y > 0 ? Side::positive_y : Side::all_around);
-  return bent(mesh, vary, y > 0 ? known_free() : known_collision(0.5));
+  return sheared_case(mesh, vary, y > 0 ? known_free() : known_collision(0.5));
 }
 
 // An edge whose end lies at x beside the upper edge (x = 0) of a tetrahedron in x <= 0.
 Case edge_passes(Variation& vary, std::int64_t x) {
-  const auto far = [&] { return vary.between(size / 2, size); };
+  const auto far = [&] { return vary.between(usual_size / 2, usual_size); };
   GridMesh mesh;
   mesh.add_tetrahedron({at_rest({0, -far(), 0}), at_rest({0, far(), 0}),
                         at_rest({-far(), -far() / 2, -far()}),
                         at_rest({-far() / 2, far() / 2, -far()})});
-  const GridPoint place{x, vary.between(-size / 8, size / 8), 0};
+  const GridPoint place{x, vary.between(-usual_size / 8, usual_size / 8), 0};
   const GridVertex end = falling(place, drop, -drop);
   mesh.add_tetrahedron({end, carried(end, {far(), far() / 4, 0}),
                         carried(end, {far(), -far() / 2, far()}),
                         carried(end, {far() / 2, far() / 2, far()})});
-  return bent(mesh, vary, x > 0 ? known_free() : known_collision(0.5));
+  return sheared_case(mesh, vary, x > 0 ? known_free() : known_collision(0.5));
 }
 
 Case grazing(Variation& vary, int exponent, int kind) {

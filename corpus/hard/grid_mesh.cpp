@@ -122,4 +122,8 @@ Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3
   return c;
 }
 
+Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts known) {
+  return grid_case(mesh, GridMap::any(vary), to_size_one, std::move(known));
+}
+
 }  // namespace assay::corpus

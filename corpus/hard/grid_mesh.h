@@ -71,4 +71,10 @@ using KnownFacts = ExpectedStep;
 Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3>& exponents,
                KnownFacts known);
 
+// Coordinates of solids.h's usual_size become about 1 by these exponents.
+inline constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
+
+// grid_case under any map; its coordinates are about 1.
+Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts known);
+
 }  // namespace assay::corpus

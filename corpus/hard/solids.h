@@ -14,6 +14,7 @@ inline std::int64_t two_to(int exponent) { return std::int64_t{1} << exponent; }
 
 // The usual size of a solid: with growth (37) and heights up to twice that, below 2^52.
 inline constexpr int usual_exponent = 45;
+inline constexpr std::int64_t usual_size = std::int64_t{1} << usual_exponent;
 
 // A triangle in z = 0 that holds all points within reach / 8 of the origin, strictly; corners at
 // most `reach` away along each axis. reach >= 32.

@@ -8,26 +8,19 @@
 namespace assay::corpus {
 namespace {
 
-constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
-constexpr std::int64_t size = std::int64_t{1} << usual_exponent;
-
-Case bent(const GridMesh& mesh, Variation& vary, KnownFacts known) {
-  return grid_case(mesh, GridMap::any(vary), to_size_one, std::move(known));
-}
-
 // A block, and a spike whose tip goes from one height to another.
 Case spike_falls(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts known) {
   GridMesh mesh;
-  add_block(mesh, vary, size, vary.between(size / 2, size));
-  add_spike(mesh, vary, falling(under_the_face(vary, size, 0), z_t0, z_t1), size / 2, size / 2,
-            Side::all_around);
-  return bent(mesh, vary, std::move(known));
+  add_block(mesh, vary, usual_size, vary.between(usual_size / 2, usual_size));
+  add_spike(mesh, vary, falling(under_the_face(vary, usual_size, 0), z_t0, z_t1), usual_size / 2,
+            usual_size / 2, Side::all_around);
+  return sheared_case(mesh, vary, std::move(known));
 }
 
 // It starts above, on or inside the block and leaves. What is inside is pierced at t=0.
 Case at_the_start(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), start[] = {gap, -gap, 0};
-  return spike_falls(vary, start[kind], start[kind] + size / 4,
+  return spike_falls(vary, start[kind], start[kind] + usual_size / 4,
                      kind == 0 ? known_free() : known_collision(0));
 }
 
@@ -50,16 +43,16 @@ Case double_root(Variation& vary, int exponent, int kind) {
   const std::int64_t dip = dips[kind];
   GridMesh mesh;
   std::array<GridVertex, 4> block;
-  const auto face = wide_face(vary, size);
+  const auto face = wide_face(vary, usual_size);
   for (std::size_t i = 0; i < 3; ++i) {
     block[i] = falling(face[i], face[i].x, -face[i].x);
   }
-  block[3] = at_rest({0, 0, -vary.between(size, 2 * size)});
+  block[3] = at_rest({0, 0, -vary.between(usual_size, 2 * usual_size)});
   mesh.add_tetrahedron(block);
-  const std::int64_t y = vary.between(-size / 16, size / 16);
+  const std::int64_t y = vary.between(-usual_size / 16, usual_size / 16);
   add_spike(mesh, vary, {{-path, y, -dip}, {path, y, -dip}}, path / 2, path, Side::all_around);
   const double first = kind == 2 ? 0.5 : (1 - std::ldexp(1, exponent / 2 - 22)) / 2;
-  return bent(mesh, vary, kind == 1 ? known_free() : known_collision(first));
+  return sheared_case(mesh, vary, kind == 1 ? known_free() : known_collision(first));
 }
 
 // A vertex at the origin and a triangle. With tau = t - 1/2 its corners are the rows of M + tau I,
@@ -90,12 +83,12 @@ Case triple_root(Variation& vary, int exponent, int kind) {
   mesh.add_triangle({at_rest({0, 0, 0}), at_rest({one / 2 + near(), near(), -one / 2}),
                      at_rest({one / 2, near() - one / 16, -one / 2 - near()})});
   const double first = kind == 0 ? 0.5 - std::ldexp(1, exponent) : 0.5;
-  return bent(mesh, vary, kind == 2 ? known_free() : known_collision(first));
+  return sheared_case(mesh, vary, kind == 2 ? known_free() : known_collision(first));
 }
 
 // Solids far smaller than the way that the spike goes: through the face, past it, or onto it.
 Case long_step(Variation& vary, int exponent, int kind) {
-  const std::int64_t reach = two_to(usual_exponent - exponent), way = size;
+  const std::int64_t reach = two_to(usual_exponent - exponent), way = usual_size;
   const bool misses = kind == 1;
   GridMesh mesh;
   std::array<GridVertex, 4> block;
@@ -112,7 +105,7 @@ Case long_step(Variation& vary, int exponent, int kind) {
   tip.t0.x -= slant;
   if (kind != 2) tip.t1.x += slant;
   add_spike(mesh, vary, tip, reach / 2, reach / 2, misses ? Side::positive_y : Side::all_around);
-  return bent(mesh, vary, misses ? known_free() : known_collision(kind == 0 ? 0.5 : 1));
+  return sheared_case(mesh, vary, misses ? known_free() : known_collision(kind == 0 ? 0.5 : 1));
 }
 
 Case short_step(Variation& vary, int exponent, int kind) {
@@ -134,8 +127,8 @@ std::vector<HardFamily> time_families() {
            "least height", "ulp", 40, -2, 20, 2, 1, double_root},
           {"triple-root", "three roots nearly together, one beside a complex pair, none",
            "distance of the roots", "of the step", -2, -1, 19, 3, 1, triple_root},
-          {"long-steps", "a spike through a face, or past it", "length of the motion over the size",
-           "", 0, 1, 40, 2, 1, long_step},
+          {"long-steps", "a spike through a face, or past it",
+           "length of the motion over the usual_size", "", 0, 1, 40, 2, 1, long_step},
           {"short-steps", "a spike into a face, or toward it", "length of the motion", "ulp", 44,
            -1, 44, 2, 2, short_step}};
 }

@@ -10,9 +10,6 @@ namespace {
 
 using detector::ViewSign;
 
-constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
-constexpr std::int64_t size = std::int64_t{1} << usual_exponent;
-
 constexpr ViewSign zero = ViewSign::zero, plus = ViewSign::positive, minus = ViewSign::negative;
 
 KnownFacts with_signs(KnownFacts known, std::vector<ViewSign> signs) {
@@ -22,7 +19,7 @@ KnownFacts with_signs(KnownFacts known, std::vector<ViewSign> signs) {
 
 // A tetrahedron on a wide face, its fourth corner on the axis; its last triangle is the floor.
 void add_tent(GridMesh& mesh, Variation& vary, const GridVertex& top, const GridPoint& moved) {
-  const auto face = wide_face(vary, size);
+  const auto face = wide_face(vary, usual_size);
   const auto floor = [&](std::size_t i) { return GridVertex{face[i], face[i] + moved}; };
   mesh.add_tetrahedron({floor(0), floor(1), floor(2), top});
 }
@@ -38,20 +35,20 @@ Case touches_zero(Variation& vary, int exponent, int kind) {
   const std::int64_t ends[] = {gap, -gap, 0}, end = ends[kind / 2];
   const bool above = end > 0;
   if (kind % 2 == 0) {
-    const GridPoint moved{0, 0, size / 2 - end};
-    const GridPoint top{0, 0, size + vary.between(0, size)};
+    const GridPoint moved{0, 0, usual_size / 2 - end};
+    const GridPoint top{0, 0, usual_size + vary.between(0, usual_size)};
     add_tent(mesh, vary, {top, top + moved}, moved);
-    mesh.view = {at_rest({0, 0, size / 2})};
+    mesh.view = {at_rest({0, 0, usual_size / 2})};
     known = with_signs(known_free(), {plus, plus, plus, above ? plus : zero});
   } else {
-    const std::int64_t start = size / 2 - gap;
+    const std::int64_t start = usual_size / 2 - gap;
     add_tent(mesh, vary, falling({}, 2 * start, 2 * end), {});
     mesh.view = {falling({}, start, end)};
     const ViewSign sign = above ? plus : zero;
     const double first = end == 0 ? 1 : 1 - std::ldexp(1, exponent + 1 - usual_exponent);
     known = with_signs(above ? known_free() : known_collision(first), {sign, sign, sign, sign});
   }
-  return grid_case(mesh, GridMap::any(vary), to_size_one, std::move(known));
+  return sheared_case(mesh, vary, std::move(known));
 }
 
 // A tent that moves along with its view-point, which stays above, below or on the floor, or is one
@@ -59,21 +56,20 @@ Case touches_zero(Variation& vary, int exponent, int kind) {
 Case on_the_surface(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   GridMesh mesh;
-  const GridPoint moved{vary.between(-size, size), vary.between(-size, size),
-                        vary.between(-size, size)};
-  const GridPoint top{0, 0, vary.between(size / 2, size)};
+  const GridPoint moved{vary.between(-usual_size, usual_size),
+                        vary.between(-usual_size, usual_size),
+                        vary.between(-usual_size, usual_size)};
+  const GridPoint top{0, 0, vary.between(usual_size / 2, usual_size)};
   add_tent(mesh, vary, {top, top + moved}, moved);
   const std::int64_t heights[] = {gap, -gap, 0};
   constexpr ViewSign floor[] = {plus, minus, zero};
   if (kind < 3) {
     const GridPoint q{0, 0, heights[kind]};
     mesh.view = {{q, q + moved}};
-    return grid_case(mesh, GridMap::any(vary), to_size_one,
-                     with_signs(known_free(), {plus, plus, plus, floor[kind]}));
+    return sheared_case(mesh, vary, with_signs(known_free(), {plus, plus, plus, floor[kind]}));
   }
   mesh.view = {mesh.vertices[0]};
-  return grid_case(mesh, GridMap::any(vary), to_size_one,
-                   with_signs(known_free(), {plus, zero, zero, zero}));
+  return sheared_case(mesh, vary, with_signs(known_free(), {plus, zero, zero, zero}));
 }
 
 // The view-line lies on the x axis from 0 to 2^45. A triangle in the plane z = gap - x, whose first
@@ -84,27 +80,27 @@ Case on_the_surface(Variation& vary, int exponent, int kind) {
 Case line_ends(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), ends[] = {gap - 1, gap, gap + 1};
   const std::int64_t c = ends[kind % 3];
-  const auto far = [&] { return vary.between(size / 4, size / 2); };
+  const auto far = [&] { return vary.between(usual_size / 4, usual_size / 2); };
   const auto in_plane = [&](GridPoint p) {
     p.z = gap - p.x;
     return p;
   };
-  const std::int64_t y = vary.between(-size / 16, size / 16);
+  const std::int64_t y = vary.between(-usual_size / 16, usual_size / 16);
   std::array<GridVertex, 3> corners = {
       GridVertex{in_plane({-vary.between(1, gap), y}), in_plane({c, y})},
-      at_rest(in_plane({-far(), size / 16 + far()})),
-      at_rest(in_plane({-far(), -size / 16 - far()}))};
+      at_rest(in_plane({-far(), usual_size / 16 + far()})),
+      at_rest(in_plane({-far(), -usual_size / 16 - far()}))};
   const bool mirrored = kind >= 3;
   if (mirrored) {
     for (auto& corner : corners) {
-      corner.t0.x = size - corner.t0.x;
-      corner.t1.x = size - corner.t1.x;
+      corner.t0.x = usual_size - corner.t0.x;
+      corner.t1.x = usual_size - corner.t1.x;
     }
     std::swap(corners[1], corners[2]);
   }
   GridMesh mesh;
   mesh.add_triangle(corners);
-  mesh.view = {at_rest({0, 0, 0}), at_rest({size, 0, 0})};
+  mesh.view = {at_rest({0, 0, 0}), at_rest({usual_size, 0, 0})};
   return grid_case(mesh, GridMap::of_axes(vary), to_size_one,
                    with_signs(known_free(), {kind % 3 == 0 ? plus : zero}));
 }

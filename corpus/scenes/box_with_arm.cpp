@@ -15,9 +15,9 @@ namespace {
 using detector::Point;
 
 constexpr double half_width = 0.1;                 // of the arm
-constexpr double bend = 0.3;                       // radius of the arm's three bends
+constexpr double bend_radius = 0.3;                // of the arm's three bends
 constexpr double out = 0.4, up = 1.4, over = 1.1;  // lengths of its straight parts
-constexpr double arc = bend * pi / 2;
+constexpr double arc = bend_radius * pi / 2;
 constexpr double fixed_length = out + up + over + 3 * arc;
 constexpr double shoulder = 1.7;  // height from which the arm goes straight down
 
@@ -40,10 +40,10 @@ Station station_at(double s) {
     if (s <= 0) break;
     const double part = (s < arc ? s : arc) / arc / 4;
     // The bend's centre lies a quarter turn on from the direction.
-    const double centre_x = x + bend * d, centre_z = z + bend * c;
+    const double centre_x = x + bend_radius * d, centre_z = z + bend_radius * c;
     turn += part;
-    x = centre_x - bend * sin_turn(turn);
-    z = centre_z - bend * cos_turn(turn);
+    x = centre_x - bend_radius * sin_turn(turn);
+    z = centre_z - bend_radius * cos_turn(turn);
     s -= s < arc ? s : arc;
   }
   const double c = cos_turn(turn), d = sin_turn(turn);

@@ -35,9 +35,9 @@ struct Dropped : ContactDropped {
 
 bool is_edge_edge(const FourPoints& query) { return query.first_group == 2; }
 
-bool at_end(const FourPoints&, const ContactResult& right) { return right.time.lo == 1; }
+bool contact_at_end(const FourPoints&, const ContactResult& right) { return right.time.lo == 1; }
 
-bool at_start(const FourPoints&, const ContactResult& right) { return right.time.hi == 0; }
+bool contact_at_start(const FourPoints&, const ContactResult& right) { return right.time.hi == 0; }
 
 bool of_coplanar_points(const FourPoints& query, const ContactResult&) {
   return detector::coplanar_throughout(query);
@@ -162,12 +162,12 @@ class TakenForDuplicate : public ContactDropped {
 
 std::vector<Fault> elementary_faults() {
   return {
-      planted<Dropped<at_end>>("elementary/end-excluded",
-                               "the step is [0,1): contacts at t=1 do not count", "free-sound",
-                               "A3_nonstrict_end", 7),
-      planted<Dropped<at_start>>("elementary/start-excluded",
-                                 "the step is (0,1]: contacts at t=0 do not count", "free-sound",
-                                 "F_start_excluded", 4),
+      planted<Dropped<contact_at_end>>("elementary/end-excluded",
+                                       "the step is [0,1): contacts at t=1 do not count",
+                                       "free-sound", "A3_nonstrict_end", 7),
+      planted<Dropped<contact_at_start>>("elementary/start-excluded",
+                                         "the step is (0,1]: contacts at t=0 do not count",
+                                         "free-sound", "F_start_excluded", 4),
       planted<Dropped<of_coplanar_points>>("elementary/coplanar-ignored",
                                            "four points that stay in one plane are in no contact",
                                            "free-sound", "F_coplanar_motion", 4),

@@ -16,7 +16,7 @@ using detector::MovingPoint;
 using detector::StopFunction;
 
 using Flags = std::vector<std::uint8_t>;
-using Ghosts = std::span<const std::int32_t>;
+using GhostIndices = std::span<const std::int32_t>;
 using Corners = std::array<std::int32_t, 3>;
 
 std::ptrdiff_t common_vertices(const Corners& a, const Corners& b) {
@@ -25,13 +25,14 @@ std::ptrdiff_t common_vertices(const Corners& a, const Corners& b) {
 }
 
 struct NothingSwept : BoundaryHandler {
-  bool sweep(const GhostSweep&, Ghosts, const StopFunction&, Flags&, GhostCounts&) const override {
+  bool sweep(const GhostSweep&, GhostIndices, const StopFunction&, Flags&,
+             GhostCounts&) const override {
     return true;
   }
 };
 
 struct OverlapAtEnds : BoundaryHandler {
-  bool sweep(const GhostSweep& s, Ghosts ghosts, const StopFunction& stop, Flags& touched,
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
     const GhostSweep start{s.surface, s.tree, s.x_t0, s.x_t0, s.elementary, true};
     const GhostSweep end{s.surface, s.tree, s.x_t1, s.x_t1, s.elementary, true};
@@ -40,9 +41,9 @@ struct OverlapAtEnds : BoundaryHandler {
   }
 };
 
-// Ghosts stand where they are at t=0 while the mesh goes past them.
+// GhostIndices stand where they are at t=0 while the mesh goes past them.
 struct GhostsNotMoved : BoundaryHandler {
-  bool sweep(const GhostSweep& s, Ghosts ghosts, const StopFunction&, Flags& touched,
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction&, Flags& touched,
              GhostCounts&) const override {
     for (const auto ghost : ghosts) {
       const auto component = s.surface.all().component_of_triangle[at(ghost)];
@@ -88,7 +89,7 @@ struct GhostsNotMoved : BoundaryHandler {
 // Sweeps only some ghosts.
 class GhostsSkipped : public BoundaryHandler {
  public:
-  bool sweep(const GhostSweep& s, Ghosts ghosts, const StopFunction& stop, Flags& touched,
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
     std::vector<std::int32_t> kept;
     std::copy_if(ghosts.begin(), ghosts.end(), std::back_inserter(kept),
@@ -113,7 +114,7 @@ struct FlatGhostsSkipped : GhostsSkipped {
 
 template <std::ptrdiff_t common>
 struct LoopNeighboursSkipped : BoundaryHandler {
-  bool sweep(const GhostSweep& s, Ghosts ghosts, const StopFunction&, Flags& touched,
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction&, Flags& touched,
              GhostCounts& counts) const override {
     for (const auto ghost : ghosts) {
       Flags by_this(touched.size(), 0);
@@ -135,7 +136,7 @@ struct VertexFaceTests : detector::ElementaryTest {
 };
 
 struct SweptVertexFaceOnly : BoundaryHandler {
-  bool sweep(const GhostSweep& s, Ghosts ghosts, const StopFunction& stop, Flags& touched,
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
     const VertexFaceTests no_edges;
     const GhostSweep half{s.surface, s.tree, s.x_t0, s.x_t1, no_edges, s.piercing_at_start};
@@ -144,7 +145,7 @@ struct SweptVertexFaceOnly : BoundaryHandler {
 };
 
 struct PiercedGhostsIgnored : BoundaryHandler {
-  bool sweep(const GhostSweep& s, Ghosts ghosts, const StopFunction& stop, Flags& touched,
+  bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
     const GhostSweep half{s.surface, s.tree, s.x_t0, s.x_t1, s.elementary, false};
     return BoundaryHandler::sweep(half, ghosts, stop, touched, counts);

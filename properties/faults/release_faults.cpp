@@ -18,10 +18,10 @@ using Triangles = std::vector<std::int32_t>;
 
 enum class Contacts { tested, ignored };
 enum class Ghosts { tested, ignored };
-enum class Layers { of_pieces, by_connection, across_touched, not_looked_at };
+enum class ReleasedLayers { of_pieces, by_connection, across_touched, not_looked_at };
 
 // The release, put together again with parts of it missing or changed.
-template <Contacts contacts, Ghosts ghosts, Layers layers>
+template <Contacts contacts, Ghosts ghosts, ReleasedLayers layers>
 struct ReleaseHalfChecked : ReleaseRule {
   bool release(StepWork& work, const Components& components) const override {
     Flags touched(work.clean.size(), 0), seen(touched);
@@ -34,17 +34,17 @@ struct ReleaseHalfChecked : ReleaseRule {
       }
       if (ghosts == Ghosts::tested) detector::add_ghost_touches(work, c, in_doubt, touched);
       switch (layers) {
-        case Layers::of_pieces:
+        case ReleasedLayers::of_pieces:
           detector::release_pieces({work.surface, work.x_t0, touched}, c, in_doubt, seen,
                                    work.clean);
           break;
-        case Layers::across_touched:
+        case ReleasedLayers::across_touched:
           release_across_touched(work, c, in_doubt, touched);
           break;
-        case Layers::by_connection:
+        case ReleasedLayers::by_connection:
           release_connected(work, in_doubt, touched);
           break;
-        case Layers::not_looked_at:
+        case ReleasedLayers::not_looked_at:
           for (const auto t : in_doubt) work.clean[at(t)] = !touched[at(t)];
       }
     }
@@ -101,7 +101,7 @@ struct ReleasedWhileTouched : ReleaseRule {
 std::vector<Fault> release_faults() {
   using C = Contacts;
   using G = Ghosts;
-  using L = Layers;
+  using L = ReleasedLayers;
   return {
       planted<ReleaseHalfChecked<C::tested, G::ignored, L::of_pieces>>(
           "release/blind-to-ghosts", "released without looking at the ghosts", "L9",

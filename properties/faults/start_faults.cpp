@@ -30,10 +30,10 @@ void add_own_contacts(const StepWork& work, std::size_t c, Flags& touched) {
   }
 }
 
-enum class Layers { by_piece, of_component, not_looked_at };
+enum class StartLayers { by_piece, of_component, not_looked_at };
 
 // The check of a new start, put together again with parts of it missing or changed.
-template <bool contacts, bool ghosts, Layers layers>
+template <bool contacts, bool ghosts, StartLayers layers>
 struct StartHalfChecked : ReleaseRule {
   bool verify_start(StepWork& work, const Components& components) const override {
     Flags touched(work.surface.mesh.triangles.size(), 0);
@@ -48,10 +48,10 @@ struct StartHalfChecked : ReleaseRule {
         work.boundary.sweep(still, work.ghosts(c), work.stop, touched, work.counts.ghosts);
       }
       detector::mark_clean_by_layers({work.surface, work.x_t0, touched}, c, seen, work.clean);
-      if (layers == Layers::by_piece) continue;
+      if (layers == StartLayers::by_piece) continue;
       const auto own = work.own_triangles(c);
       const bool some =
-          layers == Layers::not_looked_at ||
+          layers == StartLayers::not_looked_at ||
           std::any_of(own.begin(), own.end(), [&](auto t) { return work.clean[at(t)] != 0; });
       for (const auto t : own) work.clean[at(t)] = some && !touched[at(t)];
     }
@@ -133,7 +133,7 @@ struct GhostSignsNotAsked : ReleaseRule {
 }  // namespace
 
 std::vector<Fault> start_faults() {
-  using enum Layers;
+  using enum StartLayers;
   return {
       planted<StartNotChecked>("state/start-not-checked", "every start is taken for clean", "L9",
                                "C5_start_intersecting", 6),

@@ -21,7 +21,7 @@ constexpr Recipe unclosed_exact = {.closed = false, .exact = true, .positive = 2
 constexpr Recipe unclosed_near = {.closed = false, .near = true, .positive = 30, .aimed = 30};
 constexpr Recipe broken = {.closed = false, .broken = true, .aimed = 30};
 
-constexpr Family all[] = {
+constexpr Family family_table[] = {
     {"closed-generic", "closed meshes, smooth and local motions, doubles of many bits", true, false,
      make<closed_generic>},
     {"closed-near-degenerate", "slivers, near coincidences, contacts missed or met by an ulp", true,
@@ -41,7 +41,7 @@ constexpr Family all[] = {
 
 }  // namespace
 
-std::span<const Family> families() { return all; }
+std::span<const Family> families() { return family_table; }
 
 GeneratedCase make_case(const Family& family, std::string_view id) {
   Random random(id);

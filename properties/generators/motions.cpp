@@ -165,7 +165,7 @@ void fast(Random& random, const Draft&, Points& x, double) {
   for (auto& p : x) p = p + 8 * any_vector(random);
 }
 
-constexpr Motion all[] = {
+constexpr Motion motion_table[] = {
     {"rigid", rigid, 2, false, false},         {"affine", affine, 3, false, false},
     {"quadratic", quadratic, 3, false, false}, {"breathe", breathing, 2, false, false},
     {"jitter", jitter, 3, false, false},       {"bend", bend, 2, false, false},
@@ -179,18 +179,18 @@ constexpr Motion all[] = {
 
 }  // namespace
 
-std::span<const Motion> motions() { return all; }
+std::span<const Motion> motions() { return motion_table; }
 
 std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too, bool dear_too) {
   const auto weight = [=](const Motion& m) {
     return (m.exact && !exact_too) || (m.dear && !dear_too) ? 0 : m.weight;
   };
   int total = 0;
-  for (const auto& m : all) total += weight(m);
+  for (const auto& m : motion_table) total += weight(m);
   std::vector<const Motion*> chosen;
   while (static_cast<int>(chosen.size()) < count) {
     int place = random.below(total);
-    for (const auto& m : all) {
+    for (const auto& m : motion_table) {
       place -= weight(m);
       if (place >= 0) continue;
       if (std::find(chosen.begin(), chosen.end(), &m) == chosen.end()) chosen.push_back(&m);

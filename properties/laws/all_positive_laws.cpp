@@ -65,7 +65,7 @@ Observation detector_takes_the_free_path(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-constexpr Law all[] = {
+constexpr Law all_positive_law_table[] = {
     {"L5_AllPositiveAndWindingOneIsFree_Closed", "L5",
      "A closed component that is positive over the step and has winding number 1 at its primitive "
      "at t=0 is free whatever came before, and at both ends every triangle is clean, of layer "
@@ -84,6 +84,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> all_positive_laws() { return all; }
+std::span<const Law> all_positive_laws() { return all_positive_law_table; }
 
 }  // namespace assay::properties

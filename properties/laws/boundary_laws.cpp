@@ -54,7 +54,7 @@ Observation vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-constexpr Law all[] = {
+constexpr Law boundary_law_table[] = {
     {"L11_ViolatedIsWhatGhostsTouch", "L11",
      "Violated are exactly the triangles that a ghost of their component touches at any time of "
      "the step (at a new start also those that it pierces at t=0).",
@@ -71,6 +71,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> boundary_laws() { return all; }
+std::span<const Law> boundary_laws() { return boundary_law_table; }
 
 }  // namespace assay::properties

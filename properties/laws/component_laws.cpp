@@ -89,7 +89,7 @@ Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) 
   return holds();
 }
 
-constexpr Law all[] = {
+constexpr Law component_law_table[] = {
     {"L10_PairsOfTwoComponentsNeedNoSigns", "L10",
      "Triangles of two components that meet are found, with their first time, also where both are "
      "clean and of one strict sign.",
@@ -106,6 +106,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> component_laws() { return all; }
+std::span<const Law> component_laws() { return component_law_table; }
 
 }  // namespace assay::properties

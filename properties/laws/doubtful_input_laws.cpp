@@ -53,7 +53,7 @@ Observation zero_area_stays_in_v0(CaseFacts& facts, std::size_t s) {
   return met ? holds() : not_met();
 }
 
-constexpr Law all[] = {
+constexpr Law doubtful_input_law_table[] = {
     {"L12_NeverFreeOnAGuess_BrokenEdges", "L12",
      "A mesh with edges of three or more triangles, or used twice in one direction, is answered "
      "free only when it is.",
@@ -77,6 +77,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> doubtful_input_laws() { return all; }
+std::span<const Law> doubtful_input_laws() { return doubtful_input_law_table; }
 
 }  // namespace assay::properties

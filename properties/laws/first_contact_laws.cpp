@@ -65,7 +65,7 @@ Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
   return met ? holds() : not_met();
 }
 
-constexpr Law all[] = {
+constexpr Law first_contact_law_table[] = {
     {"L3_FirstContactIsACandidate", "L3",
      "At the first contact time every place of contact (connected part of the contact graph) has a "
      "pair in K = (V+,V-) u (U,V0) u (U,Vv), pairs of two components included.",
@@ -78,6 +78,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> first_contact_laws() { return all; }
+std::span<const Law> first_contact_laws() { return first_contact_law_table; }
 
 }  // namespace assay::properties

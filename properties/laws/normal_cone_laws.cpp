@@ -40,7 +40,7 @@ Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-constexpr Law all[] = {
+constexpr Law normal_cone_law_table[] = {
     {"L13_CertifiedPatchesAreFree", "L13",
      "No two triangles of a patch are in contact in a step throughout which all of its triangles "
      "face one direction and its contour, projected along it, stays a simple polygon.",
@@ -53,6 +53,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> normal_cone_laws() { return all; }
+std::span<const Law> normal_cone_laws() { return normal_cone_law_table; }
 
 }  // namespace assay::properties

@@ -42,7 +42,7 @@ Observation one_sign_is_collision_free(CaseFacts& facts, std::size_t s) {
   return met ? holds() : not_met();
 }
 
-constexpr Law all[] = {
+constexpr Law one_sign_law_table[] = {
     {"L4_AllPositiveIsCollisionFree_Point", "L4",
      "A component whose V-, V0 and Vv are empty, seen from a point, has no contact in the step.",
      "pair set, view signs", each_step<one_sign_is_collision_free<ViewSign::positive, is_point>>},
@@ -59,6 +59,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> one_sign_laws() { return all; }
+std::span<const Law> one_sign_laws() { return one_sign_law_table; }
 
 }  // namespace assay::properties

@@ -54,7 +54,7 @@ Observation claim_holds(CaseFacts& facts, std::size_t s) {
   return holds_if(!broken, "refuted");
 }
 
-constexpr Law all[] = {
+constexpr Law pair_set_law_table[] = {
     {"L7_ClosureIsThePairSet", "L7",
      "K closed over what it finds is the complete pair set of the step: the oracle's pairs, and "
      "each first time in every bit.",
@@ -78,6 +78,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> pair_set_laws() { return all; }
+std::span<const Law> pair_set_laws() { return pair_set_law_table; }
 
 }  // namespace assay::properties

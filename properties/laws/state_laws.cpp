@@ -124,7 +124,7 @@ Observation all_positive_at_the_start_releases(CaseFacts& facts, std::size_t s) 
   return met ? holds() : not_met();
 }
 
-constexpr Law all[] = {
+constexpr Law state_law_table[] = {
     {"L8_CarriedCleanIsClean", "L8",
      "What a step that continues from a committed one starts with as clean touches nothing of S "
      "then, and is of one layer in each component.",
@@ -154,6 +154,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> state_laws() { return all; }
+std::span<const Law> state_laws() { return state_law_table; }
 
 }  // namespace assay::properties

@@ -69,7 +69,7 @@ Observation sets_are_disjoint_and_cover(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-constexpr Law all[] = {
+constexpr Law view_set_law_table[] = {
     {"L2_SignsAreTheOracles_Point", "L2",
      "Seen from a point, the sign of each triangle of the mesh over the whole step is the exact "
      "one: positive at all times, negative at all times, or zero.",
@@ -91,6 +91,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> view_set_laws() { return all; }
+std::span<const Law> view_set_laws() { return view_set_law_table; }
 
 }  // namespace assay::properties

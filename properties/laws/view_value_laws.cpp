@@ -89,7 +89,7 @@ Observation signs_hold_inside(CaseFacts& facts, std::size_t s) {
       });
 }
 
-constexpr Law all[] = {
+constexpr Law view_value_law_table[] = {
     {"L1_ClampFormIsRegionForm", "L1",
      "With s the axial coordinate clamped to [0,1], (1-s) f0 + s f1 is the view value seen from q0 "
      "before it (R0), from q1 beyond it (R1), and from the foot of the perpendicular between (R2).",
@@ -106,6 +106,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> view_value_laws() { return all; }
+std::span<const Law> view_value_laws() { return view_value_law_table; }
 
 }  // namespace assay::properties

@@ -16,7 +16,7 @@ using oracle::ContactAnswer;
 
 using Broken = std::optional<std::string>;
 
-Broken compare(const Query& changed, const ContactAnswer& expected) {
+Broken compare_answers(const Query& changed, const ContactAnswer& expected) {
   const ContactAnswer answer = ask_oracle(changed, Want::first_time);
   if (answer.contact != expected.contact) return "another answer";
   if (answer.contact && answer.first != expected.first) return "another first time";
@@ -37,7 +37,7 @@ Broken order_of_points(const Query& query, const ContactAnswer& answer, std::uin
       std::swap(x[1], x[3]);
     }
   }
-  return compare(q, answer);
+  return compare_answers(q, answer);
 }
 
 Broken axes(const Query& query, const ContactAnswer& answer, std::uint64_t pick) {
@@ -54,7 +54,7 @@ Broken axes(const Query& query, const ContactAnswer& answer, std::uint64_t pick)
     change(query.points[i].t0, q.points[i].t0);
     change(query.points[i].t1, q.points[i].t1);
   }
-  return compare(q, answer);
+  return compare_answers(q, answer);
 }
 
 // Changes every coordinate; false when one change is not exact.
@@ -81,7 +81,7 @@ Broken powers_of_two(const Query& query, const ContactAnswer& answer, std::uint6
     return same;
   });
   if (!exact) return {};
-  return compare(q, answer);
+  return compare_answers(q, answer);
 }
 
 // Whether a + b is a double, which `sum` then is (Knuth's TwoSum: its error term is exact).
@@ -103,7 +103,7 @@ Broken translation(const Query& query, const ContactAnswer& answer, std::uint64_
   if (!change_exactly(q, [&](double& c, std::size_t k) { return adds_exactly(c, by[k], c); })) {
     return {};
   }
-  return compare(q, answer);
+  return compare_answers(q, answer);
 }
 
 Broken time_reversed(const Query& query, const ContactAnswer& answer, std::uint64_t) {

@@ -17,7 +17,7 @@ double median_in_place(std::vector<double>& values) {
 }
 
 constexpr int draws = 2'000;
-constexpr double below = 0.025;  // of the draws, and as many above
+constexpr double share_below = 0.025;  // of the draws, and as many above
 
 properties::Random generator() { return properties::Random("percentile bootstrap"); }
 
@@ -32,7 +32,7 @@ Estimate bootstrap_median(std::vector<double> samples) {
     medians.push_back(median_in_place(drawn));
   }
   drawn = samples;
-  const double lo = quantile(medians, below), hi = quantile(medians, 1 - below);
+  const double lo = quantile(medians, share_below), hi = quantile(medians, 1 - share_below);
   return {median_in_place(drawn), lo, hi, std::move(samples)};
 }
 
@@ -61,7 +61,8 @@ Estimate bootstrap_ratio_of_sums(std::span<const double> a, std::span<const doub
     }
     drawn.push_back(sum_a / sum_b);
   }
-  return {all_a / all_b, quantile(drawn, below), quantile(drawn, 1 - below), std::move(samples)};
+  return {all_a / all_b, quantile(drawn, share_below), quantile(drawn, 1 - share_below),
+          std::move(samples)};
 }
 
 }  // namespace assay::reports

@@ -9,16 +9,16 @@
 namespace assay::reports {
 namespace {
 
-struct Look {
+struct CullingLook {
   const char* culling;
   const char* colour;
   int point_type;  // of gnuplot
 };
-constexpr Look looks[] = {{"view-point", colour::blue, 9},
-                          {"view-line", colour::vermilion, 11},
-                          {"view-auto", colour::green, 6}};
+constexpr CullingLook culling_looks[] = {{"view-point", colour::blue, 9},
+                                         {"view-line", colour::vermilion, 11},
+                                         {"view-auto", colour::green, 6}};
 
-std::vector<ScatterPoint> points_of(const BenchReport& report, const Look& look,
+std::vector<ScatterPoint> points_of(const BenchReport& report, const CullingLook& look,
                                     const std::string& over) {
   std::vector<ScatterPoint> points;
   for (const auto& p : report.scatter) {
@@ -31,9 +31,9 @@ std::vector<ScatterPoint> points_of(const BenchReport& report, const Look& look,
 
 std::string data(const BenchReport& report, const std::string& name, const std::string& over) {
   std::string text;
-  for (std::size_t l = 0; l < std::size(looks); ++l) {
+  for (std::size_t l = 0; l < std::size(culling_looks); ++l) {
     text += fmt::format("${}_{} << EOD\n", name, l);
-    for (const auto& p : points_of(report, looks[l], over)) {
+    for (const auto& p : points_of(report, culling_looks[l], over)) {
       text += fmt::format("{} {} {} {}\n", 100 * p.share, p.ratio, p.lo, p.hi);
     }
     text += "EOD\n";
@@ -54,7 +54,7 @@ std::string ratio_range(const BenchReport& report) {
 // Where the fitted lines cross 1, as words below the title.
 std::string crossings(const BenchReport& report, const std::string& over) {
   std::string text;
-  for (const auto& look : looks) {
+  for (const auto& look : culling_looks) {
     if (std::string(look.culling) == "view-auto") continue;
     const auto found = break_even(points_of(report, look, over));
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", look.culling,
@@ -65,11 +65,11 @@ std::string crossings(const BenchReport& report, const std::string& over) {
 
 std::string plots(const std::string& name) {
   std::string text = "plot 1 with lines linecolor '#000000' dashtype 2 notitle";
-  for (std::size_t l = 0; l < std::size(looks); ++l) {
+  for (std::size_t l = 0; l < std::size(culling_looks); ++l) {
     text += fmt::format(
         ", \\\n ${}_{} using 1:2:3:4 with yerrorbars pointtype {} pointsize 0.6 linecolor '{}' "
         "linewidth 0.6 title '{}'",
-        name, l, looks[l].point_type, looks[l].colour, looks[l].culling);
+        name, l, culling_looks[l].point_type, culling_looks[l].colour, culling_looks[l].culling);
   }
   return text + "\n";
 }

@@ -15,14 +15,14 @@ using detector::Pairs;
 
 using Error = ShareOfSteps VariantSummary::*;
 
-struct Look {
+struct ArithmeticLook {
   Arithmetic arithmetic;
   const char* colour;
 };
-constexpr Look looks[] = {{Arithmetic::exact, colour::blue},
-                          {Arithmetic::bounded, colour::green},
-                          {Arithmetic::double_precision, colour::orange},
-                          {Arithmetic::single_precision, colour::vermilion}};
+constexpr ArithmeticLook arithmetic_looks[] = {{Arithmetic::exact, colour::blue},
+                                               {Arithmetic::bounded, colour::green},
+                                               {Arithmetic::double_precision, colour::orange},
+                                               {Arithmetic::single_precision, colour::vermilion}};
 
 struct Mark {
   Culling culling;
@@ -52,11 +52,11 @@ std::string block_name(const char* panel, std::size_t look, std::size_t mark) {
 // A block of data for each arithmetic and culling, and one for the Pareto line.
 std::string data(const BenchReport& report, const char* panel, Error error) {
   std::string text;
-  for (std::size_t l = 0; l < std::size(looks); ++l) {
+  for (std::size_t l = 0; l < std::size(arithmetic_looks); ++l) {
     for (std::size_t m = 0; m < std::size(marks); ++m) {
       text += block_name(panel, l, m) + " << EOD\n";
       for (const auto& v : report.variants) {
-        if (is_drawn(v) && v.variant.arithmetic == looks[l].arithmetic &&
+        if (is_drawn(v) && v.variant.arithmetic == arithmetic_looks[l].arithmetic &&
             v.variant.culling == marks[m].culling) {
           text += point(v, error);
         }
@@ -70,20 +70,20 @@ std::string data(const BenchReport& report, const char* panel, Error error) {
 }
 
 // Exact is drawn hollow: at no error at all it would hide bounded.
-bool is_hollow(const Look& look) { return look.arithmetic == Arithmetic::exact; }
+bool is_hollow(const ArithmeticLook& look) { return look.arithmetic == Arithmetic::exact; }
 
 std::string plots(const char* panel) {
   std::string text = fmt::format(
       "plot ${}_line using 1:4 with steps linecolor '#000000' linewidth 1.5 dashtype 2 notitle",
       panel);
-  for (std::size_t l = 0; l < std::size(looks); ++l) {
-    const bool hollow = is_hollow(looks[l]);
+  for (std::size_t l = 0; l < std::size(arithmetic_looks); ++l) {
+    const bool hollow = is_hollow(arithmetic_looks[l]);
     for (std::size_t m = 0; m < std::size(marks); ++m) {
       text += fmt::format(
           ", \\\n {} using 1:4:2:3:5:6 with xyerrorbars pointtype {} pointsize {} linecolor '{}' "
           "linewidth {} notitle",
           block_name(panel, l, m), marks[m].point_type - (hollow ? 1 : 0), hollow ? 1.3 : 0.9,
-          looks[l].colour, hollow ? 1.2 : 0.7);
+          arithmetic_looks[l].colour, hollow ? 1.2 : 0.7);
     }
   }
   return text;
@@ -91,7 +91,7 @@ std::string plots(const char* panel) {
 
 std::string legend() {
   std::string text;
-  for (const auto& look : looks) {
+  for (const auto& look : arithmetic_looks) {
     text += fmt::format(
         ", \\\n keyentry with points pointtype {} pointsize 1.2 linewidth 1.5 linecolor '{}' title "
         "'{}'",

@@ -23,7 +23,7 @@ bool is_static(const Contradiction& c) {
   return c.kind != ContradictionKind::query && c.kind != ContradictionKind::missing_pair;
 }
 
-std::string time_text(const oracle::StaticTime& time) {
+std::string exact_time_text(const oracle::StaticTime& time) {
   if (const auto* t = std::get_if<double>(&time)) return fmt::format("{}", *t);
   const auto& fraction = std::get<oracle::RationalTime>(time);
   return fmt::format("{}/{}", fraction.numerator, fraction.denominator);
@@ -42,7 +42,7 @@ std::string contradiction_text(const Contradiction& c) {
   std::string out = fmt::format("  CONTRADICTION ({}):", name_of(c.kind));
   if (c.pair.a >= 0) out += fmt::format(" triangles {} and {}", c.pair.a, c.pair.b);
   if (is_static(c)) {
-    out += fmt::format(" at t = {}; oracle: {}, at rest: {}\n", time_text(c.time),
+    out += fmt::format(" at t = {}; oracle: {}, at rest: {}\n", exact_time_text(c.time),
                        verdict(c.judged), verdict(c.second));
   } else {
     out += fmt::format(" {} of vertices", properties::name_of(c.feature.kind));
@@ -80,7 +80,7 @@ nlohmann::ordered_json second_opinion_json(const oracle::SecondOpinion& opinion,
          {"triangles", has_pair ? Json::array({c.pair.a, c.pair.b}) : Json()},
          {"feature", is_static(c) ? Json() : Json(properties::name_of(c.feature.kind))},
          {"vertices", vertices_of(c.feature)},
-         {"time", is_static(c) ? Json(time_text(c.time)) : Json()},
+         {"time", is_static(c) ? Json(exact_time_text(c.time)) : Json()},
          {"oracle", c.judged},
          {"second", c.second}});
   }

@@ -19,7 +19,7 @@ struct SceneRequest {
   std::string out;
 };
 
-int refuse(const corpus::Problem& problem) { return reports::refuse(problem.message); }
+int refuse_scene(const corpus::Problem& problem) { return refuse(problem.message); }
 
 // Frames of an earlier run with more of them would be taken for steps of this one.
 std::optional<std::string> stale_frame(const std::string& folder, std::size_t frames) {
@@ -36,18 +36,18 @@ int run_scene(const SceneRequest& request) {
   options.size = request.size;
   options.frames = request.frames;
   if (!request.mesh_file.empty()) {
-    if (request.size > 0) return reports::refuse("--size has no meaning with --mesh");
+    if (request.size > 0) return refuse("--size has no meaning with --mesh");
     auto mesh = corpus::read_mesh(request.mesh_file);
-    if (!mesh) return refuse(mesh.error());
+    if (!mesh) return refuse_scene(mesh.error());
     options.mesh = std::move(mesh.value());
   }
   auto sequence = corpus::make_scene(request.name, options);
-  if (!sequence) return refuse(sequence.error());
+  if (!sequence) return refuse_scene(sequence.error());
   if (auto stale = stale_frame(request.out, sequence.value().frames.size())) {
-    return reports::refuse(*stale);
+    return refuse(*stale);
   }
   auto written = corpus::write_sequence(request.out, sequence.value());
-  if (!written) return refuse(written.error());
+  if (!written) return refuse_scene(written.error());
   fmt::print("{}: {} frame(s) of {} triangles, {} vertices, in {}\n", request.name,
              sequence.value().frames.size(), sequence.value().triangles.rows(),
              sequence.value().frames[0].rows(), request.out);

@@ -31,6 +31,10 @@ inline detector::Triangles triangles(Corners rows) {
   return f;
 }
 
+// Outward, of the vertices 0 to 3.
+inline const detector::Triangles kTetrahedron =
+    triangles({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+
 struct Step {
   detector::Positions x_t0, x_t1;
   detector::Triangles f;

@@ -35,6 +35,11 @@ class Scratch {
   std::filesystem::path folder_;
 };
 
+// The file of a case of corpus/curated.
+inline std::string curated(const std::string& name) {
+  return std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/" + name + ".json";
+}
+
 inline std::string read_text(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();

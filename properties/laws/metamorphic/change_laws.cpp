@@ -147,7 +147,7 @@ std::optional<Change> turned_inside_out(const CaseFacts&, const PinnedRun& run) 
   return change;
 }
 
-constexpr Law all[] = {
+constexpr Law change_law_table[] = {
     {"Change_VertexNumbers", "change",
      "With its vertices numbered otherwise a mesh has the same pairs, times, signs and sets.",
      "layers, where two classes tie", check_change<vertices_renumbered>, dear},
@@ -175,7 +175,7 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> change_laws() { return all; }
+std::span<const Law> change_laws() { return change_law_table; }
 
 std::optional<Change> holes_in_another_order(const CaseFacts&, const PinnedRun& run) {
   if (run.loops.size() < 2) return std::nullopt;

@@ -71,7 +71,7 @@ void check_equal_ends(CaseFacts& facts, LawTally& tally) {
   }
 }
 
-constexpr Law all[] = {
+constexpr Law repetition_law_table[] = {
     {"Change_StepHalved", "change",
      "A step in two halves, the state carried (all coordinates rounded to a grid before, so that "
      "the middle is exact), has the pairs of the whole, each at its time; of first contacts the "
@@ -93,6 +93,6 @@ constexpr Law all[] = {
 
 }  // namespace
 
-std::span<const Law> repetition_laws() { return all; }
+std::span<const Law> repetition_laws() { return repetition_law_table; }
 
 }  // namespace assay::properties

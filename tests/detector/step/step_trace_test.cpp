@@ -14,6 +14,7 @@ namespace {
 
 using tests::octahedron;
 using tests::octahedron_positions;
+using tests::pushed_octahedron;
 
 using namespace tests_of_steps;
 
@@ -42,17 +43,10 @@ class Traced {
   std::vector<ViewPrimitive> view_;
 };
 
-constexpr Options with_points = {Culling::view_point, Start::clean};
-
-// The apex is pulled out through the side.
-Positions pushed() {
-  Positions x = octahedron_positions(2);
-  x.row(4) << 3, .5, -.25;
-  return x;
-}
+constexpr Options clean_with_points = {Culling::view_point, Start::clean};
 
 TEST(StepTrace, L5_FreeClosedStepEndsAfterTheViewTest) {
-  Traced traced(octahedron(), octahedron_positions(1), with_points);
+  Traced traced(octahedron(), octahedron_positions(1), clean_with_points);
   traced.view_from({0, 0, 0});
   EXPECT_EQ(traced.step(octahedron_positions(1), octahedron_positions(2), Answer::free),
             (Notes{"view test", "free?", "settle"}));
@@ -61,14 +55,14 @@ TEST(StepTrace, L5_FreeClosedStepEndsAfterTheViewTest) {
 }
 
 TEST(StepTrace, L3L7_ClosedStepWithAContact) {
-  Traced traced(octahedron(), octahedron_positions(2), with_points);
+  Traced traced(octahedron(), octahedron_positions(2), clean_with_points);
   traced.view_from({0, 0, 0});
   // Every triangle at the apex loses its sign; the others are reached by the closure.
-  EXPECT_EQ(traced.step(octahedron_positions(2), pushed(), Answer::collision),
+  EXPECT_EQ(traced.step(octahedron_positions(2), pushed_octahedron(), Answer::collision),
             (Notes{"view test", "free?", "fit", "mark", "clear", "K", "search", "test", "H", "K",
                    "join", "mark", "search", "clear", "settle"}));
   // From here on with doubt, and L5 asked whether it can be put away.
-  EXPECT_EQ(traced.step(pushed(), octahedron_positions(2), Answer::collision),
+  EXPECT_EQ(traced.step(pushed_octahedron(), octahedron_positions(2), Answer::collision),
             (Notes{"known?", "view test", "free?", "release", "test", "fit", "mark", "clear", "K",
                    "search", "test", "H", "K", "settle"}));
 }
@@ -87,7 +81,7 @@ TEST(StepTrace, PairsFirstNeverCloses) {
   Traced traced(octahedron(), octahedron_positions(2),
                 {Culling::view_point, Start::clean, Pairs::first});
   traced.view_from({0, 0, 0});
-  EXPECT_EQ(traced.step(octahedron_positions(2), pushed(), Answer::collision),
+  EXPECT_EQ(traced.step(octahedron_positions(2), pushed_octahedron(), Answer::collision),
             (Notes{"view test", "free?", "fit", "mark", "clear", "K", "search", "test", "settle"}));
 }
 
@@ -95,7 +89,7 @@ TEST(StepTrace, BvhKnowsNoViewsAndNoStart) {
   Traced traced(octahedron(), octahedron_positions(2), {Culling::bvh});
   EXPECT_EQ(traced.step(octahedron_positions(2), octahedron_positions(3), Answer::free),
             (Notes{"fit", "mark", "clear", "K", "search", "settle"}));
-  EXPECT_EQ(traced.step(octahedron_positions(3), pushed(), Answer::collision),
+  EXPECT_EQ(traced.step(octahedron_positions(3), pushed_octahedron(), Answer::collision),
             (Notes{"known?", "fit", "K", "search", "test", "settle"}))
       << "no triangle changed its type";
 }
@@ -109,14 +103,14 @@ Triangles open_octahedron() {
 }
 
 TEST(StepTrace, L5_UnclosedAllPositiveStepSweepsNoGhosts) {
-  Traced traced(open_octahedron(), octahedron_positions(1), with_points);
+  Traced traced(open_octahedron(), octahedron_positions(1), clean_with_points);
   traced.view_from({-.125, -.125, 0});
   EXPECT_EQ(traced.step(octahedron_positions(1), octahedron_positions(2), Answer::free),
             (Notes{"apexes", "view test", "free?", "settle"}));
 }
 
 TEST(StepTrace, L11_GhostsAreSweptBeforeTheMarking) {
-  Traced traced(open_octahedron(), octahedron_positions(2), with_points);
+  Traced traced(open_octahedron(), octahedron_positions(2), clean_with_points);
   traced.view_from({-.125, -.125, 0});
   Positions through_the_hole = octahedron_positions(2);
   through_the_hole.row(1) << 2.5, 2.5, 0;  // the vertex -x, opposite the hole
@@ -135,11 +129,11 @@ TEST(StepTrace, L10_OneFreeComponentOfTwoSavesItsOwnPairsAlone) {
     x.bottomRows(6).col(0).array() += 16;
     return x;
   };
-  Traced traced(t, both(octahedron_positions(2), octahedron_positions(2)), with_points);
+  Traced traced(t, both(octahedron_positions(2), octahedron_positions(2)), clean_with_points);
   // The first breathes, the second collides with itself.
   EXPECT_EQ(
       traced.step(both(octahedron_positions(2), octahedron_positions(2)),
-                  both(octahedron_positions(3), pushed()), Answer::collision),
+                  both(octahedron_positions(3), pushed_octahedron()), Answer::collision),
       (Notes{"view test", "free?", "view test", "free?", "fit", "mark", "clear", "K", "search",
              "test", "H", "K", "join", "mark", "search", "test", "clear", "settle"}));
   EXPECT_EQ(traced.result.counts.free_components, 1u);

@@ -17,6 +17,7 @@ namespace {
 using tests::expect_same_contacts;
 using tests::octahedron;
 using tests::octahedron_positions;
+using tests::pushed_octahedron;
 using tests::revolved;
 using tests::sides;
 using tests::sphere;
@@ -29,13 +30,6 @@ Detector make(const Triangles& t, const Positions& x, Culling culling = Culling:
   auto made = Detector::create(t, x, {culling, start});
   EXPECT_TRUE(made.has_value());
   return std::move(made.value());
-}
-
-// The apex of the octahedron is pulled out through its side.
-Positions pushed() {
-  Positions x = octahedron_positions(2);
-  x.row(4) << 3, .5, -.25;
-  return x;
 }
 
 bool has_no_views(const StepResult& r) {
@@ -232,7 +226,7 @@ std::vector<Positions> eventful_frames() {
   std::vector<Positions> frames;
   for (int i = 0; i < 30; ++i) {
     const auto x = octahedron_positions(2 + i % 3);
-    frames.push_back(i % 7 == 3 ? Positions(-x) : i % 7 == 5 ? pushed() : x);
+    frames.push_back(i % 7 == 3 ? Positions(-x) : i % 7 == 5 ? pushed_octahedron() : x);
   }
   return frames;
 }

@@ -9,10 +9,9 @@ namespace {
 
 using detector::Positions;
 using detector::ViewPrimitive;
+using test::kTetrahedron;
 using test::positions;
 using test::triangles;
-
-const detector::Triangles kTetrahedron = triangles({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
 
 Positions tetrahedron(const detector::Point& top) {
   return positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, top});

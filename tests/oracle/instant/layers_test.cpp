@@ -14,12 +14,12 @@ namespace {
 
 using detector::Positions;
 using detector::Triangles;
+using test::kTetrahedron;
 using test::positions;
 using test::triangles;
 using Flags = std::vector<std::uint8_t>;
 
 const Triangles kNone(0, 3);
-const Triangles kTetrahedron = triangles({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
 
 LayerState closed_layers(const Positions& x, const Triangles& f) {
   return layers_at(Instant(x), f, kNone);

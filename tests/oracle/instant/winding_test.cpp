@@ -11,10 +11,9 @@ namespace {
 
 using detector::Positions;
 using detector::Triangles;
+using test::kTetrahedron;
 using test::positions;
 using test::triangles;
-
-const Triangles kTetrahedron = triangles({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
 
 Positions tetrahedron() { return positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}); }
 

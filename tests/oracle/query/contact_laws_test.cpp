@@ -23,7 +23,7 @@ using test::Random;
 
 constexpr int kQueriesPerKind = 300;
 
-struct Query {
+struct FeatureQuery {
   FourPoints q;
   ContactAnswer judge(Want want = Want::first_time) const {
     const auto& x = q.x;
@@ -38,7 +38,7 @@ void for_random_queries(std::uint64_t seed, const Law& law) {
   int queries = 0, contacts = 0;
   for (int kind = 0; kind < test::kCoordinateKinds; ++kind) {
     for (int i = 0; i < kQueriesPerKind; ++i) {
-      Query query;
+      FeatureQuery query;
       query.q.first_group = 1 + i % 2;
       for (MovingPoint& p : query.q.x) {
         p = test::random_point(random, static_cast<Coordinates>(kind));
@@ -56,7 +56,7 @@ void for_random_queries(std::uint64_t seed, const Law& law) {
 }
 
 TEST(ContactLaws, RungsAgree) {
-  for_random_queries(11, [](const Query& query) {
+  for_random_queries(11, [](const FeatureQuery& query) {
     ContactPolynomials polynomials(query.q);
     const AlgebraicVerdict full = algebraic_verdict(polynomials, Want::first_time);
     EXPECT_FALSE(separated_by_axis(query.q) && full.contact);
@@ -71,7 +71,7 @@ TEST(ContactLaws, RungsAgree) {
 }
 
 TEST(ContactLaws, WantDoesNotChangeTheAnswer) {
-  for_random_queries(12, [](const Query& query) {
+  for_random_queries(12, [](const FeatureQuery& query) {
     const ContactAnswer timed = query.judge();
     EXPECT_EQ(query.judge(Want::yes_no).contact, timed.contact);
     if (!timed.contact) return;
@@ -83,8 +83,8 @@ TEST(ContactLaws, WantDoesNotChangeTheAnswer) {
 }
 
 TEST(ContactLaws, TimeReversalKeepsTheAnswer) {
-  for_random_queries(13, [](const Query& query) {
-    Query back = query;
+  for_random_queries(13, [](const FeatureQuery& query) {
+    FeatureQuery back = query;
     for (MovingPoint& p : back.q.x) std::swap(p.t0, p.t1);
     const ContactAnswer forward = query.judge(), reversed = back.judge();
     EXPECT_EQ(forward.contact, reversed.contact);
@@ -95,14 +95,14 @@ TEST(ContactLaws, TimeReversalKeepsTheAnswer) {
 }
 
 TEST(ContactLaws, OrderOfPointsDoesNotMatter) {
-  for_random_queries(14, [](const Query& query) {
+  for_random_queries(14, [](const FeatureQuery& query) {
     const ContactAnswer expected = query.judge();
-    auto same = [&](const Query& other) {
+    auto same = [&](const FeatureQuery& other) {
       const ContactAnswer answer = other.judge();
       EXPECT_EQ(answer.contact, expected.contact);
       EXPECT_EQ(answer.first, expected.first);
     };
-    Query other = query;
+    FeatureQuery other = query;
     std::swap(other.q.x[2], other.q.x[3]);
     same(other);
     if (query.q.first_group == 2) {
@@ -119,8 +119,8 @@ TEST(ContactLaws, OrderOfPointsDoesNotMatter) {
 }
 
 TEST(ContactLaws, AxesAreAlike) {
-  for_random_queries(15, [](const Query& query) {
-    Query other = query;
+  for_random_queries(15, [](const FeatureQuery& query) {
+    FeatureQuery other = query;
     for (MovingPoint& p : other.q.x) {
       p = {{p.t0[1], p.t0[2], -p.t0[0]}, {p.t1[1], p.t1[2], -p.t1[0]}};
     }
@@ -131,10 +131,10 @@ TEST(ContactLaws, AxesAreAlike) {
 }
 
 TEST(ContactLaws, PowersOfTwoDoNotChangeTheTime) {
-  for_random_queries(16, [](const Query& query) {
+  for_random_queries(16, [](const FeatureQuery& query) {
     const ContactAnswer expected = query.judge();
     for (const int exponent : {-900, -60, 7, 900}) {
-      Query other = query;
+      FeatureQuery other = query;
       for (MovingPoint& p : other.q.x) {
         for (int k = 0; k < 3; ++k) {
           p.t0[k] = std::ldexp(p.t0[k], exponent);
@@ -150,11 +150,11 @@ TEST(ContactLaws, PowersOfTwoDoNotChangeTheTime) {
 
 TEST(ContactLaws, AContactOfAFaceIsAContactOfALargerFace) {
   // Doubling a face about its first corner keeps every point of it; the time can only be earlier.
-  for_random_queries(17, [](const Query& query) {
+  for_random_queries(17, [](const FeatureQuery& query) {
     if (query.q.first_group != 1) return;
     const ContactAnswer small = query.judge();
     if (!small.contact) return;
-    Query larger = query;
+    FeatureQuery larger = query;
     for (auto end : {&MovingPoint::t0, &MovingPoint::t1}) {
       for (int i = 2; i < 4; ++i) {
         for (int k = 0; k < 3; ++k) {

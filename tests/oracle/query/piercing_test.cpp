@@ -12,29 +12,29 @@ namespace {
 using detector::Point;
 using Face = std::array<Point, 3>;
 
-constexpr Face kFace = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+constexpr Face kPiercedFace = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
 
 TEST(Piercing, ThroughTheInside) {
-  EXPECT_TRUE(segment_pierces_triangle({1, 1, -1}, {1, 1, 1}, kFace));
-  EXPECT_TRUE(segment_pierces_triangle({1, 1, 1}, {1, 1, -1}, kFace));
+  EXPECT_TRUE(segment_pierces_triangle({1, 1, -1}, {1, 1, 1}, kPiercedFace));
+  EXPECT_TRUE(segment_pierces_triangle({1, 1, 1}, {1, 1, -1}, kPiercedFace));
 }
 
 TEST(Piercing, Beside) {
-  EXPECT_FALSE(segment_pierces_triangle({3, 3, -1}, {3, 3, 1}, kFace));
-  EXPECT_FALSE(segment_pierces_triangle({1, 1, 1}, {1, 1, 2}, kFace));
+  EXPECT_FALSE(segment_pierces_triangle({3, 3, -1}, {3, 3, 1}, kPiercedFace));
+  EXPECT_FALSE(segment_pierces_triangle({1, 1, 1}, {1, 1, 2}, kPiercedFace));
 }
 
 TEST(Piercing, TouchingIsNotPiercing) {
-  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 1}, kFace));   // end on the face
-  EXPECT_FALSE(segment_pierces_triangle({2, 0, -1}, {2, 0, 1}, kFace));  // through an edge
-  EXPECT_FALSE(segment_pierces_triangle({4, 0, -1}, {4, 0, 1}, kFace));  // through a corner
-  EXPECT_FALSE(segment_pierces_triangle({-1, 1, 0}, {5, 1, 0}, kFace));  // in the plane
+  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 1}, kPiercedFace));   // end on the face
+  EXPECT_FALSE(segment_pierces_triangle({2, 0, -1}, {2, 0, 1}, kPiercedFace));  // through an edge
+  EXPECT_FALSE(segment_pierces_triangle({4, 0, -1}, {4, 0, 1}, kPiercedFace));  // through a corner
+  EXPECT_FALSE(segment_pierces_triangle({-1, 1, 0}, {5, 1, 0}, kPiercedFace));  // in the plane
 }
 
 TEST(Piercing, DegenerateIsNotPiercing) {
   EXPECT_FALSE(
       segment_pierces_triangle({1, 0, -1}, {1, 0, 1}, {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}));
-  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 0}, kFace));
+  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 0}, kPiercedFace));
 }
 
 TEST(Piercing, OneUlpDecides) {

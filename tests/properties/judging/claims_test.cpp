@@ -24,10 +24,10 @@ detector::Triangles mesh() {
   return triangles;
 }
 
-PairContact contact(std::int32_t a, std::int32_t b, double lo, double hi) {
+PairContact pair_at(std::int32_t a, std::int32_t b, double lo, double hi) {
   return {{a, b}, {lo, hi}, {}};
 }
-PairContact contact(std::int32_t a, std::int32_t b, double t) { return contact(a, b, t, t); }
+PairContact pair_at(std::int32_t a, std::int32_t b, double t) { return pair_at(a, b, t, t); }
 
 detector::StepResult collision(TimeEnclosure first, std::vector<PairContact> pairs) {
   detector::StepResult result;
@@ -79,16 +79,16 @@ TEST(Claims, FollowTheArithmetic) {
 }
 
 TEST(Claims, FreeAgainstAContactIsUnsoundAndLosesItsPairs) {
-  const auto diff = judged(answer(Answer::free), truth({contact(3, 4, .5)}));
+  const auto diff = judged(answer(Answer::free), truth({pair_at(3, 4, .5)}));
   EXPECT_EQ(diff.outcome, Outcome::defect);
   EXPECT_EQ(diff.broken, (List{Claim::free_sound, Claim::first_pairs, Claim::all_pairs}));
   // A detector that promises nothing about `free` has broken nothing.
-  EXPECT_EQ(judged(answer(Answer::free), truth({contact(3, 4, .5)}), {.first_time = true}).outcome,
+  EXPECT_EQ(judged(answer(Answer::free), truth({pair_at(3, 4, .5)}), {.first_time = true}).outcome,
             Outcome::holds);
 }
 
 TEST(Claims, CollisionAgainstNoneIsSpurious) {
-  const auto alarm = collision({0, 0}, {contact(3, 4, 0)});
+  const auto alarm = collision({0, 0}, {pair_at(3, 4, 0)});
   EXPECT_EQ(judged(alarm, truth({})).broken, List{Claim::no_spurious});
   const Claims others = {.free_sound = true, .not_late = true, .first_time = true};
   EXPECT_EQ(judged(alarm, truth({})).outcome, Outcome::defect);
@@ -99,9 +99,9 @@ TEST(Claims, CollisionAgainstNoneIsSpurious) {
 
 TEST(Claims, ATimeIsAnIntervalThatMustHoldTheOracles) {
   const double half_up = std::nextafter(.5, 1);
-  const auto step = truth({contact(3, 4, .5, half_up)});  // strictly between the two
+  const auto step = truth({pair_at(3, 4, .5, half_up)});  // strictly between the two
   const auto broken_by = [&](double lo, double hi) {
-    return judged(collision({lo, hi}, {contact(3, 4, 0, 1)}), step).broken;
+    return judged(collision({lo, hi}, {pair_at(3, 4, 0, 1)}), step).broken;
   };
   EXPECT_EQ(broken_by(.5, half_up), List{});
   EXPECT_EQ(broken_by(.25, .75), List{});
@@ -117,28 +117,28 @@ TEST(Claims, ATimeIsAnIntervalThatMustHoldTheOracles) {
 }
 
 TEST(Claims, APairWithoutATimeIsJudgedByTheFirstTimeOnly) {
-  const auto step = truth({contact(0, 3, .75), contact(3, 4, .5)});
+  const auto step = truth({pair_at(0, 3, .75), pair_at(3, 4, .5)});
   const auto without =
-      judged(collision({.5, .5}, {contact(0, 3, 0, 1), contact(3, 4, 0, 1)}), step);
+      judged(collision({.5, .5}, {pair_at(0, 3, 0, 1), pair_at(3, 4, 0, 1)}), step);
   EXPECT_EQ(without.outcome, Outcome::holds);
-  const auto late = judged(collision({.5, .5}, {contact(0, 3, .8), contact(3, 4, .5)}), step);
+  const auto late = judged(collision({.5, .5}, {pair_at(0, 3, .8), pair_at(3, 4, .5)}), step);
   EXPECT_EQ(late.broken, List{Claim::all_pairs});
   EXPECT_EQ(late.late.size(), 1u);
-  const auto early = judged(collision({.5, .5}, {contact(0, 3, .7), contact(3, 4, .5)}), step);
+  const auto early = judged(collision({.5, .5}, {pair_at(0, 3, .7), pair_at(3, 4, .5)}), step);
   EXPECT_EQ(early.broken, List{Claim::no_spurious});
 }
 
 TEST(Claims, L6_MissingPairsAreExcusedWhereAllPairsIsNotClaimed) {
   // 0-3 and 3-4 are one part of the contact graph at t*, 1-2 another; 2-4 comes later.
   const auto step =
-      truth({contact(0, 3, .5), contact(1, 2, .5), contact(2, 4, .75), contact(3, 4, .5)});
-  const auto both_parts = collision({.5, .5}, {contact(1, 2, .5), contact(3, 4, .5)});
+      truth({pair_at(0, 3, .5), pair_at(1, 2, .5), pair_at(2, 4, .75), pair_at(3, 4, .5)});
+  const auto both_parts = collision({.5, .5}, {pair_at(1, 2, .5), pair_at(3, 4, .5)});
   const auto first = judged(both_parts, step, claims_of({.pairs = detector::Pairs::first}));
   EXPECT_EQ(first.outcome, Outcome::holds);
   EXPECT_EQ(first.excused.size(), 2u);
   EXPECT_EQ(judged(both_parts, step).broken, List{Claim::all_pairs});
 
-  const auto one_part = collision({.5, .5}, {contact(3, 4, .5)});
+  const auto one_part = collision({.5, .5}, {pair_at(3, 4, .5)});
   const auto lost = judged(one_part, step, claims_of({.pairs = detector::Pairs::first}));
   EXPECT_EQ(lost.broken, List{Claim::first_pairs});
   ASSERT_EQ(lost.missing.size(), 1u);
@@ -149,12 +149,12 @@ TEST(Claims, L6_MissingPairsAreExcusedWhereAllPairsIsNotClaimed) {
 
 TEST(Claims, TheContractIsTakenFromTheOraclesSide) {
   // Sharing an edge at 0.25, a vertex at 0.5, nothing at 0.75.
-  const auto step = truth({contact(0, 1, .25), contact(0, 2, .5), contact(3, 4, .75)});
+  const auto step = truth({pair_at(0, 1, .25), pair_at(0, 2, .5), pair_at(3, 4, .75)});
   const Claims all = claims_of({});
   const Contract no_edges = {.adjacency = Adjacency::not_edge_sharing};
   const Contract no_neighbours = {.adjacency = Adjacency::no_shared_vertex};
 
-  const auto a = collision({.5, .5}, {contact(0, 2, .5), contact(3, 4, .75)});
+  const auto a = collision({.5, .5}, {pair_at(0, 2, .5), pair_at(3, 4, .75)});
   EXPECT_EQ(judged(a, step, all, no_edges).outcome, Outcome::holds);
   EXPECT_EQ(judged(a, step, all, no_edges).left_out.size(), 1u);
   EXPECT_TRUE(judged(a, step, all, no_edges).left_out_missed);  // 0.25 is before 0.5
@@ -163,11 +163,11 @@ TEST(Claims, TheContractIsTakenFromTheOraclesSide) {
   EXPECT_EQ(judged(a, step, all, no_neighbours).broken, List{Claim::first_time});
   EXPECT_EQ(judged(a, step, all, no_neighbours).left_out.size(), 2u);
 
-  const auto neighbours_only = truth({contact(0, 1, .25)});
+  const auto neighbours_only = truth({pair_at(0, 1, .25)});
   const auto free = judged(answer(Answer::free), neighbours_only, all, no_edges);
   EXPECT_EQ(free.outcome, Outcome::holds);
   EXPECT_TRUE(free.left_out_missed);
-  const auto reported = collision({.25, .25}, {contact(0, 1, .25)});
+  const auto reported = collision({.25, .25}, {pair_at(0, 1, .25)});
   EXPECT_EQ(judged(reported, neighbours_only, all, no_edges).outcome, Outcome::holds);
   EXPECT_FALSE(judged(reported, neighbours_only, all, no_edges).left_out_missed);
 }
@@ -175,18 +175,18 @@ TEST(Claims, TheContractIsTakenFromTheOraclesSide) {
 TEST(Claims, AnErrorIsNoAnswer) {
   EXPECT_EQ(judged(answer(Answer::error), truth({})).broken, List{Claim::total});
   EXPECT_EQ(judged(answer(Answer::error), truth({}), {.free_sound = true}).outcome, Outcome::error);
-  EXPECT_EQ(judged(answer(Answer::undecided), truth({contact(3, 4, 0)})).outcome,
+  EXPECT_EQ(judged(answer(Answer::undecided), truth({pair_at(3, 4, 0)})).outcome,
             Outcome::undecided);
 }
 
 TEST(Claims, AStoppedOracleRefutesOnlyWithWhatItFound) {
-  auto judgement = truth({contact(3, 4, .5)});
+  auto judgement = truth({pair_at(3, 4, .5)});
   judgement.complete = false;
   judgement.answer = Answer::undecided;
   EXPECT_EQ(judged(answer(Answer::free), judgement).broken.front(), Claim::free_sound);
-  const auto other = collision({.25, .25}, {contact(0, 3, .25), contact(3, 4, .5)});
+  const auto other = collision({.25, .25}, {pair_at(0, 3, .25), pair_at(3, 4, .5)});
   EXPECT_EQ(judged(other, judgement).outcome, Outcome::undecided);
-  const auto late = collision({.75, .75}, {contact(0, 3, .75)});
+  const auto late = collision({.75, .75}, {pair_at(0, 3, .75)});
   EXPECT_EQ(judged(late, judgement, {.not_late = true}).broken, List{Claim::not_late});
 }
 

@@ -16,15 +16,16 @@
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/children.h"
+#include "tests/properties/worker/worker_cases.h"
 
 namespace assay::properties {
 namespace {
 
+using test::burning_case;
 using test::children;
 using test::plugin;
+using test::plugin_alone;
 using test::small_case;
-
-const std::vector<Configuration> one = {{"plug-in", {}}};
 
 // The first small case that is, or is not, one on which self_kill.cpp kills itself.
 corpus::Case fatal_case(bool is_fatal = true) {
@@ -32,13 +33,6 @@ corpus::Case fatal_case(bool is_fatal = true) {
     auto c = small_case(31, i);
     if ((c.triangles.rows() % 5 == 0) == is_fatal) return c;
   }
-}
-
-// A case on which burns_time.cpp uses so much processor time.
-corpus::Case burning_case(double seconds) {
-  auto c = small_case(31, 0);
-  for (auto& frame : c.frames) frame(0, 0) = seconds;
-  return c;
 }
 
 double processor_seconds(pid_t process) {
@@ -67,7 +61,7 @@ std::thread neighbour(int signal, int times, double seconds) {
 TEST(DisturbedWorker, ARunIsRepeatedAndIsAsIfNothingHadBeen) {
   const auto c = burning_case(.6);
   WorkerProcess undisturbed(ASSAY_WORKER, plugin("burns_time"));
-  const auto expected = undisturbed.run(c, one)[0];
+  const auto expected = undisturbed.run(c, plugin_alone)[0];
   ASSERT_EQ(expected.end, RunEnd::completed) << expected.what;
   EXPECT_EQ(expected.disturbances, 0u);
   EXPECT_EQ(undisturbed.disturbances(), 0u);
@@ -76,7 +70,7 @@ TEST(DisturbedWorker, ARunIsRepeatedAndIsAsIfNothingHadBeen) {
   for (const int signal : {SIGKILL, SIGTERM}) {
     WorkerProcess worker(ASSAY_WORKER, plugin("burns_time"));
     auto killer = neighbour(signal, static_cast<int>(times), .2);
-    const auto runs = worker.run(c, one);
+    const auto runs = worker.run(c, plugin_alone);
     killer.join();
     EXPECT_EQ(runs[0].end, RunEnd::completed) << runs[0].what;
     EXPECT_TRUE(same_answers(runs[0], expected));
@@ -95,7 +89,7 @@ TEST(DisturbedWorker, ThreeTimesInARowIsTheDetectorsDoing) {
   const auto fatal = fatal_case(), harmless = fatal_case(false);
   for (const auto& [name, what] : ends) {
     WorkerProcess worker(ASSAY_WORKER, plugin(name));
-    const auto run = worker.run(fatal, one)[0];
+    const auto run = worker.run(fatal, plugin_alone)[0];
     EXPECT_EQ(run.end, RunEnd::crashed);
     EXPECT_EQ(run.what, what);
     EXPECT_EQ(run.disturbances, 0u);
@@ -103,9 +97,9 @@ TEST(DisturbedWorker, ThreeTimesInARowIsTheDetectorsDoing) {
     const auto verdict = judge_run(fatal, run, {}, {.total = true}, {});
     EXPECT_EQ(verdict.broken, std::vector<Claim>{Claim::total});
     EXPECT_EQ(verdict.what, what);
-    EXPECT_TRUE(same_answers(worker.run(fatal, one)[0], run));
+    EXPECT_TRUE(same_answers(worker.run(fatal, plugin_alone)[0], run));
     // The next case begins to count anew.
-    EXPECT_EQ(worker.run(harmless, one)[0].end, RunEnd::completed);
+    EXPECT_EQ(worker.run(harmless, plugin_alone)[0].end, RunEnd::completed);
     EXPECT_EQ(worker.disturbances(), 0u);
     EXPECT_EQ(worker.starts(), 7u);
   }
@@ -120,14 +114,14 @@ TEST(DisturbedWorker, WhatItsHostBlocksOrIgnoresEndsItAllTheSame) {
   const auto quit_before = signal(SIGQUIT, SIG_IGN);
   {
     WorkerProcess worker(ASSAY_WORKER, std::nullopt);
-    worker.run(small_case(31, 0), one);
+    worker.run(small_case(31, 0), plugin_alone);
     for (const int one_signal : {SIGTERM, SIGQUIT}) {
       kill(children().at(0), one_signal);
-      EXPECT_EQ(worker.run(small_case(31, 1), one)[0].disturbances, 1u) << one_signal;
+      EXPECT_EQ(worker.run(small_case(31, 1), plugin_alone)[0].disturbances, 1u) << one_signal;
     }
   }
   WorkerProcess worker(ASSAY_WORKER, plugin("terminates_itself"));
-  EXPECT_EQ(worker.run(fatal_case(), one)[0].what,
+  EXPECT_EQ(worker.run(fatal_case(), plugin_alone)[0].what,
             "killed by signal 15 (Terminated), three times in a row");
   signal(SIGQUIT, quit_before);
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
@@ -141,7 +135,7 @@ TEST(DisturbedWorker, OtherSignalsAndExitsAreCrashesAtOnce) {
   const auto c = fatal_case();
   for (const auto& [name, what] : ends) {
     WorkerProcess worker(ASSAY_WORKER, plugin(name));
-    const auto runs = worker.run(c, std::vector<Configuration>(2, one[0]));
+    const auto runs = worker.run(c, std::vector<Configuration>(2, plugin_alone[0]));
     for (const auto& run : runs) {
       EXPECT_EQ(run.end, RunEnd::crashed);
       EXPECT_EQ(run.what, what);
@@ -158,13 +152,13 @@ TEST(DisturbedWorker, RandomDeathsAreCountedAndChangeNoAnswer) {
   std::uint64_t disturbances = 0, crashes = 0;
   for (std::uint64_t i = 0; i < 300; ++i) {
     const auto c = small_case(31, i);
-    const auto run = worker.run(c, one)[0];
+    const auto run = worker.run(c, plugin_alone)[0];
     disturbances += run.disturbances;
     if (run.end == RunEnd::crashed) {
       EXPECT_NE(run.what.find("three times in a row"), std::string::npos) << run.what;
       ++crashes;
     } else {
-      EXPECT_TRUE(same_answers(run, undisturbed.run(c, one)[0])) << c.id;
+      EXPECT_TRUE(same_answers(run, undisturbed.run(c, plugin_alone)[0])) << c.id;
     }
   }
   EXPECT_GT(disturbances, 0u);
@@ -175,12 +169,12 @@ TEST(DisturbedWorker, RandomDeathsAreCountedAndChangeNoAnswer) {
 
 TEST(DisturbedWorker, ADeathBetweenTwoCasesIsCountedToo) {
   WorkerProcess worker(ASSAY_WORKER, std::nullopt);
-  ASSERT_EQ(worker.run(small_case(31, 0), one)[0].end, RunEnd::completed);
+  ASSERT_EQ(worker.run(small_case(31, 0), plugin_alone)[0].end, RunEnd::completed);
   const int id = children().at(0);
   kill(id, SIGKILL);
   siginfo_t seen = {};
   ASSERT_EQ(waitid(P_PID, static_cast<id_t>(id), &seen, WEXITED | WNOWAIT), 0);
-  const auto runs = worker.run(small_case(31, 1), std::vector<Configuration>(2, one[0]));
+  const auto runs = worker.run(small_case(31, 1), std::vector<Configuration>(2, plugin_alone[0]));
   EXPECT_EQ(runs[0].end, RunEnd::completed);
   EXPECT_EQ(runs[0].disturbances, 1u);
   EXPECT_EQ(runs[1].disturbances, 0u);
@@ -190,10 +184,10 @@ TEST(DisturbedWorker, ADeathBetweenTwoCasesIsCountedToo) {
 
 TEST(DisturbedWorker, WithTheThreadThatStartedItItEndsUndisturbed) {
   WorkerProcess worker(ASSAY_WORKER, std::nullopt);
-  std::thread([&] { worker.run(small_case(31, 0), one); }).join();
+  std::thread([&] { worker.run(small_case(31, 0), plugin_alone); }).join();
   siginfo_t seen = {};
   ASSERT_EQ(waitid(P_PID, static_cast<id_t>(children().at(0)), &seen, WEXITED | WNOWAIT), 0);
-  EXPECT_EQ(worker.run(small_case(31, 1), one)[0].disturbances, 0u);
+  EXPECT_EQ(worker.run(small_case(31, 1), plugin_alone)[0].disturbances, 0u);
   EXPECT_EQ(worker.disturbances(), 0u);
 }
 
@@ -208,7 +202,7 @@ TEST(DisturbedWorker, LoadingIsTriedThreeTimes) {
       << description.error().message;
   EXPECT_EQ(worker.starts(), 3u);
   EXPECT_EQ(worker.disturbances(), 0u);
-  EXPECT_EQ(worker.run(small_case(31, 0), one)[0].end, RunEnd::not_run);
+  EXPECT_EQ(worker.run(small_case(31, 0), plugin_alone)[0].end, RunEnd::not_run);
 }
 
 // It was loaded before, so that it dies now is its own doing and no fault of the harness.
@@ -220,7 +214,7 @@ TEST(DisturbedWorker, APlugInThatDiesWhenItIsLoadedAgainHasCrashed) {
   ASSERT_TRUE(worker.describe());
   std::ofstream(file) << "loaded";
   ::kill(children().at(0), SIGKILL);
-  const auto run = worker.run(small_case(31, 0), one)[0];
+  const auto run = worker.run(small_case(31, 0), plugin_alone)[0];
   ::unsetenv("ASSAY_TEST_FILE");
   std::filesystem::remove(file);
   EXPECT_EQ(run.end, RunEnd::crashed);

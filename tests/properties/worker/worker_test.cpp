@@ -20,6 +20,7 @@
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/children.h"
+#include "tests/properties/worker/worker_cases.h"
 
 namespace assay::properties {
 namespace {
@@ -27,6 +28,7 @@ namespace {
 using detector::Answer;
 using test::children;
 using test::plugin;
+using test::plugin_alone;
 using test::small_case;
 
 const std::vector<Configuration> four = {
@@ -34,8 +36,6 @@ const std::vector<Configuration> four = {
     {"view-line", {detector::Culling::view_line}},
     {"bvh", {detector::Culling::bvh}},
     {"first", {detector::Culling::view_point, detector::Start::verified, detector::Pairs::first}}};
-const std::vector<Configuration> one = {{"plug-in", {}}};
-
 TEST(Worker, AnswersAsThisProcessDoes) {
   WorkerProcess worker(ASSAY_WORKER, std::nullopt);
   std::size_t pairs = 0;
@@ -56,13 +56,14 @@ TEST(Worker, AnswersAsThisProcessDoes) {
 TEST(Worker, TheScriptOfACaseIsFollowed) {
   // A collision is answered twice from the same state, then committed; the last step goes back.
   auto c = small_case(31, 0);
-  for (std::uint64_t i = 0; run_case(c, one[0]).steps[0].answer != Answer::collision; ++i) {
+  for (std::uint64_t i = 0; run_case(c, plugin_alone[0]).steps[0].answer != Answer::collision;
+       ++i) {
     c = small_case(31, i);
   }
   c.script = {{0, 1, false}, {0, 1, false}, {0, 1, true}, {1, 0, true}};
-  const auto runs = WorkerProcess(ASSAY_WORKER, std::nullopt).run(c, one);
+  const auto runs = WorkerProcess(ASSAY_WORKER, std::nullopt).run(c, plugin_alone);
   ASSERT_EQ(runs[0].steps.size(), 4u);
-  EXPECT_TRUE(same_answers(runs[0], run_case(c, one[0])));
+  EXPECT_TRUE(same_answers(runs[0], run_case(c, plugin_alone[0])));
   const auto& steps = runs[0].steps;
   for (std::size_t s : {1u, 2u}) EXPECT_EQ(steps[s].dirty, steps[0].dirty);
   for (std::size_t s : {1u, 2u}) EXPECT_EQ(steps[s].first, steps[0].first);
@@ -120,7 +121,7 @@ TEST(Worker, AMeshThatIsRefusedHasAReason) {
 TEST(Worker, AHangEndsAtTheLimitAndTheOthersRun) {
   WorkerProcess worker(ASSAY_WORKER, plugin("hang"), {.seconds = .2});
   const auto begin = std::chrono::steady_clock::now();
-  const auto runs = worker.run(small_case(31, 0), std::vector<Configuration>(3, one[0]));
+  const auto runs = worker.run(small_case(31, 0), std::vector<Configuration>(3, plugin_alone[0]));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   ASSERT_EQ(runs.size(), 3u);
   for (const auto& run : runs) EXPECT_EQ(run.end, RunEnd::hung);
@@ -131,7 +132,7 @@ TEST(Worker, AHangEndsAtTheLimitAndTheOthersRun) {
 
 TEST(Worker, AnExitIsACrash) {
   WorkerProcess worker(ASSAY_WORKER, plugin("exit"));
-  const auto runs = worker.run(small_case(31, 0), one);
+  const auto runs = worker.run(small_case(31, 0), plugin_alone);
   EXPECT_EQ(runs[0].end, RunEnd::crashed);
   EXPECT_EQ(runs[0].what, "exited with code 0");
 }
@@ -153,10 +154,11 @@ TEST(Worker, MemoryEndsInUndecided) {
     EXPECT_EQ(verdict.outcome, Outcome::undecided);
     EXPECT_EQ(verdict.what, "out of memory");
   }
-  EXPECT_EQ(worker.run(small_case(31, 0), one)[0].end, RunEnd::completed);
+  EXPECT_EQ(worker.run(small_case(31, 0), plugin_alone)[0].end, RunEnd::completed);
 
   // Of a plug-in that says so, in a step.
-  const auto step = WorkerProcess(ASSAY_WORKER, plugin("no_memory")).run(small_case(31, 0), one)[0];
+  const auto step =
+      WorkerProcess(ASSAY_WORKER, plugin("no_memory")).run(small_case(31, 0), plugin_alone)[0];
   const auto truth = judge_case(small_case(31, 0));
   const auto verdict = judge_run(small_case(31, 0), step, truth, {.total = true}, {});
   EXPECT_EQ(verdict.outcome, Outcome::undecided);
@@ -165,7 +167,7 @@ TEST(Worker, MemoryEndsInUndecided) {
 
 TEST(Worker, OneThatDiedBetweenCasesIsReplaced) {
   WorkerProcess worker(ASSAY_WORKER, std::nullopt);
-  ASSERT_EQ(worker.run(small_case(31, 0), one)[0].end, RunEnd::completed);
+  ASSERT_EQ(worker.run(small_case(31, 0), plugin_alone)[0].end, RunEnd::completed);
   ASSERT_EQ(children().size(), 1u);
   kill(children()[0], SIGKILL);
   for (int i = 0; i < 1000; ++i) {  // until it has closed its channel
@@ -175,14 +177,14 @@ TEST(Worker, OneThatDiedBetweenCasesIsReplaced) {
     if (text.str().find(") Z ") != std::string::npos) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  EXPECT_EQ(worker.run(small_case(31, 1), one)[0].end, RunEnd::completed);
+  EXPECT_EQ(worker.run(small_case(31, 1), plugin_alone)[0].end, RunEnd::completed);
   EXPECT_EQ(worker.starts(), 2u);
 }
 
 TEST(Worker, NoneIsLeftBehind) {
   {
     WorkerProcess worker(ASSAY_WORKER, std::nullopt);
-    worker.run(small_case(31, 0), one);
+    worker.run(small_case(31, 0), plugin_alone);
     EXPECT_EQ(children().size(), 1u);
   }
   EXPECT_TRUE(children().empty());
@@ -197,7 +199,7 @@ TEST(Worker, DiesWithItsHost) {
     WorkerProcess worker(ASSAY_WORKER, plugin("hang"), {.seconds = 60});
     const int started = worker.describe() ? children()[0] : 0;
     if (write(ready[1], &started, sizeof started) < 0) _exit(1);
-    worker.run(small_case(31, 0), one);
+    worker.run(small_case(31, 0), plugin_alone);
     _exit(0);
   }
   int worker = 0;

@@ -12,23 +12,17 @@
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/children.h"
+#include "tests/properties/worker/worker_cases.h"
 
 namespace assay::properties {
 namespace {
 
+using test::burning_case;
 using test::children;
 using test::plugin;
+using test::plugin_alone;
 using test::small_case;
 using Clock = std::chrono::steady_clock;
-
-const std::vector<Configuration> one = {{"plug-in", {}}};
-
-// A case on which burns_time.cpp uses so much processor time.
-corpus::Case burning_case(double seconds) {
-  auto c = small_case(31, 0);
-  for (auto& frame : c.frames) frame(0, 0) = seconds;
-  return c;
-}
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -60,7 +54,7 @@ TEST(WorkerTime, ProcessorTimeIsLimitedWhereverItIsUsed) {
   constexpr double limit = .3, much = 1e6;
   for (const char* name : {"burns_time", "burns_in_thread", "burns_in_child"}) {
     WorkerProcess worker(ASSAY_WORKER, plugin(name), {.seconds = limit});
-    const auto run = worker.run(burning_case(much), one)[0];
+    const auto run = worker.run(burning_case(much), plugin_alone)[0];
     EXPECT_EQ(run.end, RunEnd::hung) << name;
     EXPECT_EQ(run.what, "no answer in 0.3 s of processor time") << name;
     EXPECT_GE(run.processor_seconds, limit) << name;
@@ -69,7 +63,7 @@ TEST(WorkerTime, ProcessorTimeIsLimitedWhereverItIsUsed) {
     EXPECT_TRUE(children().empty());
     // The limit is for each case alone.
     for (int i = 0; i < 4; ++i) {
-      const auto enough = worker.run(burning_case(limit / 2), one)[0];
+      const auto enough = worker.run(burning_case(limit / 2), plugin_alone)[0];
       EXPECT_EQ(enough.end, RunEnd::completed) << name << ": " << enough.what;
     }
     EXPECT_EQ(worker.starts(), 2u);
@@ -82,7 +76,7 @@ TEST(WorkerTime, TheLimitIsReachedNoSoonerBesideBusyLoops) {
   for (const char* name : {"burns_time", "burns_in_thread", "burns_in_child"}) {
     WorkerProcess worker(ASSAY_WORKER, plugin(name), {.seconds = limit});
     const auto begin = Clock::now();
-    const auto run = worker.run(burning_case(needed), one)[0];
+    const auto run = worker.run(burning_case(needed), plugin_alone)[0];
     EXPECT_EQ(run.end, RunEnd::completed) << name << ": " << run.what;
     std::printf("%s: %.3f s of processor time in %.3f s, limit %g s\n", name, run.processor_seconds,
                 seconds_since(begin), limit);
@@ -93,7 +87,7 @@ TEST(WorkerTime, TheLimitIsReachedNoSoonerBesideBusyLoops) {
 TEST(WorkerTime, AShortRunSaysWhatItTook) {
   constexpr double used = .02;
   WorkerProcess worker(ASSAY_WORKER, plugin("burns_time"));
-  const auto runs = worker.run(burning_case(used), std::vector<Configuration>(3, one[0]));
+  const auto runs = worker.run(burning_case(used), std::vector<Configuration>(3, plugin_alone[0]));
   for (const auto& run : runs) {
     // The host reads the clock when it has the answer, and the worker goes on meanwhile: a part may
     // count for the run before.
@@ -107,7 +101,7 @@ TEST(WorkerTime, WhatSleepsIsCaughtByTheWallClock) {
   constexpr double limit = .1;
   WorkerProcess worker(ASSAY_WORKER, plugin("hang"), {.seconds = limit});
   const auto begin = Clock::now();
-  const auto run = worker.run(small_case(31, 0), one)[0];
+  const auto run = worker.run(small_case(31, 0), plugin_alone)[0];
   EXPECT_EQ(run.end, RunEnd::hung);
   EXPECT_EQ(run.what, "no answer in 0.1 s of processor time: asleep for 1 s");
   EXPECT_GE(seconds_since(begin), 10 * limit);
@@ -124,7 +118,7 @@ TEST(WorkerTime, WhatIsStoppedIsNotAsleepAndSendingEndsToo) {
   ASSERT_TRUE(worker.describe());
   kill(children().at(0), SIGSTOP);
   const auto begin = Clock::now();
-  const auto run = worker.run(c, one)[0];
+  const auto run = worker.run(c, plugin_alone)[0];
   EXPECT_EQ(run.end, RunEnd::hung);
   EXPECT_EQ(run.what, "no answer in 0.05 s of processor time, nor in 5 s");
   EXPECT_GE(seconds_since(begin), 100 * limit);

@@ -9,10 +9,6 @@
 namespace assay::tests {
 namespace {
 
-std::string curated(const std::string& name) {
-  return std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/" + name + ".json";
-}
-
 const char* const some_id = "tiny:1:closed-generic:5";
 
 TEST(Replay, ByIdGoesThroughEveryConfiguration) {

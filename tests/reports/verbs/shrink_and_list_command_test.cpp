@@ -11,10 +11,6 @@
 namespace assay::tests {
 namespace {
 
-std::string curated(const std::string& name) {
-  return std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/" + name + ".json";
-}
-
 class Shrink : public testing::Test {
  protected:
   // A case of more than 12 triangles that collides.
