@@ -32,12 +32,10 @@ const char* Store::tables() {
          "WITHOUT ROWID;";
 }
 
-namespace {
-
 // Held until this process ends, however it ends.
-class FileLock {
+class StoreLock {
  public:
-  explicit FileLock(const std::filesystem::path& file) {
+  explicit StoreLock(const std::filesystem::path& file) {
     const std::string name = file.string() + ".lock";
     lock_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0) {
@@ -49,15 +47,13 @@ class FileLock {
     throw StoreProblem(ProblemKind::busy,
                        fmt::format("{}: another run is writing it", file.string()));
   }
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
-  ~FileLock() { ::close(lock_); }
+  StoreLock(const StoreLock&) = delete;
+  StoreLock& operator=(const StoreLock&) = delete;
+  ~StoreLock() { ::close(lock_); }
 
  private:
   int lock_ = -1;
 };
-
-}  // namespace
 
 // The schema that a binding names, where it is another than this build's.
 static std::optional<std::string> other_schema(const std::string& binding) {
@@ -68,11 +64,11 @@ static std::optional<std::string> other_schema(const std::string& binding) {
 }
 
 struct Store::Parts {
-  std::optional<FileLock> lock;  // outlives the database
+  std::optional<StoreLock> lock;  // outlives the database
   Database db;
 
   Parts(const std::filesystem::path& file, Database::Mode mode)
-      : lock(mode == Database::Mode::write ? std::optional<FileLock>(std::in_place, file)
+      : lock(mode == Database::Mode::write ? std::optional<StoreLock>(std::in_place, file)
                                            : std::nullopt),
         db(file, mode) {}
 };
