@@ -32,15 +32,36 @@ FINDING = re.compile(r"^/\S+?:\d+:\d+: (?:error|warning): .*$", re.M)
 
 
 def compile_commands(build, rooms):
-    """One entry for each source of the rooms, as clang can read it."""
+    """How each source of the rooms is compiled, as clang can read it."""
     # Of some rooms a whole folder is compiled as one source, which CMake wrote (ASSAY_UNITY).
     places = tuple(f"{folder}/{room}/" for folder in (ROOT, build) for room in rooms)
-    entries = {}
+    commands = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
-        if entry["file"].startswith(places):
-            entry["command"] = PRECOMPILED.sub("", entry["command"])
-            entries.setdefault(entry["file"], entry)
-    return entries
+        file = entry["file"]
+        if file.startswith(places) and "cmake_pch" not in file:
+            commands.setdefault(file, PRECOMPILED.sub("", entry["command"]))
+    return commands
+
+
+# Folders whose sources use one name for different things.
+NOT_JOINED = (f"{ROOT}/detector/view", f"{ROOT}/oracle/referee")
+
+
+def by_folder(commands, folder):
+    """The sources of each folder as one, which reads the headers of others once: a third of the time."""
+    groups, joined = {}, {}
+    for file, command in commands.items():
+        # Sources with flags of their own stay by themselves.
+        flags = re.sub(r"-o \S+ -c \S+", "", command)
+        if os.path.dirname(file) in NOT_JOINED:
+            joined[file] = command
+        else:
+            groups.setdefault((os.path.dirname(file), flags), []).append(file)
+    for number, ((_, flags), files) in enumerate(groups.items()):
+        source = Path(folder) / f"folder_{number}.cpp"
+        source.write_text("".join(f'#include "{file}"\n' for file in sorted(files)))
+        joined[str(source)] = f"{flags} -c {source}"
+    return joined
 
 
 def main():
@@ -50,17 +71,22 @@ def main():
     p.add_argument("--jobs", type=int, default=os.cpu_count())
     p.add_argument("files", nargs="*", type=lambda text: str(Path(text).resolve()))
     options = p.parse_args()
-    entries = compile_commands(options.build, ALL_ROOMS if options.all else JUDGING_ROOMS)
+    commands = compile_commands(options.build, ALL_ROOMS if options.all else JUDGING_ROOMS)
+    if options.files:
+        commands = {file: commands[file] for file in options.files}
     arguments = FOR_CLANG + ([] if options.all else ["--checks=-*," + ",".join(CHEAP)])
 
     with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "compile_commands.json").write_text(json.dumps(list(entries.values())))
+        sources = commands if options.files else by_folder(commands, folder)
+        (Path(folder) / "compile_commands.json").write_text(json.dumps(
+            [{"directory": str(options.build), "file": file, "command": command}
+             for file, command in sources.items()]))
 
         def look_at(file):
             return subprocess.run(["clang-tidy", "--quiet", "-p", folder, *arguments, file],
                                   capture_output=True, text=True, errors="replace")
 
-        files = options.files or sorted(entries)
+        files = sorted(sources)
         with ThreadPoolExecutor(options.jobs) as threads:
             runs = list(threads.map(look_at, files))
     findings = {}  # what stands in a header is found from many sources
@@ -70,7 +96,7 @@ def main():
             for finding in found:
                 findings.setdefault(finding, file)
     print("".join(f"{finding}\n" for finding in findings), end="")
-    print(f"{len(files)} files, {len(findings)} findings")
+    print(f"{len(commands)} files, {len(findings)} findings")
     return 1 if findings or not files else 0
 
 
