@@ -3,6 +3,8 @@
 #include <cassert>
 #include <limits>
 
+#include "detector/exact/ball.h"
+
 namespace assay::detector {
 
 Dyadic Dyadic::of(double time) {
@@ -11,11 +13,11 @@ Dyadic Dyadic::of(double time) {
   return {b.mantissa, b.exponent};
 }
 
-Dyadic Dyadic::midpoint_with(const Dyadic& other) const {
-  const int least = std::min(exponent, other.exponent);
-  return {(mantissa << static_cast<unsigned>(exponent - least)) +
-              (other.mantissa << static_cast<unsigned>(other.exponent - least)),
-          least - 1};
+Dyadic operator+(const Dyadic& a, const Dyadic& b) {
+  const int least = std::min(a.exponent, b.exponent);
+  return {(a.mantissa << static_cast<unsigned>(a.exponent - least)) +
+              (b.mantissa << static_cast<unsigned>(b.exponent - least)),
+          least};
 }
 
 Polynomial Polynomial::constant(const Integer& value) {
@@ -78,10 +80,43 @@ Polynomial Polynomial::derivative() const {
   return d;
 }
 
+// With lo = m 2^-k and hi - lo = w 2^-k: f((m + w s) 2^-k) 2^(k degree) in integers.
+Polynomial Polynomial::over(const Dyadic& lo, const Dyadic& hi) const {
+  assert(lo.exponent <= 0 && hi.exponent <= 0);
+  const int k = -std::min(lo.exponent, hi.exponent);
+  const Integer begin = lo.mantissa << static_cast<unsigned>(lo.exponent + k);
+  const Integer width = (hi.mantissa << static_cast<unsigned>(hi.exponent + k)) - begin;
+  assert(width.sign() > 0);
+  Polynomial p = *this;
+  auto& c = p.coefficients_;
+  const std::size_t count = c.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    c[i] <<= static_cast<unsigned>(k) * static_cast<unsigned>(count - 1 - i);
+  }
+  if (!begin.is_zero()) {
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      for (std::size_t j = count - 1; j-- > i;) c[j] += begin * c[j + 1];
+    }
+  }
+  const auto width_bits = msb(width);
+  if (lsb(width) == width_bits) {
+    for (std::size_t i = 1; i < count; ++i) c[i] <<= width_bits * i;
+  } else {
+    Integer power = width;
+    for (std::size_t i = 1; i < count; ++i, power *= width) c[i] *= power;
+  }
+  p.take_out_powers_of_two();
+  return p;
+}
+
 int Polynomial::sign_at(const Dyadic& time) const {
   if (is_zero()) return 0;
   assert(time.exponent <= 0);
   if (degree() == 0) return coefficients_.front().sign();
+  const Ball t(time.mantissa, time.exponent);
+  Ball near(coefficients_.back());
+  for (std::size_t i = coefficients_.size() - 1; i-- > 0;) near = near * t + Ball(coefficients_[i]);
+  if (const auto sure = near.sign()) return *sure;
   // Horner on sum c_i m^i 2^(e i), multiplied by 2^(-e degree) to stay in integers.
   const auto shift = static_cast<unsigned>(-time.exponent);
   Integer value = coefficients_.back(), term;
@@ -138,10 +173,12 @@ void Polynomial::take_out_powers_of_two() {
     if (!c.is_zero()) common = std::min<std::size_t>(common, lsb(abs(c)));
   }
   if (common == 0) return;
-  const Integer divisor = Integer(1) << common;
-  divide_exactly(divisor);
+  for (auto& c : coefficients_) c >>= common;
 }
 
+// Let d be the divisor, with integers that have no common factor; then this is d h with h of
+// integers too (Gauss's lemma). Divided by d / leading(d) instead it is leading(d) h: integers
+// again, and so is each h_k d_i below, which is written by those of any multiple of d.
 Polynomial Polynomial::quotient(const Polynomial& divisor) const {
   assert(!divisor.is_zero());
   Polynomial rest = *this, result;
@@ -150,14 +187,13 @@ Polynomial Polynomial::quotient(const Polynomial& divisor) const {
   while (rest.degree() >= divisor.degree()) {
     const Integer factor = rest.leading();
     const auto offset = static_cast<std::size_t>(rest.degree() - divisor.degree());
-    for (auto& c : rest.coefficients_) c *= divisor.leading();
-    for (auto& c : result.coefficients_) c *= divisor.leading();
-    result.coefficients_[offset] += factor;
+    result.coefficients_[offset] = factor;
     for (std::size_t i = 0; i < divisor.coefficients_.size(); ++i) {
-      rest.coefficients_[offset + i] -= factor * divisor.coefficients_[i];
+      rest.coefficients_[offset + i] -= factor * divisor.coefficients_[i] / divisor.leading();
     }
     rest.trim();
   }
+  assert(rest.is_zero());
   result.take_out_powers_of_two();
   return result;
 }

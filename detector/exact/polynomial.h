@@ -1,5 +1,5 @@
-// Polynomials in the step's time with exact integer coefficients, degree at most 6 (the
-// derivative of the view-line's quintic times the quadratic whose sign is asked for at its root).
+// Polynomials in the step's time with exact integer coefficients. The detector's are of degree 5
+// at most (the middle piece of a view-line); none is limited here.
 #pragma once
 
 #include <boost/container/small_vector.hpp>
@@ -13,7 +13,7 @@ struct Dyadic {
   Integer mantissa = 0;
   int exponent = 0;  // at most 0 for every time in [0,1]
   static Dyadic of(double time);
-  Dyadic midpoint_with(const Dyadic& other) const;
+  friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
 };
 
 class Polynomial {
@@ -36,7 +36,10 @@ class Polynomial {
   Polynomial operator-() const;
 
   Polynomial derivative() const;
-  // Sign (-1, 0, 1) at a time; exact.
+  // A positive multiple of f(lo + s (hi - lo)) as a polynomial in s; lo < hi.
+  Polynomial over(const Dyadic& lo, const Dyadic& hi) const;
+
+  // Sign (-1, 0, 1) at a time; exact. 0.1 us unless nearly all of its terms cancels there (ball.h).
   int sign_at(const Dyadic& time) const;
   // Signs at t = 0 and t = 1 without a Dyadic.
   int sign_at_zero() const;
@@ -44,16 +47,19 @@ class Polynomial {
 
   // By an integer that divides every coefficient.
   void divide_exactly(const Integer& divisor);
+  // By the greatest power of two that does so.
+  void take_out_powers_of_two();
   // The pseudo-remainder of this by `divisor` (not zero): that of this times |leading
   // coefficient|^(difference of degrees + 1). This itself where its degree is the lower one.
   Polynomial remainder(const Polynomial& divisor) const;
-  // This divided by a polynomial that divides it up to a constant; up to a non-zero constant.
+  // This divided by a polynomial that divides it up to a constant; up to a non-zero constant, but
+  // with integers no longer than those of this and some bits.
   Polynomial quotient(const Polynomial& divisor) const;
 
+  static constexpr std::size_t inline_coefficients = 6;
+
  private:
-  static constexpr std::size_t inline_coefficients = 7;
   void trim();
-  void take_out_powers_of_two();
   // Ascending powers, the last one not zero.
   boost::container::small_vector<Integer, inline_coefficients> coefficients_;
 };

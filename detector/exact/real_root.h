@@ -1,13 +1,10 @@
 // Distinct real roots of an integer polynomial in [0,1], their unique enclosures in doubles, and
-// the exact sign of another polynomial at a root.
+// the exact sign of a quadratic at a root.
 //
-// Method: Sturm sequences count roots between two times; bisection over the DOUBLES (their order
-// as integers, at most 62 halvings whatever the exponents) isolates them; only roots that share
-// one gap between adjacent doubles are isolated further by dyadic midpoints. The sign of q at a
-// root of f is the difference of sign variations of the sequence of (f, f'q) at the two ends of
-// its isolating interval (Tarski query; Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry,
-// Theorem 2.61), used when neither plain signs on the interval tell nor, for a quadratic with one
-// root there, the order of the two roots.
+// Method: Descartes' rule tells the roots apart (root_isolation.h), after multiple ones are made
+// simple (square_free.h); signs at doubles enclose each; a sign at a root is that of plain signs
+// on the root's interval, or where these do not tell of the order of two roots (root_sign.cpp).
+// Every sign is asked of balls first (ball.h). Nothing here is recursive: intervals wait in lists.
 #pragma once
 
 #include <vector>
@@ -20,18 +17,24 @@ namespace assay::detector {
 class RealRoot {
  public:
   explicit RealRoot(const Dyadic& exact_time);
-  // The one root of f in the open interval (lo, hi), where f(lo) f(hi) < 0.
-  RealRoot(const Polynomial& f, const Dyadic& lo, const Dyadic& hi, TimeEnclosure doubles);
+  // A time of which the double, or the two around it, is known.
+  RealRoot(const Dyadic& exact_time, TimeEnclosure doubles);
+  // The one root of f in the open interval (lo, hi), a simple one; f has that sign from lo to it.
+  // f may vanish at lo and hi.
+  RealRoot(const Polynomial& f, const Dyadic& lo, const Dyadic& hi, int sign_after_lo,
+           TimeEnclosure doubles);
 
-  // Exact sign of q here.
+  // Exact sign of q, of degree 2 at most, here.
   int sign_of(const Polynomial& q) const;
   const TimeEnclosure& enclosure() const { return enclosure_; }
 
  private:
-  int sign_by_order(const Polynomial& q, int q_lo) const;
+  bool is_exact() const { return sign_after_lo_ == 0; }
+  // q has roots in (lo, hi), and these signs around them.
+  int sign_by_order(const Polynomial& q, int after_lo, int before_hi) const;
 
-  bool is_exact_ = false;
   Dyadic lo_, hi_;  // both the root itself when exact
+  int sign_after_lo_ = 0;
   Polynomial f_;
   TimeEnclosure enclosure_;
 };

@@ -11,7 +11,10 @@
 //            is continuous, vanishes and h0 or h1 is active there: they show it.
 #include "detector/view/view_exact.h"
 
+#include <algorithm>
+
 #include "detector/exact/real_root.h"
+#include "detector/exact/sign_changes.h"
 
 namespace assay::detector {
 namespace {
@@ -79,10 +82,7 @@ class ExactView {
       return h.sign_at_zero() == sign && !has_root_in_unit_interval(h);
     };
     if (keeps_sign(h0_) && keeps_sign(h1_)) return result;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (vanishes(i)) return ViewSign::zero;
-    }
-    return result;
+    return vanishes_at_an_end() || vanishes_between() ? ViewSign::zero : result;
   }
 
  private:
@@ -94,28 +94,50 @@ class ExactView {
     return middle(i).sign_at_zero();
   }
 
-  bool vanishes(std::size_t i) const {
-    const Polynomial &g0 = g0_[i], &g1 = g1_[i];
-    if (h0_.is_zero()) {
-      if (g0.is_zero() || has_root_in_unit_interval(g0)) return true;
-    } else {
-      for (const auto& root : roots_in_unit_interval(h0_)) {
-        if (root.sign_of(g0) <= 0) return true;
-      }
+  // At a vertex that is nearest to the end q0 or q1.
+  bool vanishes_at_an_end() const {
+    const auto negative = [](int sign) { return sign <= 0; };
+    const auto positive = [](int sign) { return sign >= 0; };
+    return vanishes_where(h0_, g0_, negative) || vanishes_where(h1_, g1_, positive);
+  }
+
+  // h where some g has a sign that is asked for. The roots of h serve all vertices.
+  template <class SignIsAsked>
+  static bool vanishes_where(const Polynomial& h, const std::array<Polynomial, 3>& g,
+                             SignIsAsked is_asked) {
+    if (h.is_zero()) {
+      return std::any_of(g.begin(), g.end(), [](const Polynomial& g_i) {
+        return g_i.is_zero() || has_root_in_unit_interval(g_i);
+      });
     }
-    if (h1_.is_zero()) {
-      if (g1.is_zero() || has_root_in_unit_interval(g1)) return true;
-    } else {
-      for (const auto& root : roots_in_unit_interval(h1_)) {
-        if (root.sign_of(g1) >= 0) return true;
+    for (const auto& root : roots_in_unit_interval(h)) {
+      for (const auto& g_i : g) {
+        if (is_asked(root.sign_of(g_i))) return true;
       }
-    }
-    const Polynomial hm = middle(i);
-    if (hm.is_zero()) return false;
-    for (const auto& root : roots_in_unit_interval(hm)) {
-      if (root.sign_of(g0) > 0 && root.sign_of(g1) < 0) return true;
     }
     return false;
+  }
+
+  // At a vertex that is nearest to a point between the ends: g0 > 0 and g1 < 0. Where one of them
+  // has the other sign over the step, that is nowhere, and the middle piece is not looked at.
+  bool vanishes_between() const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Polynomial &g0 = g0_[i], &g1 = g1_[i];
+      if (is_never(1, g0) || is_never(-1, g1)) continue;
+      const Polynomial hm = middle(i);
+      if (hm.is_zero()) continue;
+      for (const auto& root : roots_in_unit_interval(hm)) {
+        if (root.sign_of(g0) > 0 && root.sign_of(g1) < 0) return true;
+      }
+    }
+    return false;
+  }
+
+  // Whether f surely has that sign nowhere in (0,1), and so, being continuous, not at 0 or 1.
+  static bool is_never(int sign, const Polynomial& f) {
+    if (f.is_zero()) return true;
+    const SignChanges changes = sign_changes_over_unit(f);
+    return changes.count == 0 && changes.first == -sign;
   }
 
   bool is_point_;

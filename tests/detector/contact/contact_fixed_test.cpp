@@ -12,6 +12,7 @@
 #include "detector/contact/fixed_piece.h"
 #include "detector/contact/fixed_root.h"
 #include "detector/exact/real_root.h"
+#include "tests/detector/exact/tarski.h"
 
 namespace assay::detector {
 namespace {
@@ -186,6 +187,10 @@ TEST(ContactFixed, SignAtRootIsThatOfATarskiQuery) {
       if (root.sign_of(t) > 0 && root.sign_of(s) > 0) expected = root.sign_of(quadratic);
     }
     ASSERT_TRUE(expected) << i;
+    if (f.front() != 0 && f.back() != 0) {
+      ASSERT_EQ(tests::tarski_query(cubic, quadratic, Dyadic::of(0), Dyadic::of(1)), *expected)
+          << i;
+    }
     const SignAtRoot<1> sign(fixed_f, f_signs.first, 40);
     ASSERT_EQ(sign.of(fixed_l, l_signs.first), *expected) << i;
     ++compared;

@@ -3,8 +3,10 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "detector/exact/real_root.h"
+#include "tests/detector/exact/tarski.h"
 
 namespace assay::detector {
 namespace {
@@ -52,6 +54,39 @@ RC_GTEST_PROP(RealRootProperty, ProductsOfFactorsHaveTheirRoots, ()) {
       RC_ASSERT(sign == (other < expected[i]) - (expected[i] < other));
     }
   }
+}
+
+// Coefficients without any order in them: roots that are no fractions, multiple ones by squares.
+RC_GTEST_PROP(RealRootProperty, CountsAndSignsAreThoseOfRemainderSequences, ()) {
+  const auto draw = [](std::size_t most) {
+    const int reach = *rc::gen::element(1, 3, 20, 1000000);
+    Polynomial p;
+    for (auto n = *rc::gen::inRange<std::size_t>(1, most + 2); n > 0; --n) {
+      p = p * Polynomial::linear(0, 1) + Polynomial::constant(*rc::gen::inRange(-reach, reach + 1));
+    }
+    return p;
+  };
+  Polynomial f = draw(3);
+  if (*rc::gen::arbitrary<bool>()) f = f * draw(2);
+  if (*rc::gen::inRange(0, 4) == 0) f = f * f;
+  const Dyadic zero = Dyadic::of(0), one = Dyadic::of(1);
+  RC_PRE(!f.is_zero() && f.sign_at_zero() != 0 && f.sign_at_one() != 0);
+  const auto roots = roots_in_unit_interval(f);
+  RC_ASSERT(static_cast<int>(roots.size()) == tests::number_of_roots(f, zero, one));
+  RC_ASSERT(has_root_in_unit_interval(f) == !roots.empty());
+  const Polynomial q = draw(2);
+  int sum = 0;
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    sum += roots[i].sign_of(q);
+    const auto [lo, hi] = roots[i].enclosure();
+    if (i > 0) RC_ASSERT(roots[i - 1].enclosure().hi <= hi);
+    if (lo == hi) {
+      RC_ASSERT(f.sign_at(Dyadic::of(lo)) == 0);
+    } else {
+      RC_ASSERT(hi == std::nextafter(lo, 2.0));
+    }
+  }
+  RC_ASSERT(sum == tests::tarski_query(f, q, zero, one));
 }
 
 }  // namespace

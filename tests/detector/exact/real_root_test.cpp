@@ -101,9 +101,50 @@ TEST(RealRoot, SignAtAnIrrationalRoot) {
   EXPECT_EQ(roots[0].sign_of(polynomial({-1, 0, 2})), 0);
   EXPECT_EQ(roots[0].sign_of(polynomial({-7071067, 10000000})), 1);
   EXPECT_EQ(roots[0].sign_of(polynomial({-7071068, 10000000})), -1);
-  EXPECT_EQ(roots[0].sign_of(polynomial({-1, 0, 2}) * factor(1, 3)), 0);
+  EXPECT_EQ(roots[0].sign_of(polynomial({5, 0, -10})), 0);
+  EXPECT_EQ(roots[0].sign_of(factor(1, 3) * factor(3, 4)), -1);
+  EXPECT_EQ(roots[0].sign_of(factor(7, 10) * factor(7, 10)), 1);
   EXPECT_EQ(roots[0].sign_of(polynomial({-1, 0, 2}) + Polynomial::constant(1)), 1);
   EXPECT_EQ(roots[0].sign_of(Polynomial()), 0);
+}
+
+// Quadratics whose roots share the gap of doubles with the root, by all orders of the three.
+TEST(RealRoot, SignsOfQuadraticsWithRootsInTheSameGap) {
+  const Integer unit = Integer(1) << 80;
+  // 1/3 + n 2^-80
+  const auto beside_a_third = [&](int n) {
+    return Polynomial::linear(-(unit + 3 * n), 3 * unit - (unit + 3 * n));
+  };
+  for (int r = -2; r <= 2; ++r) {
+    const Polynomial f = beside_a_third(r) * factor(-1, 1) * polynomial({2, 1, 1});
+    const auto roots = roots_in_unit_interval(f);
+    ASSERT_EQ(roots.size(), 1u);
+    for (int a = -2; a <= 2; ++a) {
+      const int to_a = r > a ? 1 : r < a ? -1 : 0;
+      EXPECT_EQ(roots[0].sign_of(beside_a_third(a)), to_a);
+      EXPECT_EQ(roots[0].sign_of(beside_a_third(a) * factor(3, 1)), to_a);
+      for (int b = -2; b <= 2; ++b) {
+        const int to_b = r > b ? 1 : r < b ? -1 : 0;
+        EXPECT_EQ(roots[0].sign_of(beside_a_third(a) * beside_a_third(b)), to_a * to_b);
+        EXPECT_EQ(roots[0].sign_of(-(beside_a_third(a) * beside_a_third(b))), -to_a * to_b);
+      }
+    }
+  }
+}
+
+// A root at a double, and the other one in the gap behind it: f vanishes where the gap begins.
+TEST(RealRoot, RootsAtAnEndOfTheirGap) {
+  const Integer unit = Integer(1) << 90;
+  const Polynomial behind_a_half = Polynomial::linear(-(unit + 2), 2 * unit - (unit + 2));
+  const auto roots = roots_in_unit_interval(factor(1, 2) * behind_a_half * factor(1, 3));
+  ASSERT_EQ(roots.size(), 3u);
+  expect_exact(roots[1], 0.5);
+  EXPECT_EQ(roots[2].enclosure(), (TimeEnclosure{0.5, std::nextafter(0.5, 1)}));
+  EXPECT_EQ(roots[2].sign_of(behind_a_half), 0);
+  EXPECT_EQ(roots[2].sign_of(factor(1, 2)), -1);
+  EXPECT_EQ(roots[2].sign_of(factor(1, 2) * behind_a_half), 0);
+  EXPECT_EQ(roots[2].sign_of(factor(1, 2) * factor(1, 2)), 1);
+  EXPECT_EQ(roots[1].sign_of(behind_a_half * factor(1, 2)), 0);
 }
 
 TEST(RealRoot, FindsAllRootsOfAQuintic) {
