@@ -18,7 +18,7 @@ std::optional<TimeEnclosure> exact_first_contact(const FourPoints& query,
 TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
 // The same in integers without bound alone: what the above fall back on. 5 to 50 us for coordinates
-// of similar magnitude; grows with the spread of their exponents, to 1 ms and more over all doubles.
+// of similar magnitude; grows with the spread of their exponents, to 2 ms over all doubles.
 std::optional<TimeEnclosure> general_first_contact(const FourPoints& query);
 TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 

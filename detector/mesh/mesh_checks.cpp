@@ -50,6 +50,12 @@ std::optional<Problem> find_same_vertices(const TrianglesView& triangles) {
 
 std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count) {
   if (triangles.rows() == 0) return Problem{InputError::no_triangles, "the mesh has no triangles"};
+  if (triangles.rows() > most_triangles || vertex_count > most_vertices) {
+    return Problem{InputError::mesh_too_large,
+                   "the mesh has " + std::to_string(triangles.rows()) + " triangles and " +
+                       std::to_string(vertex_count) + " vertices, indices number " +
+                       std::to_string(most_triangles) + " and " + std::to_string(most_vertices)};
+  }
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int corner = 0; corner < 3; ++corner) {
       const std::int32_t v = triangles(t, corner);

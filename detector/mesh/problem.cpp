@@ -26,6 +26,8 @@ const char* name_of(InputError error) {
       return "damaged_state";
     case InputError::other_state_version:
       return "other_state_version";
+    case InputError::mesh_too_large:
+      return "mesh_too_large";
   }
   return "unknown_error";
 }

@@ -20,6 +20,7 @@ enum class InputError : std::uint8_t {
   foreign_state = 9,          // restore() with the state of another mesh or culling
   damaged_state = 10,         // bytes that are no saved state: cut, changed, of something else
   other_state_version = 11,   // bytes of a saved state in a form that this build does not read
+  mesh_too_large = 12,        // more triangles or vertices than the detector's indices can number
 };
 
 const char* name_of(InputError error);

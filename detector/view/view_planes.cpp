@@ -8,6 +8,11 @@ namespace {
 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+// Halves of the least doubles are 0 or lose a bit. Differences in a component that is as small as
+// this do not overflow, and are enlarged in place of being halved; where the component lies along
+// an axis does not matter to them.
+constexpr double greatest_tiny_span = 0x1p-500, enlarged = 0x1p600;
+
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 Point cross(const Point& a, const Point& b) {
@@ -26,10 +31,14 @@ ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const P
     }
   }
   // Halves, so that nothing overflows.
+  double span = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     centre_[k] = 0.5 * lo[k] + 0.5 * hi[k];
     scale_ = std::max(scale_, 0.5 * hi[k] - 0.5 * lo[k]);
+    span = std::max(span, hi[k] - lo[k]);
   }
+  is_tiny_ = span < greatest_tiny_span;
+  if (is_tiny_) scale_ = 0.5 * (enlarged * span);
   points_.reserve(component.vertices.size());
   for (const auto v : component.vertices) points_.push_back(to_unit(point_of(x, v)));
   const std::size_t count = std::min(component.triangles.size(), most);
@@ -56,7 +65,10 @@ ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const P
 Point ViewPlanes::to_unit(const Point& x) const {
   if (!(scale_ > 0)) return {0, 0, 0};
   Point y;
-  for (std::size_t k = 0; k < 3; ++k) y[k] = (0.5 * x[k] - 0.5 * centre_[k]) / (0.5 * scale_);
+  for (std::size_t k = 0; k < 3; ++k) {
+    y[k] = is_tiny_ ? (x[k] - centre_[k]) * enlarged / scale_
+                    : (0.5 * x[k] - 0.5 * centre_[k]) / (0.5 * scale_);
+  }
   return y;
 }
 

@@ -18,7 +18,8 @@ class ViewPlanes {
   ViewPlanes(const Topology& mesh, const Component& component, const PositionsView& x,
              std::size_t most = most_planes);
 
-  // Points by place in component.vertices, coordinates in [-1,1].
+  // Points by place in component.vertices, coordinates in [-1,1] (in [-2,2] where the component is
+  // of few denormals, between which there is no middle).
   std::span<const Point> points() const { return points_; }
   std::size_t size() const { return offset_.size(); }
   Point to_unit(const Point& x) const;
@@ -37,7 +38,9 @@ class ViewPlanes {
 
  private:
   Point centre_{};
+  // Half the greatest extent along an axis; enlarged where the component is tiny.
   double scale_ = 0;
+  bool is_tiny_ = false;
   std::vector<Point> points_;
   std::vector<double> nx_, ny_, nz_, offset_;  // unit normal n, n.p for p of the plane
   std::vector<std::array<Point, 3>> corners_;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "detector/mesh/mesh_checks.h"
 #include "detector/state/state_fields.h"
 #include "tests/detector/points.h"
 
@@ -38,6 +39,31 @@ TEST(Detector, L12_NamedErrors) {
   Positions nan = x;
   nan(3, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(create_error(octahedron(), nan), InputError::non_finite_coordinate);
+}
+
+// The number of triangles is looked at before any triangle is, so that no memory stands behind it.
+TEST(Detector, L12_MeshesBeyondTheIndicesAreRefused) {
+  const std::int32_t corner = 0;
+  const double coordinate = 0;
+  using Rows = Eigen::Index;
+  const auto many_triangles = [&](Rows count) {
+    return Eigen::Map<const Triangles>(&corner, count, 3);
+  };
+  const auto many_vertices = [&](Rows count) {
+    return Eigen::Map<const Positions>(&coordinate, count, 3);
+  };
+  const auto too_large = [](const TrianglesView& t, const PositionsView& x) {
+    const auto made = Detector::create(t, x, {});
+    EXPECT_FALSE(made.has_value());
+    EXPECT_EQ(made.error().error, InputError::mesh_too_large);
+    EXPECT_NE(made.error().message.find("178956970"), std::string::npos) << made.error().message;
+  };
+  too_large(many_triangles(most_triangles + 1), octahedron_positions(1));
+  too_large(many_triangles(715'827'883), octahedron_positions(1));
+  too_large(octahedron(), many_vertices(most_vertices + 1));
+  const Rows corners_of_all = 3 * (most_triangles + 3 * most_triangles);
+  EXPECT_LE(corners_of_all, std::numeric_limits<std::int32_t>::max());
+  EXPECT_GT(corners_of_all + 12, std::numeric_limits<std::int32_t>::max());
 }
 
 TEST(Detector, BadFramesAreErrorsAndLeaveTheState) {
