@@ -49,6 +49,13 @@ RealRoot enclosed(const Polynomial& f, const IsolatedRoot& root) {
   return {f, Dyadic::of(doubles.lo), Dyadic::of(doubles.hi), root.sign_after_lo, doubles};
 }
 
+// Of the square-free part of f, which has these sign changes over (0,1).
+std::vector<IsolatedRoot> isolated_roots(const Polynomial& simple, const Polynomial& f,
+                                         SignChanges of_f, Roots wanted) {
+  const bool is_f = simple.degree() == f.degree();
+  return isolate_roots(simple, is_f ? of_f : sign_changes_over_unit(simple), wanted);
+}
+
 // The double in which a dyadic time lies, or the two around it.
 TimeEnclosure doubles_around(const Dyadic& time) {
   const Integer scale = Integer(1) << static_cast<unsigned>(-time.exponent);
@@ -80,9 +87,8 @@ bool has_root_in_unit_interval(const Polynomial& f) {
   assert(!f.is_zero());
   const int at_zero = f.sign_at_zero(), at_one = f.sign_at_one();
   if (at_zero == 0 || at_one == 0 || at_zero != at_one) return true;
-  if (sign_changes_over_unit(f).count == 0) return false;
-  const Polynomial simple = square_free_part(f);
-  return !isolate_roots(simple, sign_changes_over_unit(simple), Roots::any).empty();
+  const SignChanges changes = sign_changes_over_unit(f);
+  return changes.count > 0 && !isolated_roots(square_free_part(f), f, changes, Roots::any).empty();
 }
 
 std::vector<RealRoot> roots_in_unit_interval(const Polynomial& f) {
@@ -96,7 +102,7 @@ std::vector<RealRoot> roots_in_unit_interval(const Polynomial& f) {
     roots.push_back(enclosed(f, {zero, one, {0, 1}, changes.first}));
   } else if (changes.count > 1) {
     const Polynomial simple = square_free_part(f);
-    for (const auto& root : isolate_roots(simple, sign_changes_over_unit(simple), Roots::all)) {
+    for (const auto& root : isolated_roots(simple, f, changes, Roots::all)) {
       roots.push_back(enclosed(simple, root));
     }
   }

@@ -1,5 +1,7 @@
 #include "detector/exact/root_isolation.h"
 
+#include <cmath>
+
 #include "detector/exact/root_bracket.h"
 #include "detector/exact/root_cluster.h"
 
@@ -11,6 +13,14 @@ struct Part {
   double lo, hi;
   SignChanges changes;
 };
+
+// A double in between: the middle in the order of doubles. From 0 that would be 2^-512 first of
+// all, but most roots are of ordinary size: 1/2, 2^-3, 2^-7, and so on down to 2^-1023.
+double split(double lo, double hi) {
+  constexpr int last_exponent = -511;
+  if (lo == 0 && hi >= std::ldexp(1, last_exponent)) return std::ldexp(1, 2 * std::ilogb(hi) - 1);
+  return from_ordinal((ordinal(lo) + ordinal(hi)) / 2);
+}
 
 }  // namespace
 
@@ -29,7 +39,7 @@ std::vector<IsolatedRoot> isolate_roots(const Polynomial& f, SignChanges over_un
     } else if (part.changes.count >= 2 && adjacent(part.lo, part.hi)) {
       isolate_in_gap(f, doubles, wanted, found);
     } else if (part.changes.count >= 2) {
-      const double time = from_ordinal((ordinal(part.lo) + ordinal(part.hi)) / 2);
+      const double time = split(part.lo, part.hi);
       const Dyadic middle = Dyadic::of(time);
       open.push_back({time, part.hi, sign_changes_over(f, middle, hi)});
       if (f.sign_at(middle) == 0) open.push_back({time, time, {}});

@@ -1,7 +1,7 @@
 // The distinct real roots of a square-free polynomial in the open interval (0,1), each by itself.
 //
 // Method: Descartes' rule (sign_changes.h) over intervals that are halved in the order of the
-// DOUBLES as integers, at most 62 times whatever the exponents are. Roots that share one gap
+// DOUBLES as integers, some 70 times at most whatever the exponents are. Roots that share one gap
 // between adjacent doubles are told apart there (root_cluster.h). Intervals wait in a list, so the
 // stack does not grow with their number.
 #pragma once

@@ -16,8 +16,8 @@ inline constexpr Eigen::Index most_triangles = ((std::int64_t{1} << 31) - 1) / 1
 // Apexes are numbered after the vertices, and there are no more than triangles.
 inline constexpr Eigen::Index most_vertices = (std::int64_t{1} << 31) - 1 - most_triangles;
 
-// no_triangles, mesh_too_large, index_out_of_range, repeated_index or same_vertices_twice; the first
-// in that order, at the lowest triangle. O(M log M).
+// no_triangles, mesh_too_large, index_out_of_range, repeated_index or same_vertices_twice; the
+// first in that order, at the lowest triangle. O(M log M).
 std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count);
 
 // wrong_frame_size or non_finite_coordinate. O(N).

@@ -35,6 +35,8 @@ inline constexpr Wanted hit_with_its_time_us = at_most(8);
 // and over all doubles.
 inline constexpr Wanted slow_query_of_usual_numbers_ms = below(1);
 inline constexpr Wanted slow_query_of_any_numbers_ms = below(10);
+// The slowest of the kept family of queries with exponents over all doubles, views too.
+inline constexpr Wanted slowest_query_of_any_numbers_ms = below(100);
 
 // View test of a mesh over the writing of its swept boxes, in the instruction set that is chosen.
 inline constexpr Wanted view_test_of_a_point_over_boxes = at_most(2.5);

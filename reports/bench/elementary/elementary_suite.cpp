@@ -7,6 +7,7 @@
 
 #include "detector/contact/elementary.h"
 #include "properties/judging/case_options.h"
+#include "reports/bench/elementary/slow_queries.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/judged_step.h"
 #include "reports/bench/query_sets.h"
@@ -177,9 +178,10 @@ BenchReport elementary_suite(const BenchSettings& settings, Progress& progress) 
   const auto some = static_cast<std::size_t>(20'000 * settings.scale);
   time_tails("exponents within 2^+-100", random_exponents(some, -100, 100),
              wanted::slow_query_of_usual_numbers_ms, report);
-  const auto fewer = static_cast<std::size_t>(2'000 * settings.scale);  // 10 ms each on the mean
-  time_tails("exponents over all doubles", random_exponents(fewer, -1074, 1022),
+  time_tails("exponents over all doubles", random_exponents(some, -1074, 1022),
              wanted::slow_query_of_any_numbers_ms, report);
+  progress.phase("slowest queries");
+  time_slow_queries(settings, report);
   return report;
 }
 

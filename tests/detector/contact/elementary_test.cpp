@@ -7,6 +7,7 @@
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/contact_filter.h"
 #include "tests/detector/points.h"
+#include "tests/detector/small_stack.h"
 
 namespace assay::detector {
 namespace {
@@ -108,7 +109,7 @@ std::vector<NamedQuery> named_queries() {
   };
 }
 
-TEST(ElementaryTest, NamedQueriesAndTheRungThatDecides) {
+void expect_named_queries() {
   for (const auto& q : named_queries()) {
     const ContactResult result = test_contact(q.query, Want::first_time);
     EXPECT_EQ(result.contact, q.contact) << q.name;
@@ -119,6 +120,10 @@ TEST(ElementaryTest, NamedQueriesAndTheRungThatDecides) {
     EXPECT_EQ(test_contact(q.query, Want::yes_no).contact, q.contact) << q.name;
     EXPECT_EQ(exact_first_contact(q.query).has_value(), q.contact) << q.name;
   }
+}
+
+TEST(ElementaryTest, NamedQueriesAndTheRungThatDecides) {
+  tests::on_small_stack(expect_named_queries);
 }
 
 TEST(ElementaryTest, IrrationalTimeIsEnclosedInAdjacentDoubles) {

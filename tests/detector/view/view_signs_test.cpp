@@ -5,6 +5,7 @@
 #include "detector/view/view_exact.h"
 #include "detector/view/view_filter.h"
 #include "tests/detector/points.h"
+#include "tests/detector/small_stack.h"
 
 namespace assay::detector {
 namespace {
@@ -13,13 +14,16 @@ using tests::still;
 
 ViewPrimitive point_at(Point q) { return {still(q), still(q)}; }
 
-// Both ways: exact always, the filter where it decides.
+// Both ways: exact always, the filter where it decides. In a thread with a small stack.
 ViewSign sign(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
-  const ViewSign exact = exact_view_sign(triangle, primitive);
-  const auto filtered = filter_view_sign(triangle, primitive);
-  if (filtered) {
-    EXPECT_EQ(*filtered, exact);
-  }
+  ViewSign exact{};
+  tests::on_small_stack([&] {
+    exact = exact_view_sign(triangle, primitive);
+    const auto filtered = filter_view_sign(triangle, primitive);
+    if (filtered) {
+      EXPECT_EQ(*filtered, exact);
+    }
+  });
   return exact;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "oracle/view/view_sign.h"
+#include "tests/detector/small_stack.h"
 #include "tests/detector/view/triangle_batches.h"
 
 namespace assay::properties {
@@ -38,8 +39,10 @@ void compare(bool line) {
       const auto batch = maker.make(family, 100, line);
       std::vector<ViewSign> found(batch.mesh.triangles.size());
       ViewCounts counts;
-      classify(batch.mesh, batch.mesh.components[0], batch.x_t0, batch.x_t1, batch.primitive, found,
-               counts);
+      tests::on_small_stack([&] {
+        classify(batch.mesh, batch.mesh.components[0], batch.x_t0, batch.x_t1, batch.primitive,
+                 found, counts);
+      });
       Triangles triangles(static_cast<Eigen::Index>(found.size()), 3);
       for (std::size_t t = 0; t < found.size(); ++t) {
         const auto& v = batch.mesh.triangles[t];

@@ -214,7 +214,9 @@ TEST_F(Suites, Elementary) {
   const auto report = run(elementary_suite);
   for (const char* row : {"yes/no, candidates of rod-twist", "simulation queries",
                           "hand-made queries", "p99.9 of one query, exponents within 2^+-100",
-                          "p99.9 of one query, exponents over all doubles"}) {
+                          "p99.9 of one query, exponents over all doubles",
+                          "p99.9 of one query, kept family, vertex-face",
+                          "slowest query, kept family, view from a line"}) {
     EXPECT_TRUE(has(report, row)) << row;
   }
 }

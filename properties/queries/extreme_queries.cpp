@@ -1,0 +1,124 @@
+#include "properties/queries/extreme_queries.h"
+
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "properties/random.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::MovingPoint;
+using detector::Point;
+
+constexpr int least_exponent = -1074, greatest_exponent = 1020;
+
+int any_exponent(Random& random) { return random.between(least_exponent, greatest_exponent); }
+
+// In [-1, 1), 53 bits.
+double full_mantissa(Random& random) {
+  return std::ldexp(static_cast<double>(random.next() >> 11), -52) - 1;
+}
+
+// What a query draws its coordinates from.
+class ExtremeNumbers {
+ public:
+  explicit ExtremeNumbers(Random& random) : random_(random), kind_(random.below(7)) {
+    for (int& e : scales_) e = any_exponent(random);
+  }
+
+  double next() {
+    switch (kind_) {
+      case 0:  // anything
+        return std::ldexp(full_mantissa(random_), any_exponent(random_));
+      case 1:  // few mantissas
+        return std::ldexp(random_.between(-2, 2), any_exponent(random_));
+      case 2:  // powers of two and many zeros
+        return random_.one_in(2) ? 0 : std::ldexp(2 * random_.below(2) - 1, any_exponent(random_));
+      case 3:  // few scales
+        return std::ldexp(random_.between(-3, 3), scales_[random_.below(3)]);
+      case 4:  // denormals beside ordinary numbers
+        return random_.one_in(3) ? std::ldexp(random_.between(-3, 3), least_exponent)
+                                 : random_.between(-4, 4);
+      case 5: {  // neighbouring doubles of small integers of one scale, and zeros
+        const double c = std::ldexp(random_.between(-4, 4), scales_[0]);
+        return random_.one_in(2) ? c : std::nextafter(c, random_.signed_unit());
+      }
+      default:  // full mantissas of few scales
+        return std::ldexp(full_mantissa(random_), scales_[random_.below(3)]);
+    }
+  }
+
+ private:
+  Random& random_;
+  int kind_;
+  std::array<int, 3> scales_;
+};
+
+// Points that coincide, stay, move alike; all in a plane or on a line.
+void degenerate(Random& random, std::span<MovingPoint> points) {
+  const auto any = [&]() -> MovingPoint& {
+    return points[static_cast<std::size_t>(random.below(static_cast<int>(points.size())))];
+  };
+  if (random.one_in(4)) any() = any();
+  if (random.one_in(4)) any().t0 = any().t0;
+  if (random.one_in(4)) any().t1 = any().t1;
+  if (random.one_in(3)) {
+    MovingPoint& still = any();
+    still.t1 = still.t0;
+  }
+  // 0: nothing; 1: a coordinate vanishes; 2: it is another one, too; 3: only one is left.
+  const int shape = std::max(0, random.below(8) - 4);
+  const auto k = static_cast<std::size_t>(random.below(3));
+  for (MovingPoint& p : points) {
+    for (Point* x : {&p.t0, &p.t1}) {
+      if (shape == 1) (*x)[k] = 0;
+      if (shape == 2) (*x)[k] = (*x)[(k + 1) % 3];
+      if (shape == 3) (*x)[k] = (*x)[(k + 1) % 3] = 0;
+    }
+  }
+}
+
+// p = (0,-a,0) -> (0,0,-e) and (0,0,0), (0,0,-c) -> 0, 0 -> (0,-e,0): coplanar throughout; the
+// dependencies have roots at 1 - e/a and 1 - e/c.
+void roots_next_to_one(Random& random, std::span<MovingPoint> points) {
+  const auto power = [&](int lo, int hi) { return std::ldexp(1, random.between(lo, hi)); };
+  const double a = power(0, greatest_exponent), c = a * random.between(1, 9);
+  const double e = power(least_exponent, 0);
+  points[0] = {{0, -a, 0}, {0, 0, -e}};
+  points[1] = {{0, 0, 0}, {0, 0, 0}};
+  points[2] = {{0, 0, -c}, {0, 0, 0}};
+  points[3] = {{0, 0, 0}, {0, -e, 0}};
+  if (random.one_in(2)) points[1].t1[0] = power(least_exponent, 0);
+}
+
+void make_points(Random& random, std::span<MovingPoint> points) {
+  ExtremeNumbers numbers(random);
+  for (MovingPoint& p : points) {
+    for (double& c : p.t0) c = numbers.next();
+    for (double& c : p.t1) c = numbers.next();
+  }
+  if (random.one_in(2)) degenerate(random, points);
+  if (random.one_in(16)) roots_next_to_one(random, points);
+}
+
+}  // namespace
+
+detector::FourPoints extreme_contact(std::uint64_t seed, std::uint64_t index) {
+  Random random(seed, index);
+  detector::FourPoints query;
+  query.first_group = index % 2 == 0 ? 1 : 2;
+  make_points(random, query.points);
+  return query;
+}
+
+ViewQuery extreme_view(std::uint64_t seed, std::uint64_t index) {
+  Random random(~seed, index);
+  std::array<MovingPoint, 5> points;
+  make_points(random, points);
+  if (index % 2 == 0) points[4] = points[3];
+  return {{points[0], points[1], points[2]}, {points[3], points[4]}};
+}
+
+}  // namespace assay::properties
