@@ -58,6 +58,10 @@ std::string_view name_of(ProblemKind kind) {
       return "broken_result";
     case ProblemKind::out_of_memory:
       return "out_of_memory";
+    case ProblemKind::changed_row:
+      return "changed_row";
+    case ProblemKind::not_as_stored:
+      return "not_as_stored";
   }
   return "unnamed";
 }

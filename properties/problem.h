@@ -48,6 +48,10 @@ enum class ProblemKind : std::uint8_t {
   step_failed = 25,         // a plug-in says itself that it could not answer a step
   broken_result = 26,       // a result that breaks the rules of the plug-in interface
   out_of_memory = 27,
+
+  // The rows of a store.
+  changed_row = 28,    // a row that does not fit its own hash: the disk or somebody changed it
+  not_as_stored = 29,  // a row that is not as this process stored it, or found it when it began
 };
 
 // The enumerator's name, for reports and tests.

@@ -19,7 +19,7 @@ std::string number(double value) {
 
 std::string text(std::string_view value) {
   // A file name or a message need not be valid UTF-8.
-  return Json(value).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(Json(value));
 }
 
 std::string text(const detector::Point& x) {
@@ -132,8 +132,7 @@ void append_pending(std::string& out, const std::string& pending) {
   const char* separator = "\n";
   if (facts.is_object()) {
     for (const auto& [key, value] : facts.items()) {
-      out += fmt::format("{}    {}: {}", separator, text(key),
-                         value.dump(-1, ' ', false, Json::error_handler_t::replace));
+      out += fmt::format("{}    {}: {}", separator, text(key), json_text(value));
       separator = ",\n";
     }
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "corpus/digest.h"
+#include "corpus/json_text.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/sections.h"
 #include "reports/terminal/shell_word.h"
@@ -81,6 +82,10 @@ Json replay_json(const RunFindings& findings) {
                                   shell_word(properties::certificate_file(paths->out).string()))});
 }
 
+// What is no UTF-8 in it, such as the name of a folder, replaced: as it is read back from the file
+// that it is written to.
+Json in_utf8(const Json& json) { return Json::parse(corpus::json_text(json)); }
+
 }  // namespace
 
 Json make_predicate(const RunFindings& findings, const properties::Judgement& judgement,
@@ -89,41 +94,45 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
   for (const auto& problem : findings.evidence.problems) {
     if (!problem.what.empty()) problems.push_back(problem.what);
   }
-  return {{"schema", certificate_schema},
-          {"verdict", judgement.verdict},
-          {"exit_code", judgement.exit_code},
-          {"failed_gate",
-           judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
-          {"gates", gates_json(judgement)},
-          {"detector", json_of(findings.run.detector)},
-          {"versions", versions_json(findings)},
-          {"campaign", campaign_json(findings, plan)},
-          {"confidence", confidence_json(findings)},
-          {"strata", strata_json(findings)},
-          {"cases", cases_json(findings)},
-          {"laws", laws_json(findings)},
-          {"power", power_json(findings)},
-          {"harness_problems", std::move(problems)},
-          {"self_test", self_test_json(findings)},
-          {"corpus", corpus_json(findings)},
-          {"failures", failures_json(findings)},
-          {"waivers", waivers_json(findings)},
-          {"replay", replay_json(findings)},
-          {"digests", digests_json(findings, campaign_digest)},
-          {"times", times_json(findings)}};
+  return in_utf8(
+      {{"schema", certificate_schema},
+       {"verdict", judgement.verdict},
+       {"exit_code", judgement.exit_code},
+       {"failed_gate",
+        judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
+       {"gates", gates_json(judgement)},
+       {"detector", json_of(findings.run.detector)},
+       {"versions", versions_json(findings)},
+       {"campaign", campaign_json(findings, plan)},
+       {"confidence", confidence_json(findings)},
+       {"strata", strata_json(findings)},
+       {"cases", cases_json(findings)},
+       {"laws", laws_json(findings)},
+       {"power", power_json(findings)},
+       {"harness_problems", std::move(problems)},
+       {"self_test", self_test_json(findings)},
+       {"corpus", corpus_json(findings)},
+       {"failures", failures_json(findings)},
+       {"waivers", waivers_json(findings)},
+       {"replay", replay_json(findings)},
+       {"digests", digests_json(findings, campaign_digest)},
+       {"times", times_json(findings)}});
 }
 
 properties::Expected<Json> make_statement(const std::filesystem::path& folder) {
+  const auto findings = properties::read_findings(folder);
+  if (!findings) return findings.error();
+  return make_statement(findings.value());
+}
+
+properties::Expected<Json> make_statement(const RunFindings& findings) {
   using properties::Problem;
   using properties::ProblemKind;
-  const auto file = properties::campaign_file(folder);
+  const auto file = properties::campaign_file(findings.folder);
   const auto digest = corpus::sha256_of_file(file);
   if (!digest) return Problem{ProblemKind::cannot_read, digest.error().message};
   const auto plan = properties::find_plan(file.string());
   if (!plan) return Problem{ProblemKind::wrong_plan, plan.error().message};
-  const auto read = properties::read_findings(folder);
-  if (!read) return read.error();
-  const auto& findings = read.value();
   if (!is_plan_of(findings, plan.value())) {
     return Problem{ProblemKind::another_run, "campaign.json is not the campaign of the stores"};
   }
@@ -134,6 +143,6 @@ properties::Expected<Json> make_statement(const std::filesystem::path& folder) {
       {"predicate", make_predicate(findings, judge(findings), plan.value(), digest.value())}};
 }
 
-std::string statement_text(const Json& statement) { return statement.dump(1) + "\n"; }
+std::string statement_text(const Json& statement) { return corpus::json_text(statement, 1) + "\n"; }
 
 }  // namespace assay::reports

@@ -13,16 +13,19 @@ inline constexpr const char* statement_type = "https://in-toto.io/Statement/v1";
 inline constexpr const char* predicate_type = "urn:assay:certificate:2";
 inline constexpr const char* certificate_schema = "assay-certificate/2";
 
-// Findings and gates as JSON. plan: with its times, which the stores do not state; campaign_digest:
+// Findings and gates as JSON, all of its text UTF-8. plan: with its times, which the stores do not state; campaign_digest:
 // SHA-256 of the campaign's file.
 nlohmann::ordered_json make_predicate(const properties::RunFindings& findings,
                                       const properties::Judgement& judgement,
                                       const properties::CampaignPlan& plan,
                                       const std::string& campaign_digest);
 
-// From the stores in `folder` and its campaign.json alone: equal files give equal bytes.
+// From findings and the campaign.json in their folder alone: equal files give equal bytes.
 // cannot_read where campaign.json is not there, wrong_plan where it is no plan, another_run where
-// it is not that of the stores; else the problems of read_findings.
+// it is not that of the stores.
+properties::Expected<nlohmann::ordered_json> make_statement(
+    const properties::RunFindings& findings);
+// The same of what the stores in `folder` say; besides, the problems of read_findings.
 properties::Expected<nlohmann::ordered_json> make_statement(const std::filesystem::path& folder);
 
 // As it is written: one field a line.

@@ -13,12 +13,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Within a cell of a table.
+// As words of a paragraph or within a cell of a table, and as nothing else: what a plug-in says
+// becomes neither HTML nor a link, a picture or code.
 std::string cell(const std::string& text) {
+  constexpr std::string_view marks = "\\|`*[]";
   std::string out;
   for (const char c : text) {
-    if (c == '|') out += '\\';
-    out += c == '\n' ? ' ' : c;
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else {
+      if (marks.find(c) != std::string_view::npos) out += '\\';
+      out += c == '\n' ? ' ' : c;
+    }
   }
   return out;
 }

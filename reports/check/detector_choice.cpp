@@ -1,6 +1,9 @@
 #include "reports/check/detector_choice.h"
 
+#include <fmt/format.h>
+
 #include "properties/worker/worker_process.h"
+#include "reports/terminal/printable.h"
 
 namespace assay::reports {
 
@@ -12,11 +15,13 @@ Expected<void> choose_detector(const std::string& library, properties::CampaignR
   const auto description = worker.describe();
   if (!description) return Refusal(description.error());
   const auto& plugin = description.value();
-  request.detector = {plugin.name + " " + plugin.version,
+  // Its words go into ids, files and pages.
+  const auto name = printable(plugin.name);
+  request.detector = {fmt::format("{} {}", name, printable(plugin.version)),
                       false,
                       plugin.claims,
                       plugin.contract,
-                      {{plugin.name, {}}}};
+                      {{name, {}}}};
   return outcome::success();
 }
 

@@ -5,6 +5,7 @@
 #include "detector/step_result.h"
 #include "reports/check/plugin_text.h"
 #include "reports/check/subject.h"
+#include "reports/terminal/printable.h"
 
 namespace assay::reports {
 namespace {
@@ -12,12 +13,19 @@ namespace {
 using detector::StepResult;
 using properties::Claim;
 
+// Its words go to the terminal and into JSON.
+properties::PluginDescription in_print(properties::PluginDescription description) {
+  description.name = printable(description.name);
+  description.version = printable(description.version);
+  return description;
+}
+
 class Plugin : public Subject {
  public:
   Plugin(properties::WorkerProcess worker, properties::PluginDescription description,
          std::string library, const corpus::Case& c)
       : worker_(std::move(worker)),
-        description_(std::move(description)),
+        description_(in_print(std::move(description))),
         library_(std::move(library)),
         case_(c) {}
 

@@ -6,6 +6,7 @@
 #include <boost/outcome/success_failure.hpp>
 #include <string>
 
+#include "properties/problem.h"
 #include "reports/terminal/exit_code.h"
 
 namespace assay::reports {
@@ -14,6 +15,7 @@ namespace assay::reports {
 // its line, and nothing else is asked of it any more.
 struct Refusal {
   std::string line;
+  int code = exit_usage;
 
   Refusal() = default;
   explicit Refusal(std::string text) : line(std::move(text)) {}
@@ -21,6 +23,10 @@ struct Refusal {
   template <class Problem>
   requires requires(const Problem& problem) { std::string(problem.message); }
   explicit Refusal(const Problem& problem) : line(problem.message) {}
+  // What was stored is not what is read back: the harness cannot vouch for anything then.
+  explicit Refusal(const properties::Problem& problem)
+      : line(problem.message),
+        code(problem.kind == properties::ProblemKind::not_as_stored ? exit_unsound : exit_usage) {}
 };
 
 namespace outcome = boost::outcome_v2;
@@ -32,7 +38,11 @@ using Expected = outcome::basic_result<T, Refusal, outcome::policy::terminate>;
 // "assay: LINE", control characters replaced, cut at 1,000 bytes; returns exit_usage. Never throws,
 // whatever stderr is.
 int refuse(const std::string& line) noexcept;
-inline int refuse(const Refusal& refusal) noexcept { return refuse(refusal.line); }
+// The same; returns the refusal's own code.
+inline int refuse(const Refusal& refusal) noexcept {
+  refuse(refusal.line);
+  return refusal.code;
+}
 
 // Whether all that was printed reached stdout; says so on stderr when not.
 bool output_was_written() noexcept;

@@ -72,8 +72,8 @@ void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about) {
   verb.add("--seed", seed, about).with(whole_number()).shows_default();
 }
 
-void add_detector(Verb& verb, std::string& library) {
-  verb.add("--detector", library, "A plug-in's library (default: the built-in)");
+void add_detector(Verb& verb, std::string& library, const std::string& about) {
+  verb.add("--detector", library, about);
 }
 
 }  // namespace assay::reports

@@ -49,6 +49,7 @@ Check share();         // a number above 0, at most 1
 // --jobs (all cores, unless told otherwise), --seed, --detector
 void add_jobs(Verb& verb, int& jobs);
 void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about);
-void add_detector(Verb& verb, std::string& library);
+void add_detector(Verb& verb, std::string& library,
+                  const std::string& about = "A plug-in's library (default: the built-in)");
 
 }  // namespace assay::reports

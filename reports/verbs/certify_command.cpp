@@ -6,6 +6,8 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "corpus/digest.h"
@@ -59,13 +61,14 @@ class Certification {
 
   // Exit code of the verdict, or of what kept it from being reached.
   int run() {
-    auto done = write_text_file(properties::campaign_file(out_).string(),
-                                properties::plan_text(request_.plan) + "\n");
+    auto done = write_text_file(properties::campaign_file(out_).string(), campaign_text());
+    // Before the cases of the corpus run: from then on every row is known.
+    if (done) done = holds_shards(out_) ? take_shards() : open_store();
     if (done) store_subject();
     if (done) done = store_waivers();
     if (done) done = run_corpus();
     if (done) done = forget_corpus_failures();
-    if (done) done = holds_shards(out_) ? take_shards() : run_trials();
+    if (done) done = store_ ? run_trials() : show_shards();
     if (done) done = show_corpus_failures();
     if (!done) return refuse(done.error());
     run_self_test();
@@ -74,6 +77,8 @@ class Certification {
   }
 
  private:
+  std::string campaign_text() const { return properties::plan_text(request_.plan) + "\n"; }
+
   void store_subject() {
     const auto commit = commit_text();
     keep(properties::Versions{ASSAY_VERSION, commit.empty() ? std::nullopt : std::optional(commit),
@@ -136,13 +141,18 @@ class Certification {
     return shown.written;
   }
 
-  Expected<void> run_trials() {
-    fmt::print("\n");
+  Expected<void> open_store() {
     auto store = properties::Store::open(properties::store_file(out_, request_.shard),
                                          properties::binding_of(request_));
     if (!store) return Refusal(store.error());
-    auto done = run_on_terminal(request_, store.value(), words_.out);
-    const auto sealed = store.value().seal();
+    store_ = std::move(store.value());
+    return outcome::success();
+  }
+
+  Expected<void> run_trials() {
+    fmt::print("\n");
+    auto done = run_on_terminal(request_, *store_, words_.out);
+    const auto sealed = store_->seal();
     if (done && !sealed) return Refusal(sealed.error());
     return done;
   }
@@ -152,13 +162,31 @@ class Certification {
     const auto files = stored_shards(out_);
     if (!files) return Refusal(files.error());
     for (const auto& file : files.value()) {
-      const auto whole = properties::make_whole(file, request_);
+      auto whole = properties::make_whole(file, request_);
       if (!whole) return Refusal(whole.error());
-      const auto failures = write_failures(whole.value().failures, out_, words_.detector);
-      if (!failures.written) return failures.written;
-      fmt::print("{}: {} trials\n", file.filename().string(), whole.value().trials);
+      shards_[file.filename().string()] = std::move(whole.value());
     }
     return outcome::success();
+  }
+
+  Expected<void> show_shards() const {
+    for (const auto& [name, shard] : shards_) {
+      const auto failures = write_failures(shard.failures, out_, words_.detector);
+      if (!failures.written) return failures.written;
+      fmt::print("{}: {} trials\n", name, shard.trials);
+    }
+    return outcome::success();
+  }
+
+  // All that the stores have to hold: what was written here, and what was there before.
+  properties::KnownRows known_rows() const {
+    properties::KnownRows known;
+    known[properties::checks_file(out_).filename().string()] = &checks_.known_rows();
+    if (store_)
+      known[properties::store_file(out_, request_.shard).filename().string()] =
+          &store_->known_rows();
+    for (const auto& [name, shard] : shards_) known[name] = &shard.rows;
+    return known;
   }
 
   void run_self_test() {
@@ -193,10 +221,17 @@ class Certification {
                             seconds});
     checks_.seal();
     if (const auto& lost = checks_.problem()) return refuse(Refusal(*lost));
-    const auto statement = make_statement(out_);
-    if (!statement) return refuse(Refusal(statement.error()));
-    const auto findings = properties::read_findings(out_);
+    // The code of a plug-in may have reached the files: the verdict is on what was stored, or none.
+    const auto findings = properties::read_findings(out_, known_rows());
     if (!findings) return refuse(Refusal(findings.error()));
+    const auto statement = make_statement(findings.value());
+    if (!statement) return refuse(Refusal(statement.error()));
+    const auto& digests = statement.value()["predicate"]["digests"];
+    if (digests["campaign"] != corpus::sha256_of(campaign_text()))
+      return refuse(
+          Refusal(properties::Problem{properties::ProblemKind::not_as_stored,
+                                      fmt::format("{}: was changed while this run was at work",
+                                                  properties::campaign_file(out_).string())}));
     const auto certificate = properties::certificate_file(out_).string();
     auto written = write_text_file(certificate, statement_text(statement.value()));
     if (written) written = write_for_ci(statement.value()["predicate"], out_);
@@ -212,6 +247,9 @@ class Certification {
   const properties::CampaignRequest& request_;
   const std::filesystem::path out_;
   properties::Checks checks_;
+  std::optional<properties::Store> store_;  // of the trials that are run here
+  std::map<std::string, properties::WholeShard>
+      shards_;  // those that were run before, by file name
   std::vector<properties::StoredFailure> corpus_failures_;
   const Clock::time_point begin_;
 };

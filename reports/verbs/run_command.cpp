@@ -54,6 +54,12 @@ int conclude(const properties::CampaignRequest& request, const properties::RunFi
   return judgement.exit_code;
 }
 
+int refuse_and_keep(Refusal refusal) {
+  // A store that somebody changed is not gone on with.
+  if (refusal.code == exit_usage) refusal.line += go_on;
+  return refuse(refusal);
+}
+
 int run_campaign(const RunRequest& command) {
   const auto begin = std::chrono::steady_clock::now();
   const auto& out = command.words.out;
@@ -65,9 +71,10 @@ int run_campaign(const RunRequest& command) {
   auto store = properties::Store::open(file, properties::binding_of(request));
   if (!store) return refuse(Refusal(store.error()));
   if (const auto done = run_on_terminal(request, store.value(), out); !done)
-    return refuse(done.error().line + go_on);
-  const auto findings = properties::read_one_store(file);
-  if (!findings) return refuse(findings.error().message + go_on);
+    return refuse_and_keep(done.error());
+  // The code of a plug-in may have reached the file: the verdict is on what was stored, or none.
+  const auto findings = properties::read_one_store(file, &store.value().known_rows());
+  if (!findings) return refuse_and_keep(Refusal(findings.error()));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   return conclude(request, findings.value(), out, took.count());
 }

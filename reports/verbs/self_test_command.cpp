@@ -27,15 +27,15 @@ using properties::QueryTally;
 using properties::SelfTestFamily;
 using Clock = std::chrono::steady_clock;
 
-double share(std::uint64_t part, std::uint64_t whole) {
+double share_of(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
 void print_row(const std::string& name, const QueryTally& t, double seconds) {
   const std::uint64_t judged = t.rungs.axis + t.rungs.interval + t.rungs.algebraic;
   fmt::print("{:<14}{:>10}{:>10}{:>16}{:>8}{:>9.2f}{:>12.2f}{:>13.2f}{:>9.1f}\n", name, t.queries,
-             t.contacts, t.contradictions, t.open, share(t.rungs.axis, judged),
-             share(t.rungs.interval, judged), share(t.rungs.algebraic, judged), seconds);
+             t.contacts, t.contradictions, t.open, share_of(t.rungs.axis, judged),
+             share_of(t.rungs.interval, judged), share_of(t.rungs.algebraic, judged), seconds);
   std::fflush(stdout);
 }
 
@@ -107,7 +107,7 @@ int run_self_test(const SelfTestRequest& request) {
     const std::uint64_t indices = family->indices(request.queries);
     if (indices == 0) continue;
     const auto result = properties::run_family(*family, options, [&](std::uint64_t done) {
-      const auto phase = fmt::format("{} {:.0f} %", family->name(), share(done, indices));
+      const auto phase = fmt::format("{} {:.0f} %", family->name(), share_of(done, indices));
       progress.phase(phase);
       if (on_terminal || elapsed() - last_line < kSecondsBetweenLines) return;
       last_line = elapsed();

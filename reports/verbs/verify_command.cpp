@@ -1,12 +1,17 @@
-// `assay verify`: certificates against the files beside them; several nights are pooled.
+// `assay verify`: certificates against the files beside them, and against the detector itself;
+// several nights are pooled.
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
+#include <random>
 
+#include "reports/certificate/again.h"
 #include "reports/certificate/pooling.h"
 #include "reports/certificate/verify.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/plain_progress.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -14,6 +19,10 @@ namespace {
 
 struct VerifyRequest {
   std::vector<std::string> certificates;  // several: nights, pooled
+  std::optional<double> again;            // share of the trials to be run once more
+  std::optional<std::uint64_t> seed;      // of their choice; a fresh one where it is not given
+  std::string detector;
+  int jobs = 1;
 };
 
 using Json = nlohmann::ordered_json;
@@ -32,7 +41,38 @@ int print_pooled(const std::vector<Json>& predicates) {
   return exit_holds;
 }
 
+std::uint64_t fresh_seed() {
+  std::random_device device;
+  constexpr int bits = 32;
+  return (std::uint64_t{device()} << bits) | device();
+}
+
+// Whoever forges a certificate must not know which trials are asked for: the seed is chosen now.
+int run_trials_again(const std::string& certificate, const VerifyRequest& request) {
+  const std::filesystem::path file = certificate;
+  AgainRequest asked{*request.again, request.seed ? *request.seed : fresh_seed(), request.detector,
+                     request.jobs};
+  PlainProgress progress("again");
+  const auto again = run_certified_again(
+      file.has_parent_path() ? file.parent_path() : ".", asked, [&](const auto& state) {
+        progress.show(fmt::format("{}/{} trials", state.done, state.planned));
+      });
+  progress.finish();
+  if (!again) return refuse(again.error());
+  const auto& [trials, stored, difference] = again.value();
+  if (difference) {
+    fmt::print("{}\nNOT VERIFIED: {}, {} of {} trials run again, seed {}; it says nothing\n",
+               *difference, certificate, trials, stored, asked.seed);
+    return exit_defect;
+  }
+  fmt::print("again: {} of {} trials, seed {}: all as they are stored\n", trials, stored,
+             asked.seed);
+  return exit_holds;
+}
+
 int run_verify(const VerifyRequest& request) {
+  if (!request.again && (request.seed || !request.detector.empty()))
+    return refuse("--seed and --detector are of --again, which is not given");
   std::error_code ignored;
   for (const auto& file : request.certificates) {
     if (!std::filesystem::is_regular_file(file, ignored))
@@ -53,6 +93,10 @@ int run_verify(const VerifyRequest& request) {
     fmt::print("verified: {} of {}, verdict {}\n", predicate["campaign"]["name"].get<std::string>(),
                predicate["detector"]["name"].get<std::string>(),
                predicate["verdict"].get<std::string>());
+    if (request.again) {
+      const int differs = run_trials_again(file, request);
+      if (differs != exit_holds) return differs;
+    }
     if (code == exit_holds) code = predicate["exit_code"].get<int>();
   }
   if (code == exit_holds && predicates.size() > 1) return print_pooled(predicates);
@@ -63,6 +107,18 @@ void add_options(Verb& verb, VerifyRequest& request) {
   verb.add("certificate", request.certificates,
            "OUT/certificate.json; several nights of one detector are pooled")
       .required();
+  verb.add("--again", request.again,
+           "SHARE of the trials, above 0, at most 1: they are run once more and have to come to "
+           "what is stored")
+      .with(share());
+  verb.add_word(
+          "--seed",
+          [&](const std::string& word) { request.seed = whole_number_of<std::uint64_t>(word); },
+          "Of the choice of --again (default: a fresh one, printed)")
+      .with(whole_number());
+  add_detector(verb, request.detector,
+               "The certified plug-in's library, for --again (default: where it was)");
+  add_jobs(verb, request.jobs);
 }
 
 }  // namespace

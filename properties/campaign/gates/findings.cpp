@@ -14,19 +14,33 @@ namespace {
 // A configuration is near its limit from a third of it on.
 constexpr double near_share = 1. / 3;
 
-// A chain: the digest so far and the next row make the next digest.
+// A chain: the digest so far and the next row make the next digest. Each column stands behind its
+// length, so that two rows are never one text.
 class RowsDigest {
  public:
-  void add(const std::string& row) { digest_ = corpus::sha256_of(digest_ + row); }
+  void add(const std::vector<std::string>& row) {
+    std::string bytes = digest_;
+    for (const auto& column : row) bytes += fmt::format("{}:{}", column.size(), column);
+    digest_ = corpus::sha256_of(bytes);
+  }
   const std::string& value() const { return digest_; }
 
  private:
   std::string digest_ = corpus::sha256_of("");
 };
 
-std::string row_of(const TrialRecord& r) {
-  return fmt::format("{} {} {} {} {} {} {} {} {} {}", r.id, r.family, r.index, r.outcomes,
-                     r.triangles, r.steps, r.collisions, r.pairs, counts_text(r.counts), r.mesh);
+// Without what may differ from one run to the next: times, and trials that somebody disturbed.
+std::vector<std::string> lasting_columns(const TrialRecord& r) {
+  return {r.id,
+          r.family,
+          text_of_number(r.index),
+          r.outcomes,
+          text_of_number(r.triangles),
+          text_of_number(r.steps),
+          text_of_number(r.collisions),
+          text_of_number(r.pairs),
+          counts_text(r.counts),
+          text_of_number(r.mesh)};
 }
 
 bool is_before(const StoredFailure& a, const StoredFailure& b) {
@@ -36,18 +50,26 @@ bool is_before(const StoredFailure& a, const StoredFailure& b) {
   return key(a) < key(b);
 }
 
-// Of "I/N"; nothing for other words.
+// Of "I/N"; nothing for other words. Throws StoreProblem where there is no such shard: whoever looks
+// for those that are missing counts up to N.
 std::optional<Shard> shard_of(const std::string& text) {
   const auto slash = text.find('/');
   if (slash == std::string::npos) return std::nullopt;
-  return Shard{std::stoull(text.substr(0, slash)), std::stoull(text.substr(slash + 1))};
+  const Shard shard{number_of_text(text.substr(0, slash)), number_of_text(text.substr(slash + 1))};
+  constexpr std::uint64_t most_shards = 1'000'000;
+  if (shard.index < 1 || shard.index > shard.count || shard.count > most_shards)
+    throw StoreProblem(ProblemKind::damaged_store, fmt::format("no run has a shard {}", text));
+  return shard;
 }
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& folder) { found_.folder = folder; }
+  Reader(const std::filesystem::path& folder, KnownRows known) : known_(std::move(known)) {
+    found_.folder = folder;
+  }
 
   RunFindings read_folder() {
+    refuse_lost_files();
     auto files = value_or_throw(stored_shards(found_.folder));
     const auto merged = merged_file(found_.folder), checks = checks_file(found_.folder);
     if (std::find(files.begin(), files.end(), merged) != files.end()) {
@@ -102,8 +124,29 @@ class Reader {
     }
   }
 
+  void refuse_lost_files() const {
+    std::error_code ignored;
+    for (const auto& [name, rows] : known_) {
+      if (!std::filesystem::exists(found_.folder / name, ignored))
+        throw StoreProblem(ProblemKind::not_as_stored,
+                           fmt::format("{}: was taken away while this run was at work",
+                                       (found_.folder / name).string()));
+    }
+  }
+
+  // Of the same state of the file that is read afterwards.
+  void check_against_known(const Store& store, const std::filesystem::path& file) const {
+    if (known_.empty()) return;
+    const auto known = known_.find(file.filename().string());
+    if (known == known_.end())
+      throw StoreProblem(ProblemKind::not_as_stored,
+                         fmt::format("{}: was not stored by this run", file.string()));
+    value_or_throw(store.check_against(*known->second));
+  }
+
   void add(const std::filesystem::path& file) {
     const Store store = value_or_throw(Store::read(file));
+    check_against_known(store, file);
     const auto binding = value_or_throw(read_binding(store.binding(), file));
     if (binding_.empty()) {
       binding_ = store.binding();
@@ -152,21 +195,20 @@ class Reader {
         throw StoreProblem(ProblemKind::damaged_store,
                            fmt::format("{}: {} is no trial of this shard", file.string(), r.id));
       found_.tally.add(r);
-      rows_.add(row_of(r));
+      rows_.add(lasting_columns(r));
     });
     for (const auto& [signature, met] : store.signatures()) {
       found_.met[signature] += met;
-      rows_.add(fmt::format("{} {}", signature, met));
+      rows_.add({signature, text_of_number(met)});
     }
     for (auto& failure : store.failures()) {
-      rows_.add(fmt::format("{} {} {} {} {} {}", failure.id, failure.configuration,
-                            failure.signature, failure.what, failure.mesh, failure.flaky));
+      rows_.add({failure.id, failure.configuration, failure.signature, failure.what, failure.mesh,
+                 failure.flaky ? "1" : "0"});
       found_.failures.push_back(std::move(failure));
     }
     for (auto& row : store.evidence()) {
       if (!may_differ(row))
-        rows_.add(
-            fmt::format("{} {} {} {} {}", row.kind, row.name, row.shard, row.progress, row.facts));
+        rows_.add({row.kind, row.name, row.shard, text_of_number(row.progress), row.facts});
       if (!is_taken_already(row, file)) evidence_.push_back(std::move(row));
     }
   }
@@ -194,6 +236,7 @@ class Reader {
     }
   }
 
+  const KnownRows known_;
   RunFindings found_;
   std::string binding_;
   std::vector<Evidence> evidence_;
@@ -285,12 +328,14 @@ bool RunFindings::has_more_to_do() const {
 std::uint64_t RunFindings::planted() const { return count_planted(evidence.faults, false); }
 std::uint64_t RunFindings::found() const { return count_planted(evidence.faults, true); }
 
-Expected<RunFindings> read_one_store(const std::filesystem::path& file) {
-  return told(file, [&] { return Reader(file.parent_path()).read_alone(file); });
+Expected<RunFindings> read_one_store(const std::filesystem::path& file, const RowTally* known) {
+  KnownRows rows;
+  if (known) rows[file.filename().string()] = known;
+  return told(file, [&] { return Reader(file.parent_path(), std::move(rows)).read_alone(file); });
 }
 
-Expected<RunFindings> read_findings(const std::filesystem::path& folder) {
-  return told(folder, [&] { return Reader(folder).read_folder(); });
+Expected<RunFindings> read_findings(const std::filesystem::path& folder, const KnownRows& known) {
+  return told(folder, [&] { return Reader(folder, known).read_folder(); });
 }
 
 }  // namespace assay::properties

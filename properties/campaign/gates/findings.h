@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,7 +34,8 @@ struct RunFindings {
   std::vector<StoredFailure> failures;
   EvidenceFacts evidence;
   std::string library;  // of a plug-in, as it was named to the run; empty: not known
-  // SHA-256 over all rows but times: the same for the same campaign, however long it took.
+  // SHA-256 over all rows but times and paths: the same for the same campaign, however long it took
+  // and wherever it was kept.
   std::string rows;
 
   // Cases of a family that were planned, in the shard that is looked at or in all of them.
@@ -58,13 +60,22 @@ struct RunFindings {
   std::uint64_t planted() const, found() const;
 };
 
-// Of one store alone; the problems are those of Store::read.
-Expected<RunFindings> read_one_store(const std::filesystem::path& file);
+// What a process knows of the stores of a folder, for it wrote them or found them when it began: by
+// the name of the file, without its folder.
+using KnownRows = std::map<std::string, const RowTally*>;
+
+// Of one store alone; the problems are those of Store::read. known: not_as_stored where the store
+// does not hold these rows and no others.
+Expected<RunFindings> read_one_store(const std::filesystem::path& file,
+                                     const RowTally* known = nullptr);
 
 // Reads merged.sqlite where there is one, else every shard-*.sqlite, and checks.sqlite. Besides the
 // problems of Store::read: no_run where there is nothing; another_run and contradiction where two
 // files do not belong together; wrong_shards; stale_merge; damaged_store, also for a trial that is
-// none which its shard plans. O(trials).
-Expected<RunFindings> read_findings(const std::filesystem::path& folder);
+// none which its shard plans. known: not_as_stored where the stores of the folder are others than
+// these, or one of them does not hold its rows and no others; nothing is asked where it is empty.
+// O(trials).
+Expected<RunFindings> read_findings(const std::filesystem::path& folder,
+                                    const KnownRows& known = {});
 
 }  // namespace assay::properties

@@ -57,13 +57,17 @@ struct PlannedTrial {
 };
 
 // Families in turn, so that a run that ends early has judged all of them.
-std::vector<PlannedTrial> planned_trials(const CampaignPlan& plan, const Shard& shard) {
+std::vector<PlannedTrial> planned_trials(const CampaignRequest& request,
+                                         const std::set<std::string>* only) {
+  const auto& plan = request.plan;
+  const auto& shard = request.shard;
   std::vector<PlannedTrial> list;
   std::uint64_t most = 0;
   for (const auto& stratum : plan.strata) most = std::max(most, stratum.cases);
   for (std::uint64_t i = 0; i < most; ++i) {
     for (const auto& stratum : plan.strata) {
       if (i >= stratum.cases || !shard.holds(i)) continue;
+      if (only && !only->contains(trial_id(plan, request.seed, stratum.family, i))) continue;
       const auto known = families();
       const auto family = std::find_if(known.begin(), known.end(),
                                        [&](const Family& f) { return f.name == stratum.family; });
@@ -76,12 +80,13 @@ std::vector<PlannedTrial> planned_trials(const CampaignPlan& plan, const Shard& 
 class Trials {
  public:
   Trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
-         const std::function<void(const TrialProgress&)>& progress)
+         const std::function<void(const TrialProgress&)>& progress,
+         const std::set<std::string>* only)
       : request_(request),
         store_(store),
         deadline_(deadline),
         progress_(progress),
-        planned_(planned_trials(request.plan, request.shard)),
+        planned_(planned_trials(request, only)),
         met_(store.signatures()) {}
 
   TrialsEnd run() {
@@ -279,8 +284,9 @@ class Trials {
 }  // namespace
 
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
-                     const std::function<void(const TrialProgress&)>& progress) {
-  return Trials(request, store, deadline, progress).run();
+                     const std::function<void(const TrialProgress&)>& progress,
+                     const std::set<std::string>* only) {
+  return Trials(request, store, deadline, progress, only).run();
 }
 
 }  // namespace assay::properties

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <set>
+#include <string>
 
 #include "properties/campaign/request.h"
 #include "properties/campaign/stored/store.h"
@@ -27,9 +29,11 @@ struct TrialsEnd {
 // deadline is over. Every record is stored as soon as it is known: a killed run loses only the
 // cases at work. The records do not depend on the number of jobs. `progress` is called from one
 // thread at a time. Throws StoreProblem where the store cannot even be read at the beginning: for
-// campaign/ alone.
+// campaign/ alone. only: the ids of the trials that count as planned; all of the shard where it is
+// not given.
 TrialsEnd run_trials(const CampaignRequest& request, Store& store, RunDeadline deadline,
-                     const std::function<void(const TrialProgress&)>& progress);
+                     const std::function<void(const TrialProgress&)>& progress,
+                     const std::set<std::string>* only = nullptr);
 
 // The case of a failure, ready to be stored: with the options of its configuration.
 corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,

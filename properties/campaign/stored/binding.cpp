@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "corpus/digest.h"
+#include "corpus/json_text.h"
 #include "properties/campaign/stored/json_optional.h"
 #include "properties/campaign/stored/store.h"
 #include "properties/faults/fault.h"
@@ -55,15 +56,17 @@ std::string binding_of(const CampaignRequest& request) {
                 request.plugin ? digest_of(*request.plugin) : std::nullopt, generator_digest()}};
   json["schema"] = store_schema;
   json["campaign"] = Json::parse(plan_text(plan));
-  return json.dump();
+  return corpus::json_text(json);
 }
 
 Json json_of(const BoundDetector& detector) { return detector; }
 Json json_of(const BoundDigests& digests) { return digests; }
 
 Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file) try {
-  const Json json = Json::parse(text);
-  auto plan = parse_plan(json.at("campaign").dump(), file);
+  const auto read = corpus::parse_sorted_json(text, file);
+  if (!read) return Problem{ProblemKind::damaged_store, read.error().message};
+  const Json& json = read.value();
+  auto plan = parse_plan(corpus::json_text(json.at("campaign")), file);
   if (!plan) return Problem{ProblemKind::damaged_store, plan.error().message};
   auto run = json.get<BoundRun>();
   run.plan = std::move(plan.value());
@@ -86,24 +89,29 @@ std::string generator_digest() {
 }
 
 std::optional<std::string> with_shard(const std::string& binding, const std::string& shard) {
-  Json json = Json::parse(binding, nullptr, false);
-  if (!json.is_object() || !json.contains("shard")) return std::nullopt;
-  json["shard"] = shard;
-  return json.dump();
+  auto read = corpus::parse_sorted_json(binding, "binding");
+  if (!read || !read.value().is_object() || !read.value().contains("shard")) return std::nullopt;
+  read.value()["shard"] = shard;
+  return corpus::json_text(read.value());
 }
 
 std::string difference_of(const std::string& a, const std::string& b) {
-  const Json left = Json::parse(a, nullptr, false), right = Json::parse(b, nullptr, false);
-  if (!left.is_object() || !right.is_object()) return "one of them says not of what it is";
-  const Json one = left.flatten(), other = right.flatten();
+  const auto left = corpus::parse_sorted_json(a, "binding"),
+             right = corpus::parse_sorted_json(b, "binding");
+  const bool are_objects = left && right && left.value().is_object() && right.value().is_object();
+  if (!are_objects) return "one of them says not of what it is";
+  const Json one = left.value().flatten(), other = right.value().flatten();
   for (const auto& [key, value] : one.items()) {
     if (key == "/shard") continue;
-    if (!other.contains(key)) return fmt::format("{} {} and none", key.substr(1), value.dump());
+    if (!other.contains(key))
+      return fmt::format("{} {} and none", key.substr(1), corpus::json_text(value));
     if (other[key] != value)
-      return fmt::format("{} {} and {}", key.substr(1), value.dump(), other[key].dump());
+      return fmt::format("{} {} and {}", key.substr(1), corpus::json_text(value),
+                         corpus::json_text(other[key]));
   }
   for (const auto& [key, value] : other.items()) {
-    if (!one.contains(key)) return fmt::format("{} none and {}", key.substr(1), value.dump());
+    if (!one.contains(key))
+      return fmt::format("{} none and {}", key.substr(1), corpus::json_text(value));
   }
   return "";
 }

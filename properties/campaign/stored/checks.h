@@ -31,6 +31,8 @@ class Checks {
   void keep_failures(const std::set<std::string>& signatures);
   // As Store::seal.
   void seal();
+  // As Store::known_rows.
+  const RowTally& known_rows() const { return store_.known_rows(); }
   // What is stored, or the first problem.
   Expected<KeptFailures> failures() const;
 

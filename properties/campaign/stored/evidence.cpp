@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "corpus/json_text.h"
 #include "properties/campaign/stored/json_optional.h"
 
 namespace assay::properties {
@@ -38,7 +39,8 @@ void from_json(const nlohmann::json& j, FaultStatus& status) {
   for (const auto one : {FaultStatus::planted, FaultStatus::open, FaultStatus::equivalent}) {
     if (j == name_of(one)) return void(status = one);
   }
-  throw StoreProblem(ProblemKind::damaged_store, fmt::format("no status of a fault: {}", j.dump()));
+  throw StoreProblem(ProblemKind::damaged_store,
+                     fmt::format("no status of a fault: {}", corpus::json_text(j)));
 }
 
 namespace {
@@ -69,13 +71,17 @@ constexpr const char* issued_name = "issued";
 template <class T>
 Evidence row(const char* kind, const std::string& name, const std::string& shard, const T& facts,
              std::uint64_t progress = 1) {
-  return {kind, name, shard, progress, Json(facts).dump()};
+  return {kind, name, shard, progress, corpus::json_text(Json(facts))};
 }
 
 // `facts` with what the row's facts say.
 template <class T>
 T told(const Evidence& row, T facts = {}) {
-  Json::parse(row.facts).get_to(facts);
+  const auto read = corpus::parse_sorted_json(row.facts, row.name);
+  if (!read)
+    throw StoreProblem(ProblemKind::damaged_store,
+                       fmt::format("evidence {} {}", row.kind, read.error().message));
+  read.value().get_to(facts);
   return facts;
 }
 

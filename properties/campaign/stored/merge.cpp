@@ -1,14 +1,20 @@
 #include "properties/campaign/stored/merge.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
 #include <system_error>
 #include <vector>
 
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/evidence.h"
+#include "properties/campaign/stored/rows.h"
 #include "properties/campaign/stored/store.h"
 
 namespace assay::properties {
@@ -17,81 +23,114 @@ namespace {
 // A row that is there already must say the same; what may differ is joined by a rule that depends
 // on neither order nor repetition (a minimum or a maximum). An update that finds a difference
 // changes no row.
-struct Table {
-  const char* name;
+struct JoinedTable {
+  const StoreTable& table;
   const char* what;  // of one row, for messages
-  int columns;
-  int key_columns;  // the first ones
   const char* on_conflict;
 };
 
-constexpr Table tables[] = {
-    {"trial", "trial", 14, 1,
-     "(id) DO UPDATE SET oracle_us=min(oracle_us,excluded.oracle_us), "
-     "detector_us=min(detector_us,excluded.detector_us), "
-     "slowest_us=min(slowest_us,excluded.slowest_us), "
-     "disturbed=max(disturbed,excluded.disturbed) WHERE family=excluded.family AND "
-     "place=excluded.place AND outcomes=excluded.outcomes AND triangles=excluded.triangles AND "
-     "steps=excluded.steps AND collisions=excluded.collisions AND pairs=excluded.pairs AND "
-     "counts=excluded.counts AND mesh=excluded.mesh"},
-    {"failure", "failure", 7, 2,
-     "(id,configuration) DO UPDATE SET smallest=CASE WHEN excluded.smallest<>'' AND (smallest='' "
-     "OR length(excluded.smallest)<length(smallest) OR "
-     "(length(excluded.smallest)=length(smallest) AND excluded.smallest<smallest)) THEN "
-     "excluded.smallest ELSE smallest END WHERE signature=excluded.signature AND "
-     "what=excluded.what AND mesh=excluded.mesh AND flaky=excluded.flaky"},
-    {"met", "failure", 3, 2,
-     "(id,configuration) DO UPDATE SET signature=signature WHERE signature=excluded.signature"},
-    {"evidence", "evidence", 5, 3,
-     "(kind,name,shard) DO UPDATE SET facts=CASE WHEN excluded.progress>progress THEN "
-     "excluded.facts ELSE facts END, progress=max(progress,excluded.progress) WHERE "
-     "progress<>excluded.progress OR facts=excluded.facts"},
-};
+const std::array<JoinedTable, 4>& joined_tables() {
+  static const std::array<JoinedTable, 4> tables = {{
+      {trial_table(), "trial",
+       "(id) DO UPDATE SET oracle_us=min(oracle_us,excluded.oracle_us), "
+       "detector_us=min(detector_us,excluded.detector_us), "
+       "slowest_us=min(slowest_us,excluded.slowest_us), "
+       "disturbed=max(disturbed,excluded.disturbed) WHERE family=excluded.family AND "
+       "place=excluded.place AND outcomes=excluded.outcomes AND triangles=excluded.triangles AND "
+       "steps=excluded.steps AND collisions=excluded.collisions AND pairs=excluded.pairs AND "
+       "counts=excluded.counts AND mesh=excluded.mesh"},
+      {failure_table(), "failure",
+       "(id,configuration) DO UPDATE SET smallest=CASE WHEN excluded.smallest<>'' AND (smallest='' "
+       "OR length(excluded.smallest)<length(smallest) OR "
+       "(length(excluded.smallest)=length(smallest) AND excluded.smallest<smallest)) THEN "
+       "excluded.smallest ELSE smallest END WHERE signature=excluded.signature AND "
+       "what=excluded.what AND mesh=excluded.mesh AND flaky=excluded.flaky"},
+      {met_table(), "failure",
+       "(id,configuration) DO UPDATE SET signature=signature WHERE signature=excluded.signature"},
+      {evidence_table(), "evidence",
+       "(kind,name,shard) DO UPDATE SET facts=CASE WHEN excluded.progress>progress THEN "
+       "excluded.facts ELSE facts END, progress=max(progress,excluded.progress) WHERE "
+       "progress<>excluded.progress OR facts=excluded.facts"},
+  }};
+  return tables;
+}
+
+// Notes say that something is done: any of them will do, the smallest word is taken.
+constexpr const char* join_of_notes = "(key) DO UPDATE SET value=min(value,excluded.value)";
 
 // The rows of one store, joined to those that are there. Throws StoreProblem.
-void join(const Database& from, const Database& into, const Table& table) {
-  std::string values = "?";
-  for (int c = 1; c < table.columns; ++c) values += ",?";
-  const std::string insert =
-      fmt::format("INSERT INTO {} VALUES({}) ON CONFLICT{}", table.name, values, table.on_conflict);
-  Statement rows(from, fmt::format("SELECT * FROM {}", table.name));
-  while (rows.next()) {
-    // Columns take the type that their table declares.
-    Statement row(into, insert);
-    for (int c = 0; c < table.columns; ++c) row.bind(rows.text(c));
-    row.next();
-    if (row.changed_a_row()) continue;
-    std::string key = rows.text(0);
-    for (int c = 1; c < table.key_columns; ++c) key += ", " + rows.text(c);
+void join(const Database& from, const Database& into, const JoinedTable& joined) {
+  const auto& table = joined.table;
+  for_each_row(from, table, nullptr, "", {}, [&](const Row& row) {
+    if (put_row(into, table, row, joined.on_conflict)) return;
+    std::string key = row[0];
+    for (std::size_t c = 1; c < table.key_columns; ++c) key += ", " + row[c];
     throw StoreProblem(
         ProblemKind::contradiction,
-        fmt::format("{}: {} {} differs from that of another store", from.file(), table.what, key));
-  }
+        fmt::format("{}: {} {} differs from that of another store", from.file(), joined.what, key));
+  });
 }
+
+// Rows that two stores made together have the hash of the one or of neither.
+void renew_hashes(const Database& into, const StoreTable& table) {
+  std::vector<Row> joined;
+  {
+    Statement rows(into, fmt::format("SELECT {} FROM {}", column_names(table), table.name));
+    const auto count = static_cast<int>(table.columns.size());
+    while (rows.next()) {
+      Row row;
+      for (int c = 0; c < count; ++c) row.push_back(rows.text(c));
+      if (rows.text(count) != row_hash(table, row)) joined.push_back(std::move(row));
+    }
+  }
+  for (const auto& row : joined) put_row(into, table, row);
+}
+
+// One merge at a time in a folder, until it ends or its process does. The folder itself is locked,
+// so that nothing is left of the lock.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& file) {
+    const auto folder = file.has_parent_path() ? file.parent_path() : ".";
+    lock_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0)
+      throw StoreProblem(ProblemKind::cannot_write,
+                         fmt::format("{}: {}", folder.string(), std::strerror(errno)));
+    if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+    ::close(lock_);
+    throw StoreProblem(ProblemKind::busy,
+                       fmt::format("{}: another merge is writing into it", folder.string()));
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock() { ::close(lock_); }
+
+ private:
+  int lock_ = -1;
+};
 
 class Merge {
  public:
-  explicit Merge(std::filesystem::path building)
-      : building_(std::move(building)), into_(building_, Database::Mode::write) {
+  explicit Merge(const std::filesystem::path& building) : into_(building, Database::Mode::write) {
     // Nothing of it is of use to anybody before it is whole.
     into_.run("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; BEGIN");
-    into_.run(Store::tables());
+    into_.run(table_declarations());
   }
 
   void add(const std::filesystem::path& file) {
     check(file);
     const Database from(file, Database::Mode::read);
     from.run("BEGIN");  // one state of a file that may be growing
-    for (const auto& table : tables) join(from, into_, table);
+    for (const auto& joined : joined_tables()) join(from, into_, joined);
     join_notes(from);
     from.run("COMMIT");
   }
 
   // The bytes of a vacuumed file depend on its rows alone.
   void write(const std::filesystem::path& whole) {
-    Statement(into_, "INSERT INTO note VALUES('binding',?)").bind(*binding_).next();
+    put_row(into_, note_table(), {"binding", *binding_});
+    for (const auto* table : store_tables()) renew_hashes(into_, *table);
     into_.run("COMMIT");
-    std::filesystem::remove(whole);
     Statement(into_, "VACUUM INTO ?").bind(whole.string()).next();
   }
 
@@ -117,52 +156,59 @@ class Merge {
   }
 
   void join_notes(const Database& from) {
-    Statement notes(from, "SELECT key,value FROM note WHERE key<>'binding'");
-    while (notes.next()) {
-      // Notes say that something is done: any of them will do, the smallest word is taken.
-      Statement(into_,
-                "INSERT INTO note VALUES(?,?) ON CONFLICT(key) DO UPDATE SET "
-                "value=min(value,excluded.value)")
-          .bind(notes.text(0))
-          .bind(notes.text(1))
-          .next();
-    }
+    for_each_row(from, note_table(), nullptr, "", {}, [&](const Row& row) {
+      if (row[0] != "binding") put_row(into_, note_table(), row, join_of_notes);
+    });
   }
 
-  std::filesystem::path building_;
   Database into_;
   std::optional<std::string> binding_;
   std::filesystem::path first_;
+};
+
+// What a merge writes before it is whole. The names are fixed, so that a merge clears away what one
+// before it left that was killed. REQUIRES the lock of their folder.
+struct PartFiles {
+  std::filesystem::path building, whole;
+
+  explicit PartFiles(const std::filesystem::path& out)
+      : building(fmt::format("{}.building", out.string())),
+        whole(fmt::format("{}.whole", out.string())) {
+    clear_away();
+  }
+  PartFiles(const PartFiles&) = delete;
+  PartFiles& operator=(const PartFiles&) = delete;
+  ~PartFiles() { clear_away(); }
+
+ private:
+  void clear_away() const {
+    std::error_code ignored;
+    std::filesystem::remove(building, ignored);
+    std::filesystem::remove(whole, ignored);
+  }
 };
 
 }  // namespace
 
 Expected<void> merge_stores(std::span<const std::filesystem::path> stores,
                             const std::filesystem::path& out) {
-  std::vector<std::filesystem::path> files(stores.begin(), stores.end());
-  std::error_code ignored;
-  if (std::filesystem::exists(out, ignored)) files.push_back(out);
-  // The first conflict told is then the same in any order.
-  std::sort(files.begin(), files.end());
-  const auto named = [&](const char* what) {
-    return std::filesystem::path(fmt::format("{}.{}-{}", out.string(), what, getpid()));
-  };
-  const auto building = named("building"), whole = named("whole");
-  auto merged = catch_store_problem([&] {
-    try {
-      Merge merge(building);
-      for (const auto& file : files) merge.add(file);
-      merge.write(whole);
-      std::filesystem::rename(whole, out);
-    } catch (const std::filesystem::filesystem_error& failure) {
-      throw StoreProblem(
-          ProblemKind::cannot_write,
-          fmt::format("{}: cannot be written: {}", out.string(), failure.code().message()));
-    }
+  return catch_store_problem([&] {
+    const FolderLock lock(out);
+    std::vector<std::filesystem::path> files(stores.begin(), stores.end());
+    std::error_code ignored;
+    if (std::filesystem::exists(out, ignored)) files.push_back(out);
+    // The first conflict told is then the same in any order.
+    std::sort(files.begin(), files.end());
+    const PartFiles parts(out);
+    Merge merge(parts.building);
+    for (const auto& file : files) merge.add(file);
+    merge.write(parts.whole);
+    std::error_code error;
+    std::filesystem::rename(parts.whole, out, error);
+    if (error)
+      throw StoreProblem(ProblemKind::cannot_write,
+                         fmt::format("{}: cannot be written: {}", out.string(), error.message()));
   });
-  std::filesystem::remove(building, ignored);
-  std::filesystem::remove(whole, ignored);
-  return merged;
 }
 
 }  // namespace assay::properties

@@ -37,21 +37,16 @@ Expected<std::vector<std::filesystem::path>> stored_shards(const std::filesystem
 
 Expected<WholeShard> make_whole(const std::filesystem::path& file, const CampaignRequest& request) {
   return catch_store_problem([&] {
-    WholeShard whole;
-    std::string binding;
-    {
-      const Store bound = value_or_throw(Store::read(file));
-      binding = bound.binding();
-      const auto difference = difference_of(binding, binding_of(request));
-      if (!difference.empty()) {
-        throw StoreProblem(ProblemKind::another_run,
-                           fmt::format("{}: of another run: {}", file.string(), difference));
-      }
-      whole.trials = bound.trial_count();
-      whole.failures = value_or_throw(bound.kept_failures());
+    const std::string binding = value_or_throw(Store::read(file)).binding();
+    const auto difference = difference_of(binding, binding_of(request));
+    if (!difference.empty()) {
+      throw StoreProblem(ProblemKind::another_run,
+                         fmt::format("{}: of another run: {}", file.string(), difference));
     }
     // Nobody else may hold the file when it is sealed.
     Store store = value_or_throw(Store::open(file, binding));
+    WholeShard whole{store.trial_count(), value_or_throw(store.kept_failures()),
+                     store.known_rows()};
     value_or_throw(store.seal());
     return whole;
   });

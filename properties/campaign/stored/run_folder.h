@@ -36,9 +36,10 @@ Expected<std::vector<std::filesystem::path>> stored_shards(const std::filesystem
 struct WholeShard {
   std::uint64_t trials = 0;
   KeptFailures failures;
+  RowTally rows;  // all of them, as they were when it was made whole
 };
-// Reads the store and seals its file. another_run where it is of another run than the request, its
-// shard aside; else the problems of Store::read and Store::open.
+// Looks at every row of the store and seals its file. another_run where it is of another run than
+// the request, its shard aside; else the problems of Store::read and Store::open.
 Expected<WholeShard> make_whole(const std::filesystem::path& file, const CampaignRequest& request);
 
 // Keeps the path of a plug-in's library, as it was named to the run, and finds it again; nothing

@@ -7,31 +7,11 @@
 
 #include <cerrno>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
-namespace assay::properties {
-// Without row numbers: what a merged file holds then depends on its rows alone.
-const char* Store::tables() {
-  return "CREATE TABLE IF NOT EXISTS note(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
-         "CREATE TABLE IF NOT EXISTS trial(id TEXT PRIMARY KEY, family TEXT NOT NULL, place "
-         "INTEGER NOT NULL, outcomes TEXT NOT NULL, triangles INTEGER NOT NULL, steps INTEGER NOT "
-         "NULL, "
-         "collisions INTEGER NOT NULL, pairs INTEGER NOT NULL, oracle_us INTEGER NOT NULL, "
-         "detector_us INTEGER NOT NULL, counts TEXT NOT NULL, mesh INTEGER NOT NULL, disturbed "
-         "INTEGER "
-         "NOT NULL, slowest_us INTEGER NOT NULL) WITHOUT ROWID;"
-         "CREATE TABLE IF NOT EXISTS failure(id TEXT NOT NULL, configuration TEXT NOT NULL, "
-         "signature TEXT NOT NULL, what TEXT NOT NULL, mesh TEXT NOT NULL, smallest TEXT NOT NULL, "
-         "flaky INTEGER NOT NULL, PRIMARY KEY(id, configuration)) WITHOUT ROWID;"
-         "CREATE TABLE IF NOT EXISTS met(id TEXT NOT NULL, configuration TEXT NOT NULL, signature "
-         "TEXT NOT NULL, PRIMARY KEY(id, configuration)) WITHOUT ROWID;"
-         "CREATE TABLE IF NOT EXISTS evidence(kind TEXT NOT NULL, name TEXT NOT NULL, shard TEXT "
-         "NOT NULL, progress INTEGER NOT NULL, facts TEXT NOT NULL, PRIMARY KEY(kind, name, "
-         "shard)) "
-         "WITHOUT ROWID;";
-}
+#include "corpus/json_text.h"
 
+namespace assay::properties {
 // Held until this process ends, however it ends.
 class StoreLock {
  public:
@@ -57,20 +37,126 @@ class StoreLock {
 
 // The schema that a binding names, where it is another than this build's.
 static std::optional<std::string> other_schema(const std::string& binding) {
-  const auto json = nlohmann::json::parse(binding, nullptr, false);
-  if (!json.is_object() || !json.contains("schema")) return std::nullopt;  // told by its reader
-  if (json["schema"] == store_schema) return std::nullopt;
-  return json["schema"].dump();
+  const auto read = corpus::parse_json(binding, "binding");
+  // Of what is no binding at all its reader tells.
+  if (!read || !read.value().is_object() || !read.value().contains("schema")) return std::nullopt;
+  const auto& schema = read.value()["schema"];
+  return schema == store_schema ? std::nullopt : std::optional(corpus::json_text(schema));
 }
+
+static StoreProblem refused_schema(const std::filesystem::path& file, const std::string& schema) {
+  return {ProblemKind::other_schema, fmt::format("{}: is of schema {}, this assay reads {}: run it "
+                                                 "again",
+                                                 file.string(), schema, store_schema)};
+}
+
+// Before anything is known of the file: stores of older schemas have no hashes.
+static std::optional<std::string> unchecked_binding(const Database& db) {
+  if (!Statement(db, "SELECT 1 FROM sqlite_master WHERE name='note'").next()) return std::nullopt;
+  Statement query(db, "SELECT value FROM note WHERE key='binding'");
+  return query.next() ? std::optional(query.text(0)) : std::nullopt;
+}
+
+namespace {
+
+Row row_of(const TrialRecord& r) {
+  return {r.id,
+          r.family,
+          text_of_number(r.index),
+          r.outcomes,
+          text_of_number(r.triangles),
+          text_of_number(r.steps),
+          text_of_number(r.collisions),
+          text_of_number(r.pairs),
+          text_of_number(r.oracle_us),
+          text_of_number(r.detector_us),
+          counts_text(r.counts),
+          text_of_number(r.mesh),
+          text_of_number(r.disturbed),
+          text_of_number(r.slowest_us)};
+}
+
+Row row_of(const StoredFailure& f) {
+  return {f.id, f.configuration, f.signature, f.what, f.mesh, f.smallest, f.flaky ? "1" : "0"};
+}
+
+Row row_of(const Evidence& e) {
+  return {e.kind, e.name, e.shard, text_of_number(e.progress), e.facts};
+}
+
+TrialRecord trial_of(const Row& row) {
+  const auto number = [&](std::size_t column) { return number_of_text(row[column]); };
+  return {row[0],
+          row[1],
+          number(2),
+          row[3],
+          number(4),
+          number(5),
+          number(6),
+          number(7),
+          number(8),
+          number(9),
+          parse_counts(row[10]),
+          number(11),
+          number(12),
+          number(13)};
+}
+
+StoredFailure failure_of(const Row& row) {
+  return {row[0], row[1], row[2], row[3], row[4], row[5], row[6] != "0"};
+}
+
+Evidence evidence_of(const Row& row) {
+  return {row[0], row[1], row[2], number_of_text(row[3]), row[4]};
+}
+
+}  // namespace
 
 struct Store::Parts {
   std::optional<StoreLock> lock;  // outlives the database
   Database db;
+  std::optional<RowTally> known;  // of a store that is written
 
   Parts(const std::filesystem::path& file, Database::Mode mode)
       : lock(mode == Database::Mode::write ? std::optional<StoreLock>(std::in_place, file)
                                            : std::nullopt),
         db(file, mode) {}
+
+  // Looks at every row and takes it for known.
+  void get_to_know() {
+    RowTally found;
+    for (const auto* table : store_tables()) {
+      for_each_row(db, *table, nullptr, "", {}, [&](const Row& row) {
+        found.put(row_name(*table, row), row_hash(*table, row));
+      });
+    }
+    known = std::move(found);
+  }
+
+  void for_each(const StoreTable& table, const std::string& more,
+                const std::vector<std::string>& bound,
+                const std::function<void(const Row&)>& visit) const {
+    for_each_row(db, table, known ? &*known : nullptr, more, bound, visit);
+  }
+
+  // A row that is put is known from note() on: only a transaction that went through counts.
+  void note(const StoreTable& table, const Row& row) {
+    if (known) known->put(row_name(table, row), row_hash(table, row));
+  }
+  void put(const StoreTable& table, const Row& row) {
+    put_row(db, table, row);
+    note(table, row);
+  }
+
+  void remove(const StoreTable& table, const Row& row) {
+    std::string where;
+    for (std::size_t c = 0; c < table.key_columns; ++c)
+      where += fmt::format("{}{}=?", c > 0 ? " AND " : "", table.columns[c].name);
+    Statement query(db, fmt::format("DELETE FROM {} WHERE {}", table.name, where));
+    for (std::size_t c = 0; c < table.key_columns; ++c) query.bind(row[c]);
+    query.next();
+    if (known) known->drop(row_name(table, row));
+  }
 };
 
 Store::Store(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -84,20 +170,17 @@ Expected<Store> Store::read(const std::filesystem::path& file) {
     return Problem{ProblemKind::not_found, fmt::format("{}: no such file", file.string())};
   return catch_store_problem([&] {
     auto parts = std::make_unique<Parts>(file, Database::Mode::read);
-    const bool is_store =
-        Statement(parts->db, "SELECT 1 FROM sqlite_master WHERE name='note'").next();
-    Store store(std::move(parts));
-    const auto binding = is_store ? store.note("binding") : std::nullopt;
+    // One state of the file until the store is closed.
+    parts->db.run("BEGIN");
+    const auto binding = unchecked_binding(parts->db);
     if (!binding) {
       throw StoreProblem(ProblemKind::foreign_file,
                          fmt::format("{}: not the store of a run", file.string()));
     }
-    if (const auto older = other_schema(*binding)) {
-      throw StoreProblem(ProblemKind::other_schema,
-                         fmt::format("{}: is of schema {}, this assay reads {}: run it again",
-                                     file.string(), *older, store_schema));
-    }
-    return store;
+    if (const auto older = other_schema(*binding)) throw refused_schema(file, *older);
+    parts->db.check_whole();
+    check_tables(parts->db, false);
+    return Store(std::move(parts));
   });
 }
 
@@ -107,17 +190,19 @@ Expected<Store> Store::open(const std::filesystem::path& file, const std::string
     // A killed process loses nothing that add() returned from; only a power cut may lose the end.
     parts->db.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
     parts->db.check_whole();
-    parts->db.run(tables());
-    Store store(std::move(parts));
-    const auto bound = store.note("binding");
-    if (!bound) {
-      store.set_note("binding", binding);
-    } else if (*bound != binding) {
+    const auto bound = unchecked_binding(parts->db);
+    if (bound && *bound != binding) {
+      if (const auto older = other_schema(*bound)) throw refused_schema(file, *older);
       throw StoreProblem(
           ProblemKind::another_run,
           fmt::format("{}: holds another run (of another plan, seed, shard, detector or build)",
                       file.string()));
     }
+    check_tables(parts->db, true);
+    parts->db.run(table_declarations());
+    parts->get_to_know();
+    Store store(std::move(parts));
+    if (!bound) store.set_note("binding", binding);
     return store;
   });
 }
@@ -132,40 +217,27 @@ Expected<KeptFailures> read_failures(const std::filesystem::path& file) {
   return store.value().kept_failures();
 }
 
+const RowTally& Store::known_rows() const { return *parts_->known; }
+
+Expected<void> Store::check_against(const RowTally& known) const {
+  return catch_store_problem([&] { check_rows(parts_->db, known); });
+}
+
 std::string Store::binding() const { return note("binding").value_or(""); }
 
-void Store::add(const TrialRecord& r) {
-  Statement(parts_->db, "INSERT OR REPLACE INTO trial VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
-      .bind(r.id)
-      .bind(r.family)
-      .bind(r.index)
-      .bind(r.outcomes)
-      .bind(r.triangles)
-      .bind(r.steps)
-      .bind(r.collisions)
-      .bind(r.pairs)
-      .bind(r.oracle_us)
-      .bind(r.detector_us)
-      .bind(counts_text(r.counts))
-      .bind(r.mesh)
-      .bind(r.disturbed)
-      .bind(r.slowest_us)
-      .next();
-}
+void Store::add(const TrialRecord& record) { parts_->put(trial_table(), row_of(record)); }
 
 void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
                 const std::vector<MetFailure>& met) {
+  std::vector<std::pair<const StoreTable*, Row>> rows;
+  for (const auto& failure : kept) rows.emplace_back(&failure_table(), row_of(failure));
+  for (const auto& failure : met) {
+    rows.emplace_back(&met_table(), Row{record.id, failure.configuration, failure.signature});
+  }
+  rows.emplace_back(&trial_table(), row_of(record));
   parts_->db.run("BEGIN IMMEDIATE");
   try {
-    for (const auto& failure : kept) add(failure);
-    for (const auto& failure : met) {
-      Statement(parts_->db, "INSERT OR REPLACE INTO met VALUES(?,?,?)")
-          .bind(record.id)
-          .bind(failure.configuration)
-          .bind(failure.signature)
-          .next();
-    }
-    add(record);
+    for (const auto& [table, row] : rows) put_row(parts_->db, *table, row);
     parts_->db.run("COMMIT");
   } catch (const StoreProblem&) {
     try {
@@ -175,40 +247,26 @@ void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kep
     }
     throw;
   }
+  for (const auto& [table, row] : rows) parts_->note(*table, row);
 }
 
-void Store::add(const StoredFailure& f) {
-  Statement(parts_->db, "INSERT OR REPLACE INTO failure VALUES(?,?,?,?,?,?,?)")
-      .bind(f.id)
-      .bind(f.configuration)
-      .bind(f.signature)
-      .bind(f.what)
-      .bind(f.mesh)
-      .bind(f.smallest)
-      .bind(std::uint64_t{f.flaky})
-      .next();
-}
+void Store::add(const StoredFailure& failure) { parts_->put(failure_table(), row_of(failure)); }
 
 void Store::keep_failures(const std::set<std::string>& signatures) {
   for (const auto& failure : failures()) {
-    if (signatures.contains(failure.signature)) continue;
-    Statement(parts_->db, "DELETE FROM failure WHERE id=? AND configuration=?")
-        .bind(failure.id)
-        .bind(failure.configuration)
-        .next();
+    if (!signatures.contains(failure.signature)) parts_->remove(failure_table(), row_of(failure));
   }
 }
 
-void Store::set_smallest(const StoredFailure& f) {
-  Statement(parts_->db, "UPDATE failure SET smallest=? WHERE id=? AND configuration=?")
-      .bind(f.smallest)
-      .bind(f.id)
-      .bind(f.configuration)
-      .next();
+void Store::set_smallest(const StoredFailure& failure) {
+  bool is_there = false;
+  parts_->for_each(failure_table(), "WHERE id=? AND configuration=?",
+                   {failure.id, failure.configuration}, [&](const Row&) { is_there = true; });
+  if (is_there) add(failure);
 }
 
 void Store::set_note(const std::string& key, const std::string& value) {
-  Statement(parts_->db, "INSERT OR REPLACE INTO note VALUES(?,?)").bind(key).bind(value).next();
+  parts_->put(note_table(), {key, value});
 }
 
 bool Store::has_trial(const std::string& id) const {
@@ -221,64 +279,49 @@ std::uint64_t Store::trial_count() const {
 }
 
 std::optional<std::string> Store::note(const std::string& key) const {
-  Statement query(parts_->db, "SELECT value FROM note WHERE key=?");
-  query.bind(key);
-  return query.next() ? std::optional(query.text(0)) : std::nullopt;
+  std::optional<std::string> value;
+  parts_->for_each(note_table(), "WHERE key=?", {key}, [&](const Row& row) { value = row[1]; });
+  return value;
 }
 
 void Store::for_each_trial(const std::function<void(const TrialRecord&)>& visit) const {
-  Statement query(parts_->db,
-                  "SELECT id,family,place,outcomes,triangles,steps,collisions,pairs,oracle_us,"
-                  "detector_us,counts,mesh,disturbed,slowest_us FROM trial ORDER BY family, place");
-  while (query.next()) {
-    visit({query.text(0), query.text(1), query.number(2), query.text(3), query.number(4),
-           query.number(5), query.number(6), query.number(7), query.number(8), query.number(9),
-           parse_counts(query.text(10)), query.number(11), query.number(12), query.number(13)});
-  }
+  parts_->for_each(trial_table(), "ORDER BY family, place", {},
+                   [&](const Row& row) { visit(trial_of(row)); });
 }
 
 std::vector<StoredFailure> Store::failures() const {
   std::vector<StoredFailure> list;
-  Statement query(
-      parts_->db,
-      "SELECT id,configuration,signature,what,mesh,smallest,flaky FROM failure ORDER BY "
-      "signature,id,configuration");
-  while (query.next()) {
-    list.push_back({query.text(0), query.text(1), query.text(2), query.text(3), query.text(4),
-                    query.text(5), query.number(6) != 0});
-  }
+  parts_->for_each(failure_table(), "ORDER BY signature, id, configuration", {},
+                   [&](const Row& row) { list.push_back(failure_of(row)); });
   return list;
 }
 
 Counts Store::signatures() const {
   Counts counts;
-  Statement query(parts_->db, "SELECT signature,count(*) FROM met GROUP BY signature");
-  while (query.next()) counts[query.text(0)] = query.number(1);
+  parts_->for_each(met_table(), "", {}, [&](const Row& row) { ++counts[row[2]]; });
   return counts;
 }
 
-void Store::set(const Evidence& e) {
-  Statement(parts_->db,
-            "INSERT INTO evidence VALUES(?,?,?,?,?) ON CONFLICT(kind,name,shard) DO UPDATE SET "
-            "progress=excluded.progress, facts=excluded.facts WHERE excluded.progress>=progress")
-      .bind(e.kind)
-      .bind(e.name)
-      .bind(e.shard)
-      .bind(e.progress)
-      .bind(e.facts)
-      .next();
+void Store::set(const Evidence& evidence) {
+  bool is_behind = false;
+  parts_->for_each(evidence_table(), "WHERE kind=? AND name=? AND shard=?",
+                   {evidence.kind, evidence.name, evidence.shard}, [&](const Row& row) {
+                     is_behind = evidence_of(row).progress > evidence.progress;
+                   });
+  if (!is_behind) parts_->put(evidence_table(), row_of(evidence));
 }
 
 void Store::drop_evidence(const std::string& kind) {
-  Statement(parts_->db, "DELETE FROM evidence WHERE kind=?").bind(kind).next();
+  std::vector<Row> rows;
+  parts_->for_each(evidence_table(), "WHERE kind=?", {kind},
+                   [&](const Row& row) { rows.push_back(row); });
+  for (const auto& row : rows) parts_->remove(evidence_table(), row);
 }
 
 std::vector<Evidence> Store::evidence() const {
   std::vector<Evidence> list;
-  Statement query(parts_->db, "SELECT kind,name,shard,progress,facts FROM evidence");
-  while (query.next()) {
-    list.push_back({query.text(0), query.text(1), query.text(2), query.number(3), query.text(4)});
-  }
+  parts_->for_each(evidence_table(), "ORDER BY kind, name, shard", {},
+                   [&](const Row& row) { list.push_back(evidence_of(row)); });
   return list;
 }
 

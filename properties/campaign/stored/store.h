@@ -1,4 +1,8 @@
 // The trials and failures of one shard, in one file: SQLite, safe under a kill at any moment.
+//
+// Every row carries a hash (rows.h), which is looked at wherever a row is read. A store that is open
+// for writing knows all of its rows besides, those that it found and those that it wrote, so that
+// nobody changes them unseen in the meantime, whatever hash he writes.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +14,12 @@
 #include <vector>
 
 #include "properties/campaign/stored/record.h"
-#include "properties/campaign/stored/sqlite.h"
+#include "properties/campaign/stored/rows.h"
 
 namespace assay::properties {
 
 // Of the text that binds a store to a run (binding.h). A store of another schema is refused.
-inline constexpr const char* store_schema = "assay-store/2";
+inline constexpr const char* store_schema = "assay-store/3";
 
 // A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
 struct StoredFailure {
@@ -59,10 +63,12 @@ class Store {
  public:
   // Opens or makes the file. `binding` says what the trials are of (plan, seed, shard, detector).
   // another_run for a file that was made for another one, busy for one that another process has
-  // open in this way; foreign_file, damaged_store, cannot_read, cannot_write.
+  // open in this way; foreign_file, other_schema, damaged_store, changed_row, cannot_read,
+  // cannot_write. O(rows), about 2 us each: all of them are looked at.
   static Expected<Store> open(const std::filesystem::path& file, const std::string& binding);
-  // An existing file, whatever it was made for; it is not written to. not_found, foreign_file,
-  // other_schema, damaged_store, cannot_read.
+  // An existing file, whatever it was made for; it is not written to. What is read of it is one
+  // state of a file that may be growing. not_found, foreign_file, other_schema, damaged_store,
+  // cannot_read; changed_row where its rows are read.
   static Expected<Store> read(const std::filesystem::path& file);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
@@ -72,6 +78,12 @@ class Store {
   // From now on the file stands alone: nothing beside it belongs to it, and reading it leaves its
   // bytes as they are.
   Expected<void> seal();
+
+  // REQUIRES a store that was opened for writing. All rows that were there when it was opened, and
+  // all that were written since.
+  const RowTally& known_rows() const;
+  // not_as_stored where any row differs from those, is missing, or is one too many. O(rows).
+  Expected<void> check_against(const RowTally& known) const;
 
   std::string binding() const;
 
@@ -83,7 +95,8 @@ class Store {
   void add(const StoredFailure& failure);
   // Takes away the failures of other signatures.
   void keep_failures(const std::set<std::string>& signatures);
-  void set_smallest(const StoredFailure& failure);  // by id and configuration
+  // As add, where there is a failure of this id and configuration already.
+  void set_smallest(const StoredFailure& failure);
   void set_note(const std::string& key, const std::string& value);
   // In place of what the same shard found out before, unless that came farther.
   void set(const Evidence& evidence);
@@ -97,9 +110,6 @@ class Store {
   // How many failures of each signature were met, kept or not.
   Counts signatures() const;
   std::vector<Evidence> evidence() const;  // by kind, name, shard
-
-  // The tables of a store; a file that has them already is left as it is.
-  static const char* tables();
 
  private:
   struct Parts;

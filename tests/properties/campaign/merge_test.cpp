@@ -1,7 +1,10 @@
 // Merging stores: associative, repeatable, and refused where two stores contradict each other.
 #include "properties/campaign/stored/merge.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -216,6 +219,27 @@ TEST_F(Merged, ContradictionsAreRefused) {
   { other("evidence").set({"canary", "c", "1/3", 1, R"({"found": 3})"}); }
   expect_refused(scratch / "evidence", ProblemKind::contradiction,
                  "evidence canary, c, 1/3 differs");
+}
+
+// A merge that is killed leaves its parts; the next one leaves none, whoever made them.
+TEST_F(Merged, NoPartsAreLeft) {
+  scratch.write("all.building", "x");
+  scratch.write("all.whole", "x");
+  const auto before = merge(shards, "all");
+  EXPECT_EQ(merge(shards, "all"), before);
+  for (const auto& file : std::filesystem::directory_iterator(scratch / "")) {
+    EXPECT_FALSE(file.path().filename().string().starts_with("all.")) << file.path();
+  }
+}
+
+TEST_F(Merged, OneAtATimeInAFolder) {
+  const int folder = ::open((scratch / "").c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(::flock(folder, LOCK_EX), 0);
+  const auto merged = merge_stores(shards, scratch / "all");
+  ::close(folder);
+  ASSERT_FALSE(merged);
+  EXPECT_EQ(name_of(merged.error().kind), name_of(ProblemKind::busy));
+  EXPECT_TRUE(merge_stores(shards, scratch / "all"));
 }
 
 TEST_F(Merged, FilesThatAreNoStores) {

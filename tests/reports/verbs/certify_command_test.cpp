@@ -124,6 +124,16 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   }
   EXPECT_EQ(run_assay("verify " + certificate).exit_code, 0);
 
+  // The trials again, some of them and all.
+  const auto some = run_assay("verify --again 0.3 --seed 7 " + certificate);
+  EXPECT_EQ(some.exit_code, 0) << some.out << some.err;
+  EXPECT_TRUE(contains(some.out, "again: 8 of 24 trials, seed 7: all as they are stored\n"))
+      << some.out;
+  EXPECT_EQ(run_assay("verify --again 0.3 --seed 7 " + certificate).out, some.out);
+  const auto all = run_assay("verify --again 1 " + certificate);
+  EXPECT_EQ(all.exit_code, 0) << all.out << all.err;
+  EXPECT_TRUE(contains(all.out, "again: 24 of 24 trials, seed ")) << all.out;
+
   // The same again: the same but for times.
   const auto again = certify();
   ASSERT_EQ(again.exit_code, 0) << again.out << again.err;
@@ -131,6 +141,12 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   EXPECT_NE(first, second);
   for (Json* s : {&first, &second}) (*s)["predicate"].erase("times");
   EXPECT_EQ(first, second);
+
+  // In another folder: digests are of rows and bytes, not of places.
+  const std::string elsewhere = scratch / "some/where else";
+  ASSERT_EQ(run_assay("certify --campaign " + plan + " --out '" + elsewhere + "'").exit_code, 0);
+  const Json other = Json::parse(read_text(elsewhere + "/certificate.json"));
+  EXPECT_EQ(other["predicate"]["digests"], statement["predicate"]["digests"]);
 }
 
 TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
@@ -230,6 +246,9 @@ TEST_F(Certify, BadInputIsOneLine) {
   expect_refused(run_assay("certify --campaign nowhere --out " + out), "nowhere");
   expect_refused(run_assay("verify " + scratch / "none.json"), "no such file");
   expect_refused(run_assay("verify"), "certificate");
+  expect_refused(run_assay("verify --again 0 " + plan), "--again");
+  expect_refused(run_assay("verify --again 1.5 " + plan), "--again");
+  expect_refused(run_assay("verify --seed 3 " + plan), "--again");
 }
 
 }  // namespace

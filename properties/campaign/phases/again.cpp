@@ -1,0 +1,139 @@
+#include "properties/campaign/phases/again.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <system_error>
+#include <vector>
+
+#include "properties/campaign/stored/binding.h"
+#include "properties/campaign/stored/run_folder.h"
+#include "properties/random.h"
+
+namespace assay::properties {
+namespace {
+
+// The stores that count: a merged one goes before the shards that it was made of.
+std::vector<std::filesystem::path> counted_stores(const std::filesystem::path& folder) {
+  auto files = value_or_throw(stored_shards(folder));
+  const auto merged = merged_file(folder);
+  if (std::find(files.begin(), files.end(), merged) != files.end()) files = {merged};
+  return files;
+}
+
+// `chosen` of the numbers below `all`, each equally likely: Floyd's way, which asks for as many
+// random numbers as there are to choose.
+std::set<std::uint64_t> choose(std::uint64_t chosen, std::uint64_t all, std::uint64_t seed) {
+  Random random(seed, 0);
+  std::set<std::uint64_t> numbers;
+  for (std::uint64_t i = all - chosen; i < all; ++i) {
+    const std::uint64_t number = random.next() % (i + 1);
+    if (!numbers.insert(number).second) numbers.insert(i);
+  }
+  return numbers;
+}
+
+// In the order of their families and places, store by store.
+std::vector<TrialRecord> draw(const std::vector<std::filesystem::path>& files,
+                              const std::set<std::uint64_t>& numbers) {
+  std::vector<TrialRecord> drawn;
+  std::uint64_t number = 0;
+  for (const auto& file : files) {
+    value_or_throw(Store::read(file)).for_each_trial([&](const TrialRecord& record) {
+      if (numbers.contains(number++)) drawn.push_back(record);
+    });
+  }
+  return drawn;
+}
+
+// A folder for the store of what is run again, gone with this object.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::error_code error;
+    auto name = (std::filesystem::temp_directory_path(error) / "assay-again-XXXXXX").string();
+    if (error || !::mkdtemp(name.data()))
+      throw StoreProblem(ProblemKind::cannot_write, "no folder can be made for temporary files");
+    folder_ = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// The first thing in which a trial differs; empty: none.
+std::string difference_of_trials(const TrialRecord& stored, const TrialRecord& now,
+                                 const DetectorUnderTest& detector) {
+  for (std::size_t c = 0; c < detector.configurations.size(); ++c) {
+    const auto letter = [&](const TrialRecord& record) {
+      return c < record.outcomes.size() ? std::string(1, record.outcomes[c]) : "nothing";
+    };
+    if (letter(stored) != letter(now))
+      return fmt::format("{} is {} now, {} is stored", detector.configurations[c].name, letter(now),
+                         letter(stored));
+  }
+  const auto of = [&](const char* what, std::uint64_t there, std::uint64_t here) {
+    return fmt::format("{} {} now, {} stored", here, what, there);
+  };
+  if (stored.triangles != now.triangles) return of("triangles", stored.triangles, now.triangles);
+  if (stored.steps != now.steps) return of("steps", stored.steps, now.steps);
+  if (stored.collisions != now.collisions)
+    return of("collisions", stored.collisions, now.collisions);
+  if (stored.pairs != now.pairs) return of("pairs", stored.pairs, now.pairs);
+  if (stored.mesh != now.mesh) return "its mesh is another one";
+  if (stored.outcomes != now.outcomes) return "outcomes of more configurations than there are";
+  if (stored.counts != now.counts) return "its counts are others";
+  return "";
+}
+
+}  // namespace
+
+Expected<TrialsAgain> run_again(const CampaignRequest& request, const std::filesystem::path& folder,
+                                double share, std::uint64_t seed,
+                                const std::function<void(const TrialProgress&)>& progress) {
+  return catch_store_problem([&] {
+    const auto files = counted_stores(folder);
+    TrialsAgain again;
+    for (const auto& file : files) again.stored += value_or_throw(Store::read(file)).trial_count();
+    if (again.stored == 0)
+      throw StoreProblem(ProblemKind::no_run,
+                         fmt::format("{}: no trial is stored here", folder.string()));
+    const auto wanted = std::ceil(share * static_cast<double>(again.stored));
+    again.trials = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(wanted), 1, again.stored);
+    const auto drawn = draw(files, choose(again.trials, again.stored, seed));
+    std::set<std::string> ids;
+    for (const auto& record : drawn) ids.insert(record.id);
+
+    const ScratchFolder scratch;
+    Store store = value_or_throw(Store::open(scratch.path() / "again", binding_of(request)));
+    const auto end = run_trials(request, store, RunDeadline::max(), progress, &ids);
+    if (end.store_problem) throw StoreProblem(*end.store_problem);
+    if (!end.harness_problem.empty())
+      throw StoreProblem(ProblemKind::cannot_start, end.harness_problem);
+    std::map<std::string, TrialRecord> now;
+    store.for_each_trial([&](const TrialRecord& record) { now[record.id] = record; });
+    for (const auto& record : drawn) {
+      const auto found = now.find(record.id);
+      const auto difference = found == now.end()
+                                  ? std::string("the campaign has no such trial")
+                                  : difference_of_trials(record, found->second, request.detector);
+      if (difference.empty()) continue;
+      again.difference = fmt::format("trial {}: {}", record.id, difference);
+      break;
+    }
+    return again;
+  });
+}
+
+}  // namespace assay::properties

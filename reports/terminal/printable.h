@@ -1,0 +1,13 @@
+// Words from outside, such as a plug-in's name, as text that may stand anywhere.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace assay::reports {
+
+// UTF-8 without control characters: each of these becomes '?', each byte that is no part of a
+// character U+FFFD. JSON, XML and a terminal then take it as it is.
+std::string printable(std::string_view text);
+
+}  // namespace assay::reports

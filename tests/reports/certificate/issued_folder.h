@@ -1,0 +1,50 @@
+// A folder with a certificate that verifies, made without running a campaign.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "reports/certificate/statement.h"
+#include "reports/certificate/summary.h"
+#include "tests/reports/program.h"
+#include "tests/reports/stored_run.h"
+
+namespace assay::tests {
+
+inline void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+// The certificate of what the stores of the folder say now.
+inline void issue(const std::string& folder) {
+  const auto statement = reports::make_statement(folder);
+  ASSERT_TRUE(statement) << statement.error().message;
+  write_bytes(properties::certificate_file(folder), reports::statement_text(statement.value()));
+  ASSERT_TRUE(reports::write_for_ci(statement.value()["predicate"], folder));
+}
+
+// Stores the run, what the checks of a certificate say of its paths, and its certificate.
+inline void store_and_issue(const RunToStore& run, const std::string& folder,
+                            const properties::Paths& paths) {
+  run.store(folder);
+  const auto binding = properties::binding_of(run.request);
+  for (const auto& [file, shard] :
+       {std::pair(properties::store_file(folder, run.request.shard), text_of(run.request.shard)),
+        std::pair(properties::checks_file(folder), std::string(properties::checks_shard))}) {
+    auto store = properties::Store::open(file, *properties::with_shard(binding, shard));
+    ASSERT_TRUE(store) << store.error().message;
+    if (shard == properties::checks_shard) {
+      store.value().set(to_row(paths));
+      store.value().set(to_row(properties::asked_of_a_run()));
+    }
+    ASSERT_TRUE(store.value().seal());
+  }
+  write_bytes(properties::campaign_file(folder), properties::plan_text(run.request.plan) + "\n");
+  issue(folder);
+}
+
+// All of it holds: `assay verify` ends with 0.
+inline RunToStore good_run() {
+  return RunToStore().meet_canary(3).judge("closed-generic", 10, 'H').judge("broken", 10, 'H');
+}
+
+}  // namespace assay::tests

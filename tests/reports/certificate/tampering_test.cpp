@@ -1,0 +1,221 @@
+// Hundreds of changes of a good certificate's folder: `assay verify` ends each of them with a line
+// and exit code 1 or 2. No byte of these files is without meaning, for the certificate holds the
+// digests of the others and is itself compared byte by byte; so none of the changes may pass.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "properties/campaign/stored/rows.h"
+#include "properties/random.h"
+#include "tests/reports/certificate/issued_folder.h"
+
+namespace assay::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using properties::Random;
+
+const std::string deep_lists = std::string(100'000, '[') + std::string(100'000, ']');
+
+std::string deep_objects() {
+  std::string text;
+  for (int i = 0; i < 100'000; ++i) text += R"({"a":)";
+  return text + "1" + std::string(100'000, '}');
+}
+
+class Tampering : public testing::Test {
+ protected:
+  const Scratch scratch;
+  const std::string good = scratch / "good", bad = scratch / "bad";
+  Random random{7, 1};
+  int tried = 0;
+
+  void SetUp() override {
+    store_and_issue(good_run(), good, {good, ""});
+    const auto verified = run_assay("verify " + good + "/certificate.json");
+    ASSERT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+  }
+
+  // A copy of the folder, changed by `change`, does not verify.
+  template <class Change>
+  void expect_seen(const std::string& what, const Change& change) {
+    fs::remove_all(bad);
+    fs::copy(good, bad, fs::copy_options::recursive);
+    change();
+    ++tried;
+    const auto seen = run_assay("verify " + bad + "/certificate.json");
+    if (seen.exit_code == 1) {
+      const auto last = seen.out.rfind('\n', seen.out.size() - 2);
+      ASSERT_NE(last, std::string::npos) << what << ": no line says why\n" << seen.out;
+      EXPECT_TRUE(seen.out.substr(last + 1).starts_with("NOT VERIFIED: ")) << what << seen.out;
+      EXPECT_EQ(seen.err, "") << what;
+    } else {
+      EXPECT_EQ(seen.exit_code, 2) << what << "\n" << seen.out << seen.err;
+      EXPECT_EQ(std::count(seen.err.begin(), seen.err.end(), '\n'), 1) << what << seen.err;
+    }
+  }
+  void expect_text_seen(const std::string& file, const std::string& what, const std::string& text) {
+    expect_seen(file + ": " + what, [&] { write_bytes(bad + "/" + file, text); });
+  }
+
+  // What may be done to any file.
+  void damage(const std::string& file) {
+    const auto whole = read_text(good + "/" + file);
+    ASSERT_FALSE(whole.empty()) << file;
+    for (int i = 0; i < 8; ++i) {
+      auto bytes = whole;
+      const auto at = random.next() % bytes.size();
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.below(8)));
+      expect_text_seen(file, fmt::format("bit at {}", at), bytes);
+    }
+    for (int i = 0; i < 4; ++i) {
+      const auto size = random.next() % whole.size();
+      expect_text_seen(file, fmt::format("cut at {}", size), whole.substr(0, size));
+    }
+    expect_text_seen(file, "empty", "");
+    expect_text_seen(file, "longer by a line", whole + "\n");
+    expect_text_seen(file, "zeros", std::string(whole.size(), '\0'));
+    expect_seen(file + " removed", [&] { fs::remove(bad + "/" + file); });
+    expect_seen(file + " is a folder", [&] {
+      fs::remove(bad + "/" + file);
+      fs::create_directory(bad + "/" + file);
+    });
+  }
+
+  // Every place of a JSON file once: taken away, or something else put there.
+  void change_json(const std::string& file, std::size_t most) {
+    const Json whole = Json::parse(read_text(good + "/" + file));
+    std::vector<Json::json_pointer> places = {Json::json_pointer("")};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      for (const auto& [key, value] : whole[places[i]].items()) places.push_back(places[i] / key);
+    }
+    // Those near the root are few, and matter most.
+    std::vector<Json::json_pointer> chosen(places.begin() + 1,
+                                           places.begin() + std::min<long>(40, places.size()));
+    while (chosen.size() < std::min(most, places.size() - 1))
+      chosen.push_back(places[1 + random.next() % (places.size() - 1)]);
+    const std::vector<Json> others = {
+        nullptr,       true,           -1,         1e300,   std::uint64_t(1) << 63, "",
+        Json::array(), Json::object(), {{"a", 1}}, {1, "2"}};
+    for (const auto& place : chosen) {
+      Json less = whole;
+      auto& parent = less[place.parent_pointer()];
+      if (parent.is_array()) {
+        parent.erase(std::stoul(place.back()));
+      } else {
+        parent.erase(place.back());
+      }
+      expect_text_seen(file, "without " + place.to_string(), less.dump(1) + "\n");
+      Json other = whole;
+      // Another type: of a number, a text, a list or an object never one that is equal to it.
+      do {
+        other[place] = others[static_cast<std::size_t>(random.below(10))];
+      } while (other[place] == whole[place]);
+      expect_text_seen(file, place.to_string() + " is " + other[place].dump(),
+                       other.dump(1) + "\n");
+    }
+    // Words in place of a value that the library would not write.
+    const auto with = [&](const std::string& word) {
+      Json marked = whole;
+      marked[chosen[static_cast<std::size_t>(random.below(static_cast<int>(chosen.size())))]] =
+          "MARK";
+      auto text = marked.dump(1) + "\n";
+      const auto at = text.find("\"MARK\"");
+      return text.replace(at, 6, word);
+    };
+    for (const std::string word :
+         {"NaN", "Infinity", "1e999", "-1e999", "123456789012345678901234567890", "\"\xff\xfe\"",
+          "\"\\ud800\"", "{", "]", "'x'"}) {
+      expect_text_seen(file, word, with(word));
+    }
+    expect_text_seen(file, "deep lists", with(deep_lists));
+    expect_text_seen(file, "deep objects", with(deep_objects()));
+    expect_text_seen(file, "nothing but deep lists", deep_lists);
+    expect_text_seen(file, "lists that do not end", std::string(100'000, '['));
+    for (const std::string text : {"null", "[]", "{}", "\"\"", "1", "true", "\xef\xbb\xbf{}"})
+      expect_text_seen(file, text, text);
+  }
+
+  // A column of the first row of each table, the hash mended.
+  void forge_rows(const std::string& file) {
+    const std::vector<std::string> words = {
+        "",     "NaN",      "-1",         "99999999999999999999",
+        "1e99", "1/0",      "0/0",        "1/99999999999999999",
+        "{}",   "\xff\xfe", deep_lists,   deep_objects(),
+        "[[",   "null",     R"({"a":1})", "HHHHHHHHHHHHHHHH"};
+    for (const auto* table : properties::store_tables()) {
+      for (std::size_t c = 0; c < table->columns.size(); ++c) {
+        for (int i = 0; i < 4; ++i) {
+          const auto& word =
+              words[static_cast<std::size_t>(random.below(static_cast<int>(words.size())))];
+          expect_seen(fmt::format("{}: {}.{} is {}", file, table->name, table->columns[c].name,
+                                  word.substr(0, 20)),
+                      [&] { put_word(bad + "/" + file, *table, c, word); });
+        }
+      }
+    }
+  }
+  static void put_word(const std::string& file, const properties::StoreTable& table,
+                       std::size_t column, const std::string& word) {
+    const properties::Database database(file, properties::Database::Mode::write);
+    std::vector<properties::Row> rows;
+    for_each_row(database, table, nullptr, "LIMIT 1", {},
+                 [&](const properties::Row& row) { rows.push_back(row); });
+    // So that the file differs where the table is empty, too.
+    if (rows.empty()) rows.push_back(properties::Row(table.columns.size(), "1"));
+    if (rows[0][column] == word)
+      rows[0][column] = word + "1";
+    else
+      rows[0][column] = word;
+    put_row(database, table, rows[0]);
+  }
+  void bind_to(const std::string& file, const std::string& place, const Json& value) {
+    expect_seen(fmt::format("{}: binding {} is {}", file, place, value.dump().substr(0, 20)), [&] {
+      const properties::Database database(bad + "/" + file, properties::Database::Mode::write);
+      std::string text;
+      for_each_row(database, properties::note_table(), nullptr, "WHERE key='binding'", {},
+                   [&](const properties::Row& row) { text = row[1]; });
+      Json binding = Json::parse(text);
+      binding[Json::json_pointer(place)] = value;
+      put_row(database, properties::note_table(), {"binding", binding.dump()});
+    });
+  }
+};
+
+TEST_F(Tampering, OfTheCertificateIsSeen) {
+  damage("certificate.json");
+  change_json("certificate.json", 120);
+  std::printf("%d changes, none passed\n", tried);
+}
+
+TEST_F(Tampering, OfTheCampaignIsSeen) {
+  damage("campaign.json");
+  change_json("campaign.json", 40);
+  std::printf("%d changes, none passed\n", tried);
+}
+
+TEST_F(Tampering, OfTheStoresIsSeen) {
+  for (const std::string file : {"shard-1-of-1.sqlite", "checks.sqlite"}) {
+    damage(file);
+    forge_rows(file);
+    for (const std::string shard : {"1/0", "0/0", "2/1", "1/1000000000000", "-1/1", "x/y", "/", ""})
+      bind_to(file, "/shard", shard);
+    for (const auto& value : {Json(nullptr), Json(-1), Json(1e300), Json("x"), Json::array()}) {
+      bind_to(file, "/seed", value);
+      bind_to(file, "/detector/configurations", value);
+      bind_to(file, "/campaign/strata", value);
+      bind_to(file, "/digests", value);
+    }
+  }
+  std::printf("%d changes, none passed\n", tried);
+}
+
+TEST_F(Tampering, OfItsRenderingsIsSeen) {
+  for (const std::string file : {"junit.xml", "summary.md"}) damage(file);
+  std::printf("%d changes, none passed\n", tried);
+}
+
+}  // namespace
+}  // namespace assay::tests
