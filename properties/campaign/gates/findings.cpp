@@ -50,8 +50,8 @@ bool is_before(const StoredFailure& a, const StoredFailure& b) {
   return key(a) < key(b);
 }
 
-// Of "I/N"; nothing for other words. Throws StoreProblem where there is no such shard: whoever looks
-// for those that are missing counts up to N.
+// Of "I/N"; nothing for other words. Throws StoreProblem where there is no such shard: whoever
+// looks for those that are missing counts up to N.
 std::optional<Shard> shard_of(const std::string& text) {
   const auto slash = text.find('/');
   if (slash == std::string::npos) return std::nullopt;

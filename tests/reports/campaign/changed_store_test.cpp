@@ -1,5 +1,5 @@
-// Somebody rewrites the stores of a run while it is at work, hashes and all, as the code of a plug-in
-// could that leaves a process behind: there is neither verdict nor certificate then.
+// Somebody rewrites the stores of a run while it is at work, hashes and all, as the code of a
+// plug-in could that leaves a process behind: there is neither verdict nor certificate then.
 #include <fmt/format.h>
 
 #include <thread>
@@ -66,7 +66,8 @@ class ChangedStore : public RunFixture {
 };
 
 TEST_F(ChangedStore, IsNoGroundForACertificate) {
-  expect_no_verdict(run_and_rewrite({"certify", "--campaign", plan, "--out", out}));
+  expect_no_verdict(run_and_rewrite(
+      {"certify", "--campaign", plan, "--detector", plugin("wrapped_builtin"), "--out", out}));
 }
 
 TEST_F(ChangedStore, NorForTheVerdictOfARun) {

@@ -1,7 +1,7 @@
 // `assay report` as a user runs it.
 #include <gtest/gtest.h>
 
-#include "tests/reports/stored_run.h"
+#include "tests/reports/certificate/issued_folder.h"
 #include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
@@ -46,6 +46,22 @@ TEST_F(Report, WhatAFailureSaysStaysText) {
             hostile);
   EXPECT_EQ(count_of(read_text(hostile), "</script"), count_of(read_text(plain), "</script"));
   EXPECT_EQ(count_of(read_text(hostile), "alert(1)"), 1u);
+}
+
+// A certificate is believed where it verifies, and only there.
+TEST_F(Report, ACertificateOfAnotherRunIsNotBelieved) {
+  const auto good = scratch / "good", bad = tiny("bad"), page = scratch / "page.html";
+  store_and_issue(good_run(), good, {good, ""});
+  ASSERT_EQ(run_assay("report " + good + " --out " + page).exit_code, 0);
+  EXPECT_TRUE(contains(read_text(page), R"("verdict":"holds","why":"no gate fails")"));
+  std::filesystem::copy_file(good + "/certificate.json", bad + "/certificate.json");
+  const auto outcome = run_assay("report " + bad + " --out " + page);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "bad: unverified; the certificate does not verify: "))
+      << outcome.out;
+  const auto text = read_text(page);
+  EXPECT_TRUE(contains(text, R"("verdict":"unverified","why":"the certificate does not verify: )"));
+  EXPECT_FALSE(contains(text, R"("verdict":"holds")")) << "nor in what the page is told besides";
 }
 
 TEST_F(Report, WrongFoldersAndPlacesAreRefusedInOneLine) {

@@ -25,7 +25,7 @@ class VerifyAgain : public RunFixture {
     return run_assay("verify " + out + "/certificate.json " + more);
   }
   // Another word in a column of the trial, its hash mended, the certificate issued anew.
-  void forge(const std::string& id, std::size_t column, const std::string& word) {
+  void forge(const std::string& id, std::size_t column, std::string word) {
     {
       const Database database(store_file(out, {}), Database::Mode::write);
       std::vector<Row> rows;
@@ -33,7 +33,7 @@ class VerifyAgain : public RunFixture {
                    [&](const Row& row) { rows.push_back(row); });
       ASSERT_EQ(rows.size(), 1u) << id;
       was = rows[0][column];
-      rows[0][column] = word;
+      rows[0][column] = std::move(word);
       put_row(database, trial_table(), rows[0]);
     }
     issue(out);
