@@ -61,7 +61,7 @@ TEST_F(VerifyAgain, NamesAForgedTrialOfTheBuiltInDetector) {
     forge(id, column, "7654");
     EXPECT_LE(verify("").exit_code, 1);
     EXPECT_TRUE(contains(verify("").out, "verified: ")) << "the forgery is whole";
-    expect_named(fmt::format("trial {}: {} {} now, 7654 stored\n", id, name, was));
+    expect_named(fmt::format("trial {}: {} {} now, 7654 stored\n", id, was, name));
     forge(id, column, was);
   }
   forge(id, 11, "7654");
