@@ -62,6 +62,10 @@ std::string_view name_of(ProblemKind kind) {
       return "changed_row";
     case ProblemKind::not_as_stored:
       return "not_as_stored";
+    case ProblemKind::broken_reply:
+      return "broken_reply";
+    case ProblemKind::not_isolated:
+      return "not_isolated";
   }
   return "unnamed";
 }

@@ -52,7 +52,12 @@ enum class ProblemKind : std::uint8_t {
   // The rows of a store.
   changed_row = 28,    // a row that does not fit its own hash: the disk or somebody changed it
   not_as_stored = 29,  // a row that is not as this process stored it, or found it when it began
+
+  // What a plug-in is up to.
+  broken_reply = 30,  // a worker sent what no worker sends: its plug-in meddles
+  not_isolated = 31,  // isolation is required, and the system does not offer it
 };
+inline constexpr ProblemKind last_problem_kind = ProblemKind::not_isolated;
 
 // The enumerator's name, for reports and tests.
 std::string_view name_of(ProblemKind kind);

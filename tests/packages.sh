@@ -3,7 +3,7 @@
 
 assay_packages="g++ cmake ninja-build ccache libcgal-dev libgmp-dev libmpfr-dev libmpfi-dev
   libeigen3-dev libboost-dev libgtest-dev librapidcheck-dev libcli11-dev libfmt-dev
-  nlohmann-json3-dev libsqlite3-dev libssl-dev zlib1g-dev"
+  nlohmann-json3-dev libsqlite3-dev libseccomp-dev libssl-dev zlib1g-dev"
 
 # ensure_packages YES EXTRA...: installs what is missing of assay_packages and EXTRA, or says what
 # it is and stops. YES=1 does not ask.

@@ -187,12 +187,24 @@ corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
   return PlanReader(corpus::JsonField(json, name)).read();
 }
 
+// A campaign that was stopped by --time keeps its name.
+static bool is_the_same_but_for_time(CampaignPlan a, CampaignPlan b) {
+  a.seconds = b.seconds = 0;
+  return plan_text(a) == plan_text(b);
+}
+
 corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file) {
   for (const auto& plan : named_plans()) {
     if (plan.name == name_or_file) return plan;
   }
   BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(name_or_file));
-  return parse_plan(bytes, name_or_file);
+  BOOST_OUTCOME_TRY(plan, parse_plan(bytes, name_or_file));
+  for (const auto& named : named_plans()) {
+    if (plan.name != named.name || is_the_same_but_for_time(plan, named)) continue;
+    return corpus::problem_in(corpus::FileProblem::malformed, name_or_file,
+                              "is another plan than the built-in campaign of its name");
+  }
+  return plan;
 }
 
 std::string plan_text(const CampaignPlan& plan) {

@@ -10,6 +10,7 @@
 #include "properties/campaign/phases/trial.h"
 #include "properties/campaign/plan.h"
 #include "properties/campaign/stored/evidence.h"
+#include "properties/worker/worker_process.h"
 
 namespace assay::properties {
 
@@ -29,10 +30,15 @@ struct CampaignRequest {
   Shard shard;
   DetectorUnderTest detector;
   std::optional<std::filesystem::path> plugin;
-  std::filesystem::path worker;  // the program assay-worker
+  IsolationMode isolation = IsolationMode::best;  // as asked for, of the plug-in's process
+  Isolation isolated;                             // as it turned out
+  std::filesystem::path worker;                   // the program assay-worker
   // Where another run of this build has shown its planted faults found, its rows: then no fault is
   // planted here.
   std::optional<PowerProof> power;
+
+  // Of the workers that run its cases.
+  WorkerLimits worker_limits() const { return {plan.case_seconds, 0, isolation}; }
 };
 
 // When a phase of the run must be over. Only what the user asked for by --time, or a campaign file

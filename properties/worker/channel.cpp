@@ -64,13 +64,14 @@ Transfer Channel::send(const std::string& message, const Patience& patience) {
   return Transfer::done;
 }
 
-Transfer Channel::receive(std::string& message, const Patience& patience) {
+Transfer Channel::receive(std::string& message, const Patience& patience, std::uint64_t most) {
   std::uint64_t length = 0;
   constexpr std::size_t head = sizeof length;
   constexpr std::size_t block = 1 << 16;
   for (;;) {
     if (received_.size() >= head) {
       std::memcpy(&length, received_.data(), head);
+      if (length > most) return Transfer::too_long;
       if (received_.size() - head >= length) {
         message.assign(received_, head, static_cast<std::size_t>(length));
         received_.erase(0, head + static_cast<std::size_t>(length));

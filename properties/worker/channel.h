@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,7 +11,8 @@
 
 namespace assay::properties {
 
-enum class Transfer { done, closed, timed_out };
+// too_long: the other end began a message of more bytes than there may be.
+enum class Transfer { done, closed, timed_out, too_long };
 
 // Asked before each wait: how long to wait at most before asking again; nothing: no longer. An
 // empty function waits for ever.
@@ -29,7 +31,9 @@ class Channel {
 
   int descriptor() const { return descriptor_; }
   Transfer send(const std::string& message, const Patience& patience = {});
-  Transfer receive(std::string& message, const Patience& patience = {});
+  // A message of at most `most` bytes. Takes memory for what has come, not for what was announced.
+  Transfer receive(std::string& message, const Patience& patience = {},
+                   std::uint64_t most = ~std::uint64_t{0});
   // Whether the other end has closed, without waiting.
   bool is_closed() const;
 

@@ -43,6 +43,12 @@ std::vector<Claim> list_of(const Claims& claims) {
   return list;
 }
 
+std::vector<Claim> judged_claims(const Claims& claims, const Contract& contract) {
+  auto judged = list_of(claims);
+  if (contract.margin > 0) std::erase(judged, Claim::no_spurious);
+  return judged;
+}
+
 Claims claims_of(const detector::Options& options) {
   using detector::Arithmetic;
   const bool exact = options.arithmetic == Arithmetic::exact;

@@ -63,6 +63,10 @@ std::vector<Claim> list_of(const Claims& claims);
 // total. With pairs first nobody claims all-pairs.
 Claims claims_of(const detector::Options& options);
 
+// The claims that are judged under this contract: with a margin, a collision before there is one is
+// nobody's fault.
+std::vector<Claim> judged_claims(const Claims& claims, const Contract& contract);
+
 int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);
 
 // Whether the contract lets the detector leave this pair out.

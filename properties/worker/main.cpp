@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "properties/worker/channel.h"
+#include "properties/worker/isolation/keeper.h"
 #include "properties/worker/plugin/plugin_host.h"
 #include "properties/worker/wire_fields.h"
 
@@ -30,20 +31,21 @@ std::optional<std::uint64_t> number(std::string_view word) {
   return value;
 }
 
-// Dies with its host, leaves no core file, keeps to its memory, prints nothing on stdout; what it
-// prints on a terminal does not stop it, though its process group is in the background there.
-bool settle(std::uint64_t host, std::uint64_t bytes) {
+// Dies with its host, leaves no core file, prints nothing on stdout; what it prints on a terminal
+// does not stop it, though its process group is in the background there.
+bool settle(std::uint64_t host) {
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
   // The host may have died before that took hold.
   if (static_cast<std::uint64_t>(::getppid()) != host) return false;
   ::signal(SIGTTOU, SIG_IGN);
   const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  if (bytes > 0) {
-    const rlimit limit = {bytes, bytes};
-    if (::setrlimit(RLIMIT_AS, &limit) != 0) return false;
-  }
   return ::dup2(STDERR_FILENO, STDOUT_FILENO) >= 0;
+}
+
+bool keep_to(std::uint64_t bytes) {
+  const rlimit limit = {bytes, bytes};
+  return bytes == 0 || ::setrlimit(RLIMIT_AS, &limit) == 0;
 }
 
 int serve(Channel channel, const char* plugin_library) {
@@ -62,33 +64,47 @@ int serve(Channel channel, const char* plugin_library) {
     }
   }
   if (channel.send(encode(hello)) != Transfer::done) return 0;
+  RunReply reply;
   try {
     std::string message;
     while (channel.receive(message) == Transfer::done) {
       RunRequest request;
       if (!decode(message, request)) return exit_usage;
-      for (const auto& configuration : request.configurations) {
-        const CaseRun run = plugin ? plugin->run(request.c) : run_case(request.c, configuration);
-        if (channel.send(encode(run)) != Transfer::done) return 0;
-        if (run.end == RunEnd::out_of_memory) return 0;
+      reply.number = request.number;
+      for (reply.place = 0; reply.place < request.configurations.size(); ++reply.place) {
+        const auto& configuration = request.configurations[reply.place];
+        reply.run = plugin ? plugin->run(request.c) : run_case(request.c, configuration);
+        if (channel.send(encode(reply)) != Transfer::done) return 0;
+        if (reply.run.end == RunEnd::out_of_memory) return 0;
       }
     }
   } catch (const std::bad_alloc&) {
     // The host goes on with a new worker.
-    channel.send(encode(out_of_memory()));
+    reply.run = out_of_memory();
+    channel.send(encode(reply));
   }
   return 0;
 }
 
 }  // namespace
 
-// Arguments: the channel's descriptor, the host's process, a limit in bytes, a plug-in if any.
+// Arguments: the channel's descriptor, the host's process, a limit in bytes; for a plug-in the
+// isolation, its scratch folder and the library.
 int main(int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-  if (words.size() == 4 || words.size() == 5) {
+  constexpr std::size_t built_in = 4, with_plugin = 7;
+  if (words.size() == built_in || words.size() == with_plugin) {
     const auto channel = number(words[1]), host = number(words[2]), bytes = number(words[3]);
-    if (channel && host && bytes && settle(*host, *bytes)) {
-      return serve(Channel(static_cast<int>(*channel)), words.size() == 5 ? words[4] : nullptr);
+    if (channel && host && bytes && settle(*host)) {
+      Channel to_host(static_cast<int>(*channel));
+      if (words.size() == built_in) {
+        return keep_to(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
+      }
+      if (const auto mode = isolation_mode_of(words[4])) {
+        const char* library = words[6];
+        keep(std::move(to_host), {*mode, words[5], *bytes},
+             [library](Channel to_keeper) { return serve(std::move(to_keeper), library); });
+      }
     }
   }
   std::fputs("assay-worker: is started by assay, not by hand\n", stderr);

@@ -93,12 +93,12 @@ bool all_wait(const Row& process) {
 
 }  // namespace
 
-ProcessTree look_at(pid_t root) {
+ProcessTree look_at(pid_t root, pid_t apart) {
   const auto tree = tree_of(root, rows_in("/proc"));
   unsigned long ticks = 0;
   for (const auto& member : tree) {
     ticks += member.waited_for + member.waited_for_in_system;
-    if (member.id != root) ticks += member.used + member.used_in_system;
+    if (member.id != root && member.id != apart) ticks += member.used + member.used_in_system;
   }
   ProcessTree seen;
   seen.descendant_seconds =

@@ -4,9 +4,10 @@
 
 namespace assay::properties {
 
-ProcessorTime::ProcessorTime(pid_t process) : process_(process) {
+ProcessorTime::ProcessorTime(pid_t process, pid_t worker)
+    : process_(process), worker_(worker > 0 ? worker : process) {
   clockid_t clock;
-  if (::clock_getcpuclockid(process, &clock) == 0) clock_ = clock;
+  if (::clock_getcpuclockid(worker_, &clock) == 0) clock_ = clock;
   begin_ = own_seconds();
 }
 
@@ -29,7 +30,7 @@ double ProcessorTime::lap() {
 }
 
 ProcessTree ProcessorTime::look() {
-  const ProcessTree tree = look_at(process_);
+  const ProcessTree tree = look_at(process_, worker_);
   if (!of_others_before_) of_others_before_ = tree.descendant_seconds;
   // The sum falls when a process ends that nobody waits for.
   of_others_ = std::max(of_others_, tree.descendant_seconds - *of_others_before_);

@@ -20,6 +20,11 @@ namespace assay::properties {
 template <class T>
 struct TravelsAsBytes : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
 
+// The greatest value of an enum whose values count from 0: another value is no message. Stated for
+// each enum that travels by itself (wire_fields.h).
+template <class T>
+struct LastOf;
+
 class WireWriter {
  public:
   template <class... T>
@@ -90,11 +95,23 @@ class WireReader {
  private:
   template <class T>
   void get(T& item) {
-    if constexpr (TravelsAsBytes<T>::value) {
+    if constexpr (std::is_same_v<T, bool>) {
+      get_up_to(item, std::uint8_t{1});
+    } else if constexpr (std::is_enum_v<T>) {
+      get_up_to(item, static_cast<std::underlying_type_t<T>>(LastOf<T>::value));
+    } else if constexpr (TravelsAsBytes<T>::value) {
       get_bytes(&item, sizeof item);
     } else {
       fields(*this, item);
     }
+  }
+  // A byte that is no bool, or no value of the enum, never becomes one.
+  template <class T, class Number>
+  void get_up_to(T& item, Number last) {
+    Number number = 0;
+    get_bytes(&number, sizeof number);
+    ok_ = ok_ && 0 <= number && number <= last;
+    if (ok_) item = static_cast<T>(number);
   }
   void get(std::string& text) {
     text.resize(get_count(1));
@@ -106,8 +123,9 @@ class WireReader {
       items.resize(get_count(sizeof(T)));
       get_bytes(items.data(), items.size() * sizeof(T));
     } else {
-      items.resize(get_count(1));
-      for (auto& item : items) get(item);
+      // One by one: each takes bytes of the message, so that a great number alone takes no memory.
+      items.clear();
+      for (std::size_t left = get_count(1); left > 0 && ok_; --left) get(items.emplace_back());
     }
   }
   template <class T>

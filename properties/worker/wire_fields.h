@@ -8,6 +8,7 @@
 #include "detector/step_result.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
+#include "properties/worker/isolation/keeper.h"
 #include "properties/worker/plugin/plugin_description.h"
 #include "properties/worker/wire.h"
 
@@ -30,9 +31,53 @@ struct TravelsAsBytes<detector::StepTimes> : std::true_type {};
 template <>
 struct TravelsAsBytes<corpus::CaseStep> : std::true_type {};
 template <>
-struct TravelsAsBytes<Claims> : std::true_type {};
+struct LastOf<detector::Culling> {
+  static constexpr auto value = detector::Culling::none;
+};
 template <>
-struct TravelsAsBytes<Contract> : std::true_type {};
+struct LastOf<detector::Start> {
+  static constexpr auto value = detector::Start::unknown;
+};
+template <>
+struct LastOf<detector::Pairs> {
+  static constexpr auto value = detector::Pairs::first;
+};
+template <>
+struct LastOf<detector::Arithmetic> {
+  static constexpr auto value = detector::Arithmetic::single_precision;
+};
+template <>
+struct LastOf<detector::Release> {
+  static constexpr auto value = detector::Release::view;
+};
+template <>
+struct LastOf<detector::GhostTest> {
+  static constexpr auto value = detector::GhostTest::boxes;
+};
+template <>
+struct LastOf<detector::InputError> {
+  static constexpr auto value = detector::InputError::mesh_too_large;
+};
+template <>
+struct LastOf<detector::Answer> {
+  static constexpr auto value = detector::Answer::error;
+};
+template <>
+struct LastOf<RunEnd> {
+  static constexpr auto value = RunEnd::not_run;
+};
+template <>
+struct LastOf<Adjacency> {
+  static constexpr auto value = Adjacency::no_shared_vertex;
+};
+template <>
+struct LastOf<Coordinates> {
+  static constexpr auto value = Coordinates::float32;
+};
+template <>
+struct LastOf<ProblemKind> {
+  static constexpr auto value = last_problem_kind;
+};
 
 template <class Wire>
 void fields(Wire& wire, detector::Options& options) {
@@ -79,6 +124,30 @@ void fields(Wire& wire, corpus::Case& c) {
 }
 
 template <class Wire>
+void fields(Wire& wire, Claims& claims) {
+  auto& [free_sound, not_late, first_time, first_pairs, all_pairs, no_spurious, deterministic,
+         total] = claims;
+  wire(free_sound, not_late, first_time, first_pairs, all_pairs, no_spurious, deterministic, total);
+}
+
+template <class Wire>
+void fields(Wire& wire, Contract& contract) {
+  auto& [adjacency, coordinates, margin] = contract;
+  wire(adjacency, coordinates, margin);
+}
+
+template <class Wire>
+void fields(Wire& wire, Isolation& isolation) {
+  auto& [files, processes, calls] = isolation;
+  wire(files, processes, calls);
+}
+
+template <class Wire>
+void fields(Wire& wire, KeeperHello& hello) {
+  wire(hello.wire_version, hello.isolation, hello.process);
+}
+
+template <class Wire>
 void fields(Wire& wire, PluginDescription& description) {
   auto& [name, version, claims, contract] = description;
   wire(name, version, claims, contract);
@@ -103,15 +172,27 @@ void fields(Wire& wire, Hello& hello) {
   wire(hello.wire_version, hello.description, hello.serves, hello.problem);
 }
 
-// One case and how to run it; a CaseRun comes back for each configuration, in order.
+// One case and how to run it; a RunReply comes back for each configuration, in order.
 struct RunRequest {
+  std::uint64_t number = 0;  // drawn for this request
   corpus::Case c;
   std::vector<Configuration> configurations;
 };
 
 template <class Wire>
 void fields(Wire& wire, RunRequest& request) {
-  wire(request.c, request.configurations);
+  wire(request.number, request.c, request.configurations);
+}
+
+struct RunReply {
+  std::uint64_t number = 0;  // of the request
+  std::uint64_t place = 0;   // of the configuration in it
+  CaseRun run;
+};
+
+template <class Wire>
+void fields(Wire& wire, RunReply& reply) {
+  wire(reply.number, reply.place, reply.run);
 }
 
 template <class... T>

@@ -1,11 +1,16 @@
 #include "properties/worker/worker_process.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <random>
 #include <thread>
 
 #include "properties/worker/channel.h"
 #include "properties/worker/child_process.h"
+#include "properties/worker/isolation/scratch_folder.h"
+#include "properties/worker/reply_rules.h"
 #include "properties/worker/wire_fields.h"
 #include "properties/worker/worker_watch.h"
 
@@ -22,6 +27,16 @@ constexpr int attempts = 3;
 
 std::string every_time(const ChildEnd& end) { return end.text + ", three times in a row"; }
 
+std::string broken(const std::string& rule) {
+  return fmt::format("sent a reply that is none: {}", rule);
+}
+
+// Numbers of requests: a reply to another request, or sent before there was one, has another.
+std::uint64_t draw_number() {
+  static thread_local std::mt19937_64 numbers(std::random_device{}());
+  return numbers();
+}
+
 }  // namespace
 
 struct WorkerProcess::Parts {
@@ -29,13 +44,16 @@ struct WorkerProcess::Parts {
     ChildProcess child;
     Channel channel;
     std::thread::id starter;
+    pid_t plugin = 0;  // its process; 0: none, or unknown
   };
 
   std::filesystem::path program;
   std::optional<std::filesystem::path> plugin_library;
   WorkerLimits limits;
+  std::optional<ScratchFolder> scratch;
   std::optional<Live> live;
   PluginDescription description;
+  Isolation isolation;
   // A plug-in that was loaded before, and dies or hangs when it is loaded again, does so by itself.
   bool was_loaded = false;
   RunEnd end_of_loading = RunEnd::not_run;
@@ -82,12 +100,21 @@ struct WorkerProcess::Parts {
     if (!ends) return Problem{ProblemKind::cannot_start, "no socket for a worker"};
     std::vector<std::string> arguments = {std::to_string(child_descriptor),
                                           std::to_string(::getpid()), std::to_string(limits.bytes)};
-    if (plugin_library) arguments.push_back(plugin_library->string());
+    if (plugin_library) {
+      if (limits.isolation != IsolationMode::none && !scratch) {
+        auto made = ScratchFolder::make();
+        if (!made) return made.error();
+        scratch = std::move(made.value());
+      }
+      arguments.emplace_back(name_of(limits.isolation));
+      arguments.push_back(scratch ? scratch->path().string() : std::string());
+      arguments.push_back(plugin_library->string());
+    }
     auto child = ChildProcess::start(program, arguments, ends->second.descriptor());
     if (!child) return child.error();
     ++starts;
     live.emplace(
-        Live{std::move(child.value()), std::move(ends->first), std::this_thread::get_id()});
+        Live{std::move(child.value()), std::move(ends->first), std::this_thread::get_id(), 0});
     { const Channel closed_here = std::move(ends->second); }
     return boost::outcome_v2::success();
   }
@@ -97,9 +124,29 @@ struct WorkerProcess::Parts {
   // Hears the worker's first message. How the worker ended, where it did so without a word; then
   // there is none any more.
   Expected<std::optional<ChildEnd>> greet() {
-    WorkerWatch watch(live->child, limits.seconds);
+    WorkerWatch watch(live->child, std::min(limits.seconds, longest_loading));
+    const Patience patience = [&] { return watch.patience(); };
     std::string message;
-    const Transfer received = live->channel.receive(message, [&] { return watch.patience(); });
+    Transfer received = Transfer::done;
+    if (plugin_library) {
+      received = live->channel.receive(message, patience, longest_hello);
+      KeeperHello keeper;
+      if (received == Transfer::done) {
+        if (!decode(message, keeper) || keeper.wire_version != wire_version()) return other_build();
+        isolation = keeper.isolation;
+        live->plugin = static_cast<pid_t>(keeper.process);
+        if (limits.isolation == IsolationMode::required && !isolation.is_whole()) {
+          return Problem{
+              ProblemKind::not_isolated,
+              fmt::format("{}: not loaded: isolation is required, and this system's is {}", who(),
+                          text_of(isolation))};
+        }
+      }
+    }
+    if (received == Transfer::done) {
+      received = live->channel.receive(message, patience, longest_hello);
+    }
+    if (received == Transfer::too_long) return broken_hello("no description");
     Hello hello;
     if (received == Transfer::timed_out && !watch.has_ended()) {
       if (was_loaded && plugin_library) end_of_loading = RunEnd::hung;
@@ -111,32 +158,53 @@ struct WorkerProcess::Parts {
       live.reset();
       return std::optional(end);
     }
-    if (!decode(message, hello) || hello.wire_version != wire_version()) {
-      return Problem{ProblemKind::another_build,
-                     program.string() + ": of another build than this program"};
+    if (!plugin_library) {
+      if (!decode(message, hello) || hello.wire_version != wire_version()) return other_build();
+    } else if (!decode(message, hello)) {
+      return broken_hello("no description");
     }
     if (!hello.serves) return hello.problem;
+    if (const auto rule = broken_rule(hello.description); plugin_library && !rule.empty()) {
+      return broken_hello(rule);
+    }
     description = std::move(hello.description);
     return std::optional<ChildEnd>();
+  }
+
+  Problem other_build() const {
+    return {ProblemKind::another_build, program.string() + ": of another build than this program"};
+  }
+  Problem broken_hello(const std::string& rule) const {
+    return {ProblemKind::broken_reply, fmt::format("{}: {}", who(), broken(rule))};
   }
 
   // Sends what is left to do and appends what comes back, until a run ends the worker.
   void run_rest(const corpus::Case& c, const std::vector<Configuration>& rest,
                 std::vector<CaseRun>& runs) {
     // The fields of a RunRequest, without a copy of the case.
-    const std::string request = encode(c, rest);
-    WorkerWatch watch(live->child, limits.seconds);
+    const std::uint64_t number = draw_number();
+    const std::string request = encode(number, c, rest);
+    WorkerWatch watch(live->child, limits.seconds, live->plugin);
     const Patience patience = [&] { return watch.patience(); };
     Transfer transfer = live->channel.send(request, patience);
     std::string message;
     for (std::size_t i = 0; i < rest.size(); ++i) {
-      if (transfer == Transfer::done) transfer = live->channel.receive(message, patience);
-      CaseRun run;
-      if (transfer == Transfer::done && !decode(message, run)) transfer = Transfer::closed;
+      if (transfer == Transfer::done) {
+        transfer = live->channel.receive(message, patience, longest_reply(c));
+      }
+      RunReply reply;
+      if (transfer == Transfer::done || transfer == Transfer::too_long) {
+        const auto rule = broken_rule_of(transfer, message, c, {number, i, {}}, reply);
+        if (!rule.empty()) {
+          meddled(watch, rule, runs);
+          return;
+        }
+      }
       if (transfer != Transfer::done) {
         lost(watch, transfer == Transfer::timed_out && !watch.has_ended(), runs);
         return;
       }
+      CaseRun run = std::move(reply.run);
       run.processor_seconds = watch.next_case();
       keep(std::move(run), runs);
       if (runs.back().end == RunEnd::out_of_memory) {
@@ -144,6 +212,29 @@ struct WorkerProcess::Parts {
         return;
       }
     }
+  }
+
+  // Which rule a message breaks that should be the reply with this number and place; empty: none,
+  // and `reply` is it.
+  std::string broken_rule_of(Transfer transfer, const std::string& message, const corpus::Case& c,
+                             const RunReply& expected, RunReply& reply) const {
+    if (transfer == Transfer::too_long) return "longer than any reply to this case";
+    if (!decode(message, reply)) return "bytes that are none";
+    if (reply.number != expected.number || reply.place != expected.place) {
+      return "to another request";
+    }
+    return plugin_library ? broken_rule(c, reply.run) : "";
+  }
+
+  // The plug-in sent what is no reply: it is taken for one that crashed, and ended.
+  void meddled(WorkerWatch& watch, const std::string& rule, std::vector<CaseRun>& runs) {
+    CaseRun run;
+    run.end = RunEnd::crashed;
+    run.what = broken(rule);
+    run.processor_seconds = watch.next_case();
+    live->child.finish(std::chrono::milliseconds(0));
+    live.reset();
+    keep(std::move(run), runs);
   }
 
   // The worker fell silent: ends it. The run of the configuration that was under way, unless it is
@@ -210,6 +301,7 @@ std::vector<CaseRun> WorkerProcess::run(const corpus::Case& c,
   return runs;
 }
 
+const Isolation& WorkerProcess::isolation() const { return parts_->isolation; }
 std::uint64_t WorkerProcess::starts() const { return parts_->starts; }
 std::uint64_t WorkerProcess::disturbances() const { return parts_->told + parts_->untold; }
 

@@ -1,8 +1,8 @@
 // The detector under test in a process of its own, which never holds the oracle or the expected
 // facts of a case: a crash, a hang or a changed floating-point mode stays there.
 //
-// What a neighbour does is not the detector's: a worker that is killed from outside is replaced and
-// the run repeated, and a loaded machine makes no run hang.
+// What a neighbour does is not the detector's: a worker that is killed from outside is replaced
+// and the run repeated, and a loaded machine makes no run hang.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,22 @@
 
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
+#include "properties/worker/isolation/isolation.h"
 #include "properties/worker/plugin/plugin_description.h"
 
 namespace assay::properties {
 
+// Seconds that the loading of a plug-in takes at most, however long a case may take.
+inline constexpr double longest_loading = 10;
+
 struct WorkerLimits {
-  // Processor time of one case in one configuration, and of loading the plug-in: of the worker with
-  // its threads and the processes that it starts. Then it is killed; so is what sleeps or does not
-  // end (worker_watch.h).
+  // Processor time of one case in one configuration, and, where that is less than longest_loading,
+  // of loading the plug-in: of the worker with its threads and the processes that it starts. Then
+  // it is killed; so is what sleeps or does not end (worker_watch.h).
   double seconds = 10;
   std::uint64_t bytes = 0;  // of address space; 0: no limit
+  // Of a plug-in. Where it is required and the system does not offer all of it: not_isolated.
+  IsolationMode isolation = IsolationMode::best;
 };
 
 // Starts on demand and again after a crash or a hang. One instance a thread: the worker dies with
@@ -37,15 +43,18 @@ class WorkerProcess {
   WorkerProcess& operator=(WorkerProcess&&) noexcept;
   ~WorkerProcess();  // ends the worker and waits for it
 
-  // What the plug-in says of itself; without a plug-in: the built-in detector, all claims. Problems
-  // are those of PluginHost::open, or of the worker: cannot_start, another_build,
-  // ended_while_loaded, hung_while_loaded.
+  // What the plug-in says of itself; without a plug-in: the built-in detector, all claims.
+  // Problems are those of PluginHost::open, or of the worker: cannot_start, another_build,
+  // ended_while_loaded, hung_while_loaded, broken_reply, not_isolated.
   Expected<PluginDescription> describe();
 
+  // How the plug-in's process is isolated, once describe() or run() had an answer.
+  const Isolation& isolation() const;
+
   // One run for each configuration, in order. A crash or a hang is reported for the configuration
-  // that had it; the others still run, in a new worker. Where no worker can be started the runs are
-  // not_run and say why.
-  // A run whose worker is killed from outside (child_process.h) is repeated in a new one. The third
+  // that had it; the others still run, in a new worker. A reply of a plug-in that breaks a rule
+  // (reply_rules.h) is a crash. Where no worker can be started the runs are not_run and say why. A
+  // run whose worker is killed from outside (child_process.h) is repeated in a new one. The third
   // time in a row it has crashed: a plug-in that does this to itself is not told from bad luck by
   // one death, but by three. So may the loading of a plug-in fail.
   std::vector<CaseRun> run(const corpus::Case& c, std::span<const Configuration> configurations);

@@ -25,8 +25,8 @@ double seconds_between(std::chrono::steady_clock::time_point from,
 
 }  // namespace
 
-WorkerWatch::WorkerWatch(const ChildProcess& worker, double seconds)
-    : worker_(worker), limit_(seconds), time_(worker.id()) {
+WorkerWatch::WorkerWatch(const ChildProcess& worker, double seconds, pid_t plugin)
+    : worker_(worker), limit_(seconds), time_(worker.id(), plugin) {
   begin();
 }
 

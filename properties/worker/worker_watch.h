@@ -24,7 +24,8 @@ class WorkerWatch {
  public:
   // `seconds` of processor time for each case, of the worker with its threads and all processes
   // that it started. Begins the first case. `worker` outlives this.
-  WorkerWatch(const ChildProcess& worker, double seconds);
+  // `plugin`: the process of the plug-in that the worker keeps; 0: none, or unknown.
+  WorkerWatch(const ChildProcess& worker, double seconds, pid_t plugin = 0);
 
   // To be asked before each wait for the worker: how long to wait before asking again. Nothing when
   // waiting is over: why() says why, or the worker has_ended(). A worker is over its limit by at

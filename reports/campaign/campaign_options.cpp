@@ -45,6 +45,11 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     request.power = std::move(proof.value());
   }
   if (auto chosen = choose_detector(words.detector, request); !chosen) return chosen.error();
+  const auto& detector = request.detector;
+  if (!detector.built_in && judged_claims(detector.claims, detector.contract).empty())
+    return Refusal(fmt::format(
+        "{}: it claims nothing that its contract leaves to be judged; there is nothing to certify",
+        words.detector.library));
   std::error_code error;
   std::filesystem::create_directories(words.out, error);
   if (error) return Refusal(fmt::format("{}: cannot be made: {}", words.out, error.message()));

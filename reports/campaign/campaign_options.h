@@ -7,6 +7,7 @@
 
 #include "properties/campaign/request.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 #include "reports/terminal/verb.h"
 
 namespace assay::reports {
@@ -17,7 +18,7 @@ struct CampaignWords {
   std::uint64_t seed = 1;
   std::optional<double> time_limit;  // seconds of the clock, in place of the campaign's own
   std::string power;                 // a folder with the proof of planted faults; empty: none
-  std::string detector;              // a plug-in's library; empty: the built-in detector
+  DetectorWords detector;
   std::string out;
   int jobs = 1;
 };

@@ -31,7 +31,7 @@ std::string size_of_mesh(const std::string& text) {
 }  // namespace
 
 FailureReport write_failures(const properties::KeptFailures& kept, const std::filesystem::path& out,
-                             const std::string& plugin) {
+                             const DetectorWords& detector) {
   FailureReport report;
   auto failures = kept.list;
   if (failures.empty()) return report;
@@ -45,7 +45,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
         Refusal(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
     return report;
   }
-  SceneMaker scenes(plugin);
+  SceneMaker scenes(detector);
   std::set<std::string> told;
   for (const auto& failure : failures) {
     for (const auto& [path, text] :
@@ -74,7 +74,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
         failure.what, failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
-        picture_file((out / shown_file).string()), replay_line(out, shown_file, plugin));
+        picture_file((out / shown_file).string()), replay_line(out, shown_file, detector.library));
   }
   return report;
 }

@@ -6,6 +6,7 @@
 
 #include "properties/campaign/stored/store.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 
@@ -21,8 +22,8 @@ struct FailureReport {
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
 // under the same names in every run and shard, and a picture (.svg) of the smallest mesh of each
 // signature. A failure is told once for each signature: claim, how often it was met, both sizes,
-// triangles, feature, the line that replays it. plugin: the library that failed, or empty.
+// triangles, feature, the line that replays it. detector: the one that failed.
 FailureReport write_failures(const properties::KeptFailures& kept, const std::filesystem::path& out,
-                             const std::string& plugin);
+                             const DetectorWords& detector);
 
 }  // namespace assay::reports

@@ -55,14 +55,14 @@ Expected<properties::TrialsAgain> run_certified_again(
   const auto findings = properties::read_findings(folder);
   if (!findings) return Refusal(findings.error());
   const auto& run = findings.value().run;
-  const auto library = certified_library(findings.value(), asked.detector);
+  const auto library = certified_library(findings.value(), asked.detector.library);
   if (!library) return library.error();
   properties::CampaignRequest request;
   request.plan = run.plan;
   request.seed = run.seed;
   request.jobs = asked.jobs;
   request.worker = properties::worker_program();
-  if (auto chosen = choose_detector(library.value(), request); !chosen) return chosen.error();
+  if (auto chosen = choose_detector({library.value(), asked.detector.isolation}, request); !chosen) return chosen.error();
   const auto ours = properties::read_binding(properties::binding_of(request), folder);
   if (!ours) return Refusal(ours.error());
   const auto difference = difference_of_builds(run, ours.value());

@@ -8,13 +8,15 @@
 
 #include "properties/campaign/phases/again.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 
 struct AgainRequest {
   double share = 0;  // of the trials, above 0, at most 1
   std::uint64_t seed = 0;
-  std::string detector;  // a plug-in's library; empty: where it was when the trials were run
+  // No library: where it was when the trials were run.
+  DetectorWords detector;
   int jobs = 1;
 };
 

@@ -49,7 +49,7 @@ class JudgedRows {
              const OnCorpusFailure& on_failure)
       : request_(request),
         on_failure_(on_failure),
-        worker_(request.worker, request.plugin, {case_seconds, 0}) {
+        worker_(request.worker, request.plugin, {case_seconds, 0, request.isolation}) {
     for (const auto& configuration : request.detector.configurations)
       rows_.push_back(row_of(input, configuration.name));
   }

@@ -39,6 +39,19 @@ Json subject_json(const RunFindings& findings) {
   return Json::array({{{"name", run.detector.name}, {"digest", std::move(digest)}}});
 }
 
+// The weakest of the shards, as each reported it.
+Json isolation_json(const RunFindings& findings) {
+  if (findings.run.detector.built_in) return nullptr;
+  std::string weakest;
+  for (const auto& shard : findings.evidence.isolation) {
+    const auto rank = [](const std::string& got) {
+      return got == "full" ? 2 : got == "none" ? 0 : 1;
+    };
+    if (weakest.empty() || rank(shard.got) < rank(weakest)) weakest = shard.got;
+  }
+  return weakest.empty() ? "none" : weakest;
+}
+
 Json versions_json(const RunFindings& findings) {
   const auto& versions = findings.evidence.versions;
   if (!versions) return nullptr;
@@ -102,6 +115,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
         judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
        {"gates", gates_json(judgement)},
        {"detector", json_of(findings.run.detector)},
+       {"isolation", isolation_json(findings)},
        {"versions", versions_json(findings)},
        {"campaign", campaign_json(findings, plan)},
        {"confidence", confidence_json(findings)},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reports/certificate/judged_text.h"
 #include "reports/certificate/junit.h"
 #include "reports/terminal/text_file.h"
 
@@ -95,8 +96,7 @@ std::string met_text(const Json& failure) {
 std::string summary_text(const Json& p) {
   const auto& power = p["power"];
   std::string out = fmt::format("## Assay: {}\n\n", cell(p["verdict"]));
-  out += fmt::format("{}, campaign {}, seed {}.", cell(p["detector"]["name"]),
-                     cell(p["campaign"]["name"]), count(p["campaign"]["seed"]));
+  out += fmt::format("{}: {}.", cell(p["detector"]["name"]), cell(judged_text(p)));
   if (count(power["planted"]) > 0)
     out += fmt::format(" {} of {} planted faults found.", count(power["found"]),
                        count(power["planted"]));

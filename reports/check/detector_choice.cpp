@@ -7,13 +7,16 @@
 
 namespace assay::reports {
 
-Expected<void> choose_detector(const std::string& library, properties::CampaignRequest& request) {
+Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request) {
   request.detector = properties::built_in_detector();
-  if (library.empty()) return outcome::success();
-  request.plugin = library;
-  properties::WorkerProcess worker(request.worker, request.plugin);
+  if (words.library.empty()) return outcome::success();
+  request.plugin = words.library;
+  request.isolation = words.isolation;
+  properties::WorkerProcess worker(request.worker, request.plugin,
+                                   {.isolation = request.isolation});
   const auto description = worker.describe();
   if (!description) return Refusal(description.error());
+  request.isolated = worker.isolation();
   const auto& plugin = description.value();
   // Its words go into ids, files and pages.
   const auto name = printable(plugin.name);

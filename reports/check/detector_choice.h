@@ -5,11 +5,12 @@
 
 #include "properties/campaign/request.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 
-// Sets request.detector and request.plugin; request.worker is set. Empty: the built-in one. Refused
-// when the library cannot serve.
-Expected<void> choose_detector(const std::string& library, properties::CampaignRequest& request);
+// Sets request.detector, and of a plug-in what there is of it; request.worker is set. Refused when
+// the library cannot serve, or cannot be isolated as it is required.
+Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request);
 
 }  // namespace assay::reports

@@ -31,7 +31,7 @@ class Plugin : public Subject {
 
   std::string title() const override {
     return plugin_text(description_.name + " " + description_.version, description_.claims,
-                       description_.contract);
+                       description_.contract, worker_.isolation());
   }
 
   nlohmann::ordered_json to_json() const override {
@@ -48,6 +48,7 @@ class Plugin : public Subject {
               {"library", library_},
               {"claims", std::move(claims)},
               {"disturbances", worker_.disturbances()},
+              {"isolation", text_of(worker_.isolation())},
               {"contract",
                {{"adjacency", name_of(contract.adjacency)},
                 {"coordinates", name_of(contract.coordinates)},

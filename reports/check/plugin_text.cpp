@@ -7,14 +7,15 @@
 namespace assay::reports {
 
 std::string plugin_text(const std::string& name_and_version, const properties::Claims& claims,
-                        const properties::Contract& contract) {
+                        const properties::Contract& contract,
+                        const properties::Isolation& isolation) {
   std::vector<const char*> names;
   for (const auto claim : properties::list_of(claims)) names.push_back(name_of(claim));
   const std::string words = joined(names, ", ");
-  return fmt::format("plug-in {}\nclaims: {}\ncontract: adjacency {}, {}{}", name_and_version,
-                     words.empty() ? "nothing" : words, name_of(contract.adjacency),
-                     name_of(contract.coordinates),
-                     contract.margin > 0 ? fmt::format(", margin {}", contract.margin) : "");
+  return fmt::format(
+      "plug-in {}\nclaims: {}\ncontract: adjacency {}, {}{}\nisolation: {}", name_and_version,
+      words.empty() ? "nothing" : words, name_of(contract.adjacency), name_of(contract.coordinates),
+      contract.margin > 0 ? fmt::format(", margin {}", contract.margin) : "", text_of(isolation));
 }
 
 }  // namespace assay::reports

@@ -4,11 +4,14 @@
 #include <string>
 
 #include "properties/worker/claims.h"
+#include "properties/worker/isolation/isolation.h"
 
 namespace assay::reports {
 
-// "plug-in NAME VERSION", its claims, its contract: a line each, no newline at the end.
+// "plug-in NAME VERSION", its claims, its contract, its isolation: a line each, no newline at the
+// end.
 std::string plugin_text(const std::string& name_and_version, const properties::Claims& claims,
-                        const properties::Contract& contract);
+                        const properties::Contract& contract,
+                        const properties::Isolation& isolation);
 
 }  // namespace assay::reports

@@ -12,22 +12,22 @@ constexpr double case_seconds = 10;
 
 }  // namespace
 
-SceneMaker::SceneMaker(const std::optional<std::string>& library)
+SceneMaker::SceneMaker(const std::optional<DetectorWords>& detector)
     : detector_(properties::built_in_detector()),
       reference_(properties::worker_program(), std::nullopt, {case_seconds, 0}) {
-  if (!library) {
+  if (!detector) {
     absent_ = "the store does not name the plug-in's library";
     return;
   }
   properties::CampaignRequest request;
   request.worker = properties::worker_program();
-  if (auto chosen = choose_detector(*library, request); !chosen) {
+  if (auto chosen = choose_detector(*detector, request); !chosen) {
     absent_ = chosen.error().line;
     return;
   }
   detector_ = request.detector;
   worker_.emplace(properties::worker_program(), request.plugin,
-                  properties::WorkerLimits{case_seconds, 0});
+                  properties::WorkerLimits{case_seconds, 0, request.isolation});
 }
 
 std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,

@@ -6,21 +6,22 @@
 
 #include "reports/pictures/case_scene.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 
 class SceneMaker {
  public:
-  // A plug-in's library; empty: the built-in detector; nothing: a plug-in whose library is not
-  // known. A library that is no longer there costs the detector's part of the scenes, no more.
-  explicit SceneMaker(const std::optional<std::string>& library);
+  // Nothing: a plug-in whose library is not known. A library that is no longer there costs the
+  // detector's part of the scenes, no more.
+  explicit SceneMaker(const std::optional<DetectorWords>& detector);
 
   // In the configuration that the case's options state (a plug-in has one). Nothing when a
   // coordinate is beyond the detector's contract.
   std::optional<CaseScene> scene_of(const corpus::Case& c, const std::string& configuration);
 
-  // Writes the picture of a case beside its file, as .svg in place of .json; none of a mesh that is
-  // too large for one, or that has no scene.
+  // Writes the picture of a case beside its file, as .svg in place of .json; none of a mesh that
+  // is too large for one, or that has no scene.
   Expected<void> write_picture(const std::string& case_file, const corpus::Case& c,
                                const std::string& configuration, const std::string& title);
 

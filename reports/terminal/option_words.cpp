@@ -24,8 +24,8 @@ std::optional<std::uint64_t> memory_size(const std::string& word) {
   const std::string unit = digits == std::string::npos ? "" : word.substr(digits);
   constexpr std::size_t most_digits = 9;
   if (number.empty() || number.size() > most_digits) return std::nullopt;
-  const std::array<std::pair<const char*, int>, 5> shifts = {
-      {{"", 0}, {"B", 0}, {"KB", 10}, {"MB", 20}, {"GB", 30}}};
+  const std::array<std::pair<const char*, int>, 8> shifts = {
+      {{"", 0}, {"B", 0}, {"K", 10}, {"KB", 10}, {"M", 20}, {"MB", 20}, {"G", 30}, {"GB", 30}}};
   for (const auto& [name, shift] : shifts) {
     if (unit != name) continue;
     const std::uint64_t bytes = std::stoull(number) << shift;
@@ -72,8 +72,13 @@ void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about) {
   verb.add("--seed", seed, about).with(whole_number()).shows_default();
 }
 
-void add_detector(Verb& verb, std::string& library, const std::string& about) {
-  verb.add("--detector", library, about);
+VerbOption add_detector(Verb& verb, DetectorWords& detector, const std::string& about) {
+  auto library = verb.add("--detector", detector.library, about);
+  add_choice(verb, "--isolation", detector.isolation, "none, best, required",
+             properties::isolation_mode_of,
+             "Of the plug-in's process: best takes what the system offers (default), required "
+             "refuses where something is lacking, none lets it print");
+  return library;
 }
 
 }  // namespace assay::reports

@@ -8,6 +8,7 @@
 #include <string>
 #include <system_error>
 
+#include "properties/worker/isolation/isolation.h"
 #include "reports/terminal/verb.h"
 
 namespace assay::reports {
@@ -39,17 +40,25 @@ std::optional<T> whole_number_of(const std::string& word) {
   return is_number ? std::optional(number) : std::nullopt;
 }
 
-// "6GB", "512MB", "1000" (bytes); KB, MB, GB are 2^10, 2^20, 2^30 bytes. Nothing for other words.
+// "6GB", "6G", "512MB", "1000" (bytes); K or KB, M or MB, G or GB are 2^10, 2^20, 2^30 bytes.
+// Nothing for other words.
 std::optional<std::uint64_t> memory_size(const std::string& word);
 
 Check positive();      // a number above 0
 Check whole_number();  // 0 .. 2^64-1
 Check share();         // a number above 0, at most 1
 
-// --jobs (all cores, unless told otherwise), --seed, --detector
+// A detector as the user names it.
+struct DetectorWords {
+  std::string library;  // of a plug-in; empty: the built-in detector
+  properties::IsolationMode isolation = properties::IsolationMode::best;
+};
+
+// --jobs (all cores, unless told otherwise), --seed, --detector with --isolation
 void add_jobs(Verb& verb, int& jobs);
 void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about);
-void add_detector(Verb& verb, std::string& library,
-                  const std::string& about = "A plug-in's library (default: the built-in)");
+// The option --detector is returned.
+VerbOption add_detector(Verb& verb, DetectorWords& detector,
+                        const std::string& about = "A plug-in's library (default: the built-in)");
 
 }  // namespace assay::reports

@@ -20,6 +20,7 @@
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/certificate/corpus_check.h"
+#include "reports/certificate/judged_text.h"
 #include "reports/certificate/other_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
@@ -83,7 +84,7 @@ class Certification {
     const auto commit = commit_text();
     keep(properties::Versions{ASSAY_VERSION, commit.empty() ? std::nullopt : std::optional(commit),
                               version_text()});
-    keep(properties::Paths{words_.out, words_.detector});
+    keep(properties::Paths{words_.out, words_.detector.library});
     const auto waivers = corpus::sha256_of_file(known_failures);
     keep(properties::InputDigests{corpus_digest(ASSAY_CORPUS_DIR),
                                   waivers ? std::optional(waivers.value()) : std::nullopt});
@@ -237,9 +238,9 @@ class Certification {
     if (written) written = write_for_ci(statement.value()["predicate"], out_);
     if (!written) return refuse(written.error());
     const auto judgement = judge(findings.value());
-    fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nnext: assay verify {}\n",
+    fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nit speaks of {}\nnext: assay verify {}\n",
                findings_text(findings.value()), gates_text(judgement), judgement.verdict, seconds,
-               certificate, shell_word(certificate));
+               certificate, judged_text(statement.value()["predicate"]), shell_word(certificate));
     return judgement.exit_code;
   }
 

@@ -29,7 +29,7 @@ namespace {
 struct CheckRequest {
   std::vector<std::string> files;  // frames of one mesh, or one case file
   BuiltInChoice built_in;
-  std::string plugin_library;  // empty: the built-in detector
+  DetectorWords detector;
   bool no_oracle = false;
   std::optional<double> second_opinion;  // share in (0,1]; needs the oracle
   int jobs = 1;
@@ -93,7 +93,7 @@ class Check {
                mesh_.components.size() == 1 ? "" : "s");
     if (unclosed) {
       fmt::print(" ({} unclosed{})", unclosed,
-                 request_.plugin_library.empty() ? ": closed with ghosts" : "");
+                 request_.detector.library.empty() ? ": closed with ghosts" : "");
     }
     fmt::print("; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s",
                subject_.title(), request_.no_oracle ? "; no oracle: not judged" : "",
@@ -205,7 +205,7 @@ class Check {
 
   // The facts of a case are the built-in detector's; a plug-in is judged by the oracle alone.
   bool has_facts() const {
-    return is_case_file_ && !request_.no_oracle && request_.plugin_library.empty();
+    return is_case_file_ && !request_.no_oracle && request_.detector.library.empty();
   }
 
   // A case states what is true of it: an answer that differs is a defect.
@@ -239,12 +239,13 @@ int run_check(const CheckRequest& request) {
     return refuse(fmt::format("{}: {}", request.files[0], bad->message));
   }
   Limits limits(request.time_limit, request.memory_limit);
-  auto subject = request.plugin_library.empty()
-                     ? make_built_in(request.built_in, input.value(), limits)
-                     : make_plugin_subject(request.plugin_library,
-                                           {request.time_limit.value_or(no_limit_seconds),
-                                            request.memory_limit.value_or(0)},
-                                           input.value());
+  auto subject =
+      request.detector.library.empty()
+          ? make_built_in(request.built_in, input.value(), limits)
+          : make_plugin_subject(request.detector.library,
+                                {request.time_limit.value_or(no_limit_seconds),
+                                 request.memory_limit.value_or(0), request.detector.isolation},
+                                input.value());
   if (!subject) return refuse(subject.error());
   auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());
   return Check(request, input.value(), std::move(mesh), *subject.value(), limits).run();
@@ -254,8 +255,7 @@ void add_options(Verb& verb, CheckRequest& request) {
   verb.add("frames", request.files,
            "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)")
       .required();
-  auto plugin = verb.add("--detector", request.plugin_library,
-                         "Judge this plug-in (.so) by its claims, not the built-in");
+  auto plugin = add_detector(verb, request.detector);
   auto& built_in = request.built_in;
   plugin
       .excludes(add_choice(verb, "--culling", built_in.culling,
@@ -280,8 +280,9 @@ void add_options(Verb& verb, CheckRequest& request) {
            "Limit in seconds of processor time, all threads together; what is left is "
            "undecided")
       .with(positive());
-  add_choice(verb, "--memory", request.memory_limit, "a number above 0 with B, KB, MB or GB",
-             memory_size, "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
+  add_choice(verb, "--memory", request.memory_limit,
+             "a whole number above 0, alone or with K, M or G", memory_size,
+             "Limit of resident memory, such as 6GB or 512MB (MB: 2^20 bytes)");
   verb.add_flag("--fail-on-collision", request.fail_on_collision,
                 "Exit code 5 when they agree on a collision");
   verb.add("--json", request.json_file, "Write the report here (assay-check/1)");

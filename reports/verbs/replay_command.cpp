@@ -20,6 +20,7 @@
 #include "reports/steps/step_text.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/printable.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -29,7 +30,7 @@ struct ReplayRequest {
   std::string id_or_file;
   std::string export_folder;  // empty: none
   std::optional<detector::TrianglePair> why;
-  std::string detector;
+  DetectorWords detector;
 };
 
 using properties::Outcome;
@@ -178,7 +179,8 @@ int run_replay(const ReplayRequest& request) {
   const auto seen = properties::contracted(c, subject.detector.contract);
   if (!seen) return refuse("a coordinate of the case is beyond the detector's contract");
   const auto truth = properties::judge_case(*seen);
-  properties::WorkerProcess worker(subject.worker, subject.plugin);
+  properties::WorkerProcess worker(subject.worker, subject.plugin,
+                                   {.isolation = subject.isolation});
   const auto runs = worker.run(c, subject.detector.configurations);
   for (const auto& run : runs) {
     if (run.end == properties::RunEnd::not_run) return refuse(run.what);
@@ -187,8 +189,8 @@ int run_replay(const ReplayRequest& request) {
     const auto written = export_case(request.export_folder, *seen, subject.detector, truth);
     if (!written) return refuse(written.error());
   }
-  fmt::print("{}: {}{}\n", c.id, properties::size_text(properties::size_of(c)),
-             c.about.empty() ? "" : "; " + c.about);
+  fmt::print("{}: {}{}\n", printable(c.id), properties::size_text(properties::size_of(c)),
+             c.about.empty() ? "" : "; " + printable(c.about));
   if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
   print_steps(c, truth);
   int code = exit_holds;

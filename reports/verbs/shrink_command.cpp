@@ -21,7 +21,7 @@ namespace {
 struct ShrinkRequest {
   std::string file, out;
   double seconds = 60;
-  std::string detector;
+  DetectorWords detector;
 };
 
 // How the case fails.
@@ -68,7 +68,8 @@ int run_shrink(const ShrinkRequest& request) {
     subject.detector.configurations = {{"the case's own", options.value()}};
   }
   constexpr double hang_seconds = 10;
-  properties::WorkerProcess worker(subject.worker, subject.plugin, {hang_seconds, 0});
+  properties::WorkerProcess worker(subject.worker, subject.plugin,
+                                   {hang_seconds, 0, subject.isolation});
   const auto failing = find_failure(c, subject.detector, worker);
   if (!failing) {
     fmt::print("{}: holds in every configuration; there is nothing to shrink\n", request.file);
@@ -102,7 +103,8 @@ int run_shrink(const ShrinkRequest& request) {
   fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: assay replay {}{}\n",
              properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
              reduction.calls, reduction.seconds, reduction.fixed_point ? "" : "; the time was over",
-             picture_file(request.out), shell_word(request.out), detector_words(request.detector));
+             picture_file(request.out), shell_word(request.out),
+             detector_words(request.detector.library));
   return exit_defect;
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "reports/certificate/again.h"
+#include "reports/certificate/judged_text.h"
 #include "reports/certificate/pooling.h"
 #include "reports/certificate/verify.h"
 #include "reports/terminal/complaint.h"
@@ -21,7 +22,7 @@ struct VerifyRequest {
   std::vector<std::string> certificates;  // several: nights, pooled
   std::optional<double> again;            // share of the trials to be run once more
   std::optional<std::uint64_t> seed;      // of their choice; a fresh one where it is not given
-  std::string detector;
+  DetectorWords detector;
   int jobs = 1;
 };
 
@@ -71,7 +72,7 @@ int run_trials_again(const std::string& certificate, const VerifyRequest& reques
 }
 
 int run_verify(const VerifyRequest& request) {
-  if (!request.again && (request.seed || !request.detector.empty()))
+  if (!request.again && (request.seed || !request.detector.library.empty()))
     return refuse("--seed and --detector are of --again, which is not given");
   std::error_code ignored;
   for (const auto& file : request.certificates) {
@@ -93,6 +94,7 @@ int run_verify(const VerifyRequest& request) {
     fmt::print("verified: {} of {}, verdict {}\n", predicate["campaign"]["name"].get<std::string>(),
                predicate["detector"]["name"].get<std::string>(),
                predicate["verdict"].get<std::string>());
+    fmt::print("it speaks of {}\n", judged_text(predicate));
     if (request.again) {
       const int differs = run_trials_again(file, request);
       if (differs != exit_holds) return differs;

@@ -27,6 +27,10 @@ class CampaignRun {
 
   void run() {
     note_library(store_, request_);
+    if (request_.plugin) {
+      store_.set(to_row(PluginIsolation{text_of(request_.shard), name_of(request_.isolation),
+                                        text_of(request_.isolated)}));
+    }
     observer_.on_begin(store_.trial_count());
     const Canary canary = meet_canary(request_);
     store_.set(to_row(canary));

@@ -75,7 +75,7 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
   auto failures = store.failures();
   order_for_shrinking(failures);
   std::set<std::string> met;
-  WorkerProcess worker(request.worker, request.plugin, {request.plan.case_seconds, 0});
+  WorkerProcess worker(request.worker, request.plugin, request.worker_limits());
   for (auto& failure : failures) {
     const std::chrono::duration<double> left = deadline - std::chrono::steady_clock::now();
     if (left.count() <= 0) return;

@@ -105,7 +105,7 @@ class Trials {
   static constexpr std::uint64_t meshes_kept = 3;  // of a signature
 
   void work() {
-    WorkerProcess worker(request_.worker, request_.plugin, {request_.plan.case_seconds, 0});
+    WorkerProcess worker(request_.worker, request_.plugin, request_.worker_limits());
     // Whatever goes wrong in one thread ends all of them.
     try {
       while (const PlannedTrial* trial = next_trial()) judge(*trial, worker);

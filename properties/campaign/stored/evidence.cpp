@@ -22,6 +22,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PowerSource, campaign, detector, seed, progra
                                    generator, rows)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(World, classes, motions, all, collisions, complete,
                                    counterexample)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PluginIsolation, asked, got)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Paths, out, detector)
@@ -65,6 +66,7 @@ constexpr const char* times_kind = "times";
 constexpr const char* trials_name = "trials";
 constexpr const char* versions_name = "versions";
 constexpr const char* paths_name = "paths";
+constexpr const char* isolation_name = "isolation";
 constexpr const char* inputs_name = "inputs";
 constexpr const char* issued_name = "issued";
 
@@ -125,6 +127,7 @@ Evidence to_row(const World& x) {
   return row(world_kind, x.world, x.shard, x, x.counterexample ? farthest : x.classes);
 }
 Evidence to_row(const Asked& x) { return row(asked_kind, "gates", checks_shard, x); }
+Evidence to_row(const PluginIsolation& x) { return row(subject_kind, isolation_name, x.shard, x); }
 Evidence to_row(const Versions& x) { return row(subject_kind, versions_name, checks_shard, x); }
 Evidence to_row(const Paths& x) { return row(subject_kind, paths_name, checks_shard, x); }
 Evidence to_row(const InputDigests& x) { return row(digest_kind, inputs_name, checks_shard, x); }
@@ -155,6 +158,8 @@ void EvidenceFacts::take(const Evidence& r) try {
     asked = told<Asked>(r);
   } else if (r.kind == subject_kind && r.name == versions_name) {
     versions = told<Versions>(r);
+  } else if (r.kind == subject_kind && r.name == isolation_name) {
+    isolation.push_back(told<PluginIsolation>(r, {r.shard, {}, {}}));
   } else if (r.kind == subject_kind && r.name == paths_name) {
     paths = told<Paths>(r);
   } else if (r.kind == digest_kind) {

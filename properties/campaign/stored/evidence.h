@@ -79,6 +79,11 @@ struct World {
   std::optional<std::string> counterexample;  // what does not hold
 };
 
+// How a shard's plug-in was kept apart, by the words of isolation.h.
+struct PluginIsolation {
+  std::string shard, asked, got;
+};
+
 // What a verb asked of a run.
 struct Asked {
   std::vector<std::string> gates;  // by the names of gates.h; any other gate is not judged
@@ -146,6 +151,7 @@ struct EvidenceFacts {
   std::optional<Asked> asked;
   std::optional<Versions> versions;
   std::optional<Paths> paths;
+  std::vector<PluginIsolation> isolation;
   std::optional<InputDigests> inputs;
   std::vector<StoredWaiver> waivers;
   std::vector<CorpusRow> corpus;
@@ -163,6 +169,7 @@ Evidence to_row(const HarnessProblem& problem);
 Evidence to_row(const FaultProof& proof);
 Evidence to_row(const PowerSource& source);
 Evidence to_row(const World& world);
+Evidence to_row(const PluginIsolation& isolation);
 Evidence to_row(const Asked& asked);
 Evidence to_row(const Versions& versions);
 Evidence to_row(const Paths& paths);

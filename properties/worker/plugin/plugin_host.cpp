@@ -122,6 +122,9 @@ Expected<PluginHost> PluginHost::open(const std::filesystem::path& library) {
   std::error_code ignored;
   if (!std::filesystem::exists(library, ignored))
     return problem(ProblemKind::not_found, "no such file");
+  // A pipe would be waited for.
+  if (!std::filesystem::is_regular_file(library, ignored))
+    return problem(ProblemKind::not_a_plugin, "not a detector plug-in: not a file");
   // With a slash in it, so that no search path is asked.
   const auto path = std::filesystem::absolute(library, ignored);
   void* loaded = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -14,14 +14,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // As SceneMaker takes it.
-std::optional<std::string> library_of(const properties::RunFindings& findings) {
+std::optional<DetectorWords> detector_of(const properties::RunFindings& findings) {
   if (!findings.run.detector.built_in && findings.library.empty()) return std::nullopt;
-  return findings.library;
+  DetectorWords words;
+  words.library = findings.library;
+  return words;
 }
 
 class FailureList {
  public:
-  explicit FailureList(const properties::RunFindings& run) : run_(run), scenes_(library_of(run)) {}
+  explicit FailureList(const properties::RunFindings& run) : run_(run), scenes_(detector_of(run)) {}
 
   Json all() {
     Json list = Json::array();

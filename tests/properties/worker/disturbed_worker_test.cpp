@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "properties/judging/run_verdict.h"
+#include "properties/worker/process_tree.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/children.h"
@@ -35,12 +36,8 @@ corpus::Case fatal_case(bool is_fatal = true) {
   }
 }
 
-double processor_seconds(pid_t process) {
-  clockid_t clock;
-  timespec now = {};
-  if (clock_getcpuclockid(process, &clock) == 0) clock_gettime(clock, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+// Of the plug-in that the worker keeps.
+double processor_seconds(pid_t worker) { return look_at(worker).descendant_seconds; }
 
 // Kills the worker, `times` times, when it has used so much processor time: then a case is under
 // way that takes more.

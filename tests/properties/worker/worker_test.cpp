@@ -88,7 +88,7 @@ TEST(Worker, ExpectedFactsStayWithTheHost) {
   c.expected.answer = Answer::error;
   c.expected.steps.resize(1);
   RunRequest arrived;
-  ASSERT_TRUE(decode(encode(c, four), arrived));
+  ASSERT_TRUE(decode(encode(std::uint64_t{7}, c, four), arrived));
   EXPECT_EQ(arrived.c.frames, c.frames);
   EXPECT_EQ(arrived.c.triangles, c.triangles);
   EXPECT_EQ(arrived.c.expected.answer, Answer::free);

@@ -27,7 +27,7 @@ std::size_t count_of(const std::string& text, const std::string& word) {
 }
 
 reports::CaseScene scene_of(const corpus::Case& c) {
-  reports::SceneMaker maker{std::string()};
+  reports::SceneMaker maker{reports::DetectorWords{}};
   auto scene = maker.scene_of(c, "view-point");
   EXPECT_TRUE(scene);
   return *scene;
@@ -139,7 +139,8 @@ TEST(Scene, ADetectorThatIsNotAtHandCostsItsPartAlone) {
 }
 
 TEST(Scene, APlugInThatIsAlwaysFreeShowsItsFailure) {
-  reports::SceneMaker maker{std::string(ASSAY_PLUGIN_DIR) + "/plugin_always_free.so"};
+  reports::SceneMaker maker{
+      reports::DetectorWords{std::string(ASSAY_PLUGIN_DIR) + "/plugin_always_free.so", {}}};
   const auto scene = maker.scene_of(curated_case("A1_winding2_allpositive"), "x");
   ASSERT_TRUE(scene);
   ASSERT_TRUE(scene->failure);

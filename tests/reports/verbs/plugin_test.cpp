@@ -1,5 +1,6 @@
 // `assay check --detector`: a plug-in through the command line, as its owner runs it.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -112,6 +113,9 @@ TEST_F(Plugin, WhatCannotBeUsedIsRefusedInOneLine) {
   };
   expect_refused("--detector /nowhere/lib.so", "/nowhere/lib.so: no such file");
   expect_refused("--detector " ASSAY_SOURCE_DIR "/README.md", "not a detector plug-in");
+  const std::string pipe = scratch / "pipe.so";
+  ASSERT_EQ(mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR), 0);
+  expect_refused("--detector " + pipe, "not a detector plug-in: not a file");
   expect_refused("--detector " + plugin("without_entry"), "exports no assay_detector()");
   expect_refused("--detector " + plugin("wrong_abi"), "built for ABI version 99");
   expect_refused("--detector " + plugin("example") + " --culling bvh", "--culling");

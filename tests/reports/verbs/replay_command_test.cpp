@@ -32,6 +32,18 @@ TEST(Replay, ByFileTakesTheFilesOptions) {
   EXPECT_FALSE(contains(outcome.out, "bvh: ")) << outcome.out;
 }
 
+TEST(Replay, WhatACaseSaysOfItselfGivesNoOrders) {
+  const Scratch scratch;
+  auto text = read_text(curated("A4_endpoints_only"));
+  const auto about = text.find("\"about\": \"");
+  ASSERT_NE(about, std::string::npos);
+  text.insert(about + 10, "\\u001b[2Jgone");
+  const auto outcome = run_assay("replay " + scratch.write("case.json", text));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.out.find('\033'), std::string::npos) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "?[2Jgone")) << outcome.out;
+}
+
 TEST(Replay, GivesTheStartAsTheCampaignDid) {
   const std::string line = "\nas in the campaign, the detector is given its start as clean\n";
   int told = 0, clean_but_even = 0, odd_but_not_clean = 0;

@@ -1,0 +1,43 @@
+// How far the process of a plug-in is kept away from everything but its own work.
+//
+// What it is for: that a detector, by accident or on purpose, cannot change what it is judged by:
+// the run's files, the host, the worker, other runs. It is no jail for malicious code: a plug-in
+// may read what the user may read, and use up the processor until its limits end it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace assay::properties {
+
+enum class IsolationMode : std::uint8_t {
+  none,      // a process of its own, that is all; it may print
+  best,      // all that the system offers; what it lacks is reported
+  required,  // all, or the plug-in is refused
+};
+
+// What holds for the process of a plug-in. Where nothing is asked for, or no plug-in is run,
+// nothing holds.
+struct Isolation {
+  // It writes to no file outside of its scratch folder (Landlock).
+  bool files = false;
+  // It sees, signals and traces no process but its own, and all of them end with it (namespaces;
+  // or no new processes at all, no /proc, and signals to itself alone).
+  bool processes = false;
+  // It opens no socket, and makes no system call that would undo the rest (seccomp).
+  bool calls = false;
+  bool is_whole() const { return files && processes && calls; }
+  friend bool operator==(const Isolation&, const Isolation&) = default;
+};
+
+// "none", "best", "required"; "full", "none", "partial: lacks files, calls".
+const char* name_of(IsolationMode mode);
+std::optional<IsolationMode> isolation_mode_of(std::string_view word);
+std::string text_of(const Isolation& isolation);
+// What does not hold: of "files", "processes" and "calls".
+std::vector<std::string> lacks_of(const Isolation& isolation);
+
+}  // namespace assay::properties

@@ -1,0 +1,41 @@
+// The keeper stands between the host and a plug-in, which runs in a child of the keeper and has no
+// descriptor that leads to the host. It passes bytes on and believes none of them.
+//
+//   host  <- channel ->  keeper  <- another channel ->  plug-in
+//                          |  first process of a new world, where there is one: ends, and with it
+//                          |  all that the plug-in started, when the plug-in or the keeper ends
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "properties/worker/channel.h"
+#include "properties/worker/isolation/isolation.h"
+
+namespace assay::properties {
+
+struct KeptPlugin {
+  IsolationMode mode = IsolationMode::best;
+  std::string scratch;      // a folder, where the mode is not none
+  std::uint64_t bytes = 0;  // of address space; 0: no limit
+};
+
+// What the keeper tells the host first, before the plug-in is loaded.
+struct KeeperHello {
+  std::uint64_t wire_version = 0;
+  Isolation isolation;
+  // The process of the plug-in, as the host sees it; 0: unknown.
+  std::int64_t process = 0;
+};
+
+// Starts the plug-in's process, which calls `serve` with its channel and exits with what that
+// returns; says hello to the host and passes on what the two say, until one of them ends. Ends this
+// process as the plug-in's ended: with its code, or by its signal. Where the isolation is required
+// and not whole the plug-in's process ends before `serve`.
+[[noreturn]] void keep(Channel host, const KeptPlugin& kept,
+                       const std::function<int(Channel)>& serve);
+
+}  // namespace assay::properties

@@ -1,0 +1,72 @@
+#include "properties/worker/isolation/namespaces.h"
+
+#include <fcntl.h>
+#include <linux/capability.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <string>
+
+namespace assay::properties {
+namespace {
+
+bool write_to(const char* path, const std::string& text) {
+  const int file = ::open(path, O_WRONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  ::close(file);
+  return written;
+}
+
+bool enter() {
+  const std::string user = std::to_string(::geteuid()), group = std::to_string(::getegid());
+  if (::unshare(CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWIPC | CLONE_NEWNET) != 0) {
+    return false;
+  }
+  // It stays the same user, for whom no other user is there.
+  return write_to("/proc/self/setgroups", "deny") &&
+         write_to("/proc/self/uid_map", user + " " + user + " 1") &&
+         write_to("/proc/self/gid_map", group + " " + group + " 1");
+}
+
+// Where an attempt fails half way there is no way back, so another process tries it first.
+bool is_allowed() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(enter() ? 0 : 1);
+  int status = 1;
+  while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return child > 0 && status == 0;
+}
+
+}  // namespace
+
+bool begin_new_world() { return is_allowed() && enter(); }
+
+bool show_new_world() {
+  // What is mounted from now on does not show outside.
+  if (::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return false;
+  constexpr unsigned long flags = MS_NOSUID | MS_NODEV | MS_NOEXEC;
+  // Shared memory of its own, for libraries that count their threads there.
+  ::mount("shm", shared_memory, "tmpfs", flags, nullptr);
+  return ::mount("proc", "/proc", "proc", flags, nullptr) == 0 ||
+         ::mount("none", "/proc", "tmpfs", flags | MS_RDONLY, nullptr) == 0;
+}
+
+bool drop_capabilities() {
+  for (int right = 0; ::prctl(PR_CAPBSET_READ, right, 0, 0, 0) >= 0; ++right) {
+    ::prctl(PR_CAPBSET_DROP, right, 0, 0, 0);  // what may not be dropped is not there
+  }
+  ::prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
+  __user_cap_header_struct header = {_LINUX_CAPABILITY_VERSION_3, 0};
+  std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> none = {};
+  return ::syscall(SYS_capset, &header, none.data()) == 0;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,114 @@
+#include "properties/worker/isolation/plugin_child.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+
+#include "properties/worker/isolation/call_filter.h"
+#include "properties/worker/isolation/file_fence.h"
+#include "properties/worker/isolation/namespaces.h"
+
+namespace assay::properties {
+namespace {
+
+void report(int socket, const ChildReport& what) {
+  ::send(socket, &what, sizeof what, MSG_NOSIGNAL);
+}
+
+// Closes every descriptor but the standard ones and the two of `ends`.
+void close_all_but(const ChildEnds& ends) {
+  const auto low = static_cast<unsigned>(std::min(ends.channel, ends.reports));
+  const auto high = static_cast<unsigned>(std::max(ends.channel, ends.reports));
+  constexpr unsigned first = STDERR_FILENO + 1, last = ~0U;
+  if (low > first) ::close_range(first, low - 1, 0);
+  if (high > low + 1) ::close_range(low + 1, high - 1, 0);
+  ::close_range(high + 1, last, 0);
+}
+
+// What it prints goes nowhere: a line on the user's terminal could be taken for the host's.
+void fall_silent() {
+  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
+  ::close(nowhere);
+}
+
+// So many processes and threads at most, so that it leaves the machine some.
+constexpr rlim_t most_processes = 512;
+
+void limit(const KeptPlugin& kept) {
+  if (kept.mode != IsolationMode::none) {
+    const rlimit processes = {most_processes, most_processes};
+    ::setrlimit(RLIMIT_NPROC, &processes);
+  }
+  if (kept.bytes > 0) {
+    const rlimit bytes = {kept.bytes, kept.bytes};
+    if (::setrlimit(RLIMIT_AS, &bytes) != 0) ::_exit(EXIT_FAILURE);
+  }
+}
+
+Isolation shut_in(const KeptPlugin& kept, bool in_new_world) {
+  Isolation isolation;
+  if (kept.mode == IsolationMode::none) return isolation;
+  if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return isolation;
+  std::vector<std::string> folders = {kept.scratch};
+  if (in_new_world) folders.emplace_back(shared_memory);
+  isolation.files = fence_files(folders, !in_new_world);
+  const bool has_dropped = drop_capabilities();
+  isolation.calls = filter_calls(!in_new_world) && has_dropped;
+  // In a world that it shares, /proc is behind the fence and the filter stops the rest.
+  isolation.processes = in_new_world || (isolation.files && isolation.calls);
+  return isolation;
+}
+
+}  // namespace
+
+void become_plugin(const KeptPlugin& kept, const ChildEnds& ends, bool in_new_world,
+                   const std::function<int(Channel)>& serve) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  close_all_but(ends);
+  if (kept.mode != IsolationMode::none) {
+    ::setsid();  // it has no terminal
+    fall_silent();
+    ::setenv("TMPDIR", kept.scratch.c_str(), 1);
+  }
+  limit(kept);
+  ChildReport ready;
+  ready.isolation = shut_in(kept, in_new_world);
+  report(ends.reports, ready);
+  ::close(ends.reports);
+  if (kept.mode == IsolationMode::required && !ready.isolation.is_whole()) ::_exit(EXIT_SUCCESS);
+  int code = EXIT_FAILURE;
+  try {
+    code = serve(Channel(ends.channel));
+  } catch (const std::exception&) {
+    ::abort();  // as one that nobody catches
+  }
+  ::exit(code);
+}
+
+void begin_with_plugin(const KeptPlugin& kept, const ChildEnds& ends,
+                       const std::function<int(Channel)>& serve) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const bool is_alone = show_new_world();
+  const pid_t plugin = ::fork();
+  if (plugin == 0) become_plugin(kept, ends, is_alone, serve);
+  // The plug-in is the same user in the same world, and is to find nothing here.
+  ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
+  ::close(ends.channel);
+  ChildReport end;
+  end.kind = ChildReport::Kind::ended;
+  pid_t ended = plugin < 0 ? plugin : 0;
+  while (ended != plugin) ended = ::waitpid(-1, &end.status, 0);
+  report(ends.reports, end);
+  ::_exit(EXIT_SUCCESS);
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,31 @@
+// The process in which a plug-in is loaded, as it is made ready for that.
+#pragma once
+
+#include "properties/worker/isolation/keeper.h"
+
+namespace assay::properties {
+
+// What the plug-in's processes tell the keeper, over a socket that the plug-in never has.
+struct ChildReport {
+  enum class Kind : std::uint8_t { ready, ended } kind = Kind::ready;
+  Isolation isolation;  // when ready
+  int status = 0;       // when ended: as waitpid tells it
+};
+
+// The descriptors that its processes have: everything else is closed.
+struct ChildEnds {
+  int channel = -1;  // the plug-in's end
+  int reports = -1;  // to the keeper
+};
+
+// The plug-in's process: shuts itself in as far as it is asked to and the system allows, reports
+// that, gives up the socket for reports and serves. `in_new_world`: it was started in one.
+[[noreturn]] void become_plugin(const KeptPlugin& kept, const ChildEnds& ends, bool in_new_world,
+                                const std::function<int(Channel)>& serve);
+
+// The first process of a new world: starts the plug-in's process, waits for whatever ends in that
+// world, reports the end of the plug-in's process, and ends the world.
+[[noreturn]] void begin_with_plugin(const KeptPlugin& kept, const ChildEnds& ends,
+                                    const std::function<int(Channel)>& serve);
+
+}  // namespace assay::properties

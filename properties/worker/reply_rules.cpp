@@ -1,0 +1,115 @@
+#include "properties/worker/reply_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "detector/mesh/problem.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Answer;
+using detector::PairContact;
+using detector::StepResult;
+using detector::TimeEnclosure;
+
+// Of the fields of a result that are not lists, and of the numbers that begin lists.
+constexpr std::uint64_t bytes_of_a_result = 4096;
+
+bool is_line(const std::string& text) {
+  return text.size() <= longest_reply_text && std::none_of(text.begin(), text.end(), [](char c) {
+           return static_cast<unsigned char>(c) < ' ' || c == 0x7f;
+         });
+}
+
+bool is_interval(const TimeEnclosure& time) {
+  return 0 <= time.lo && time.lo <= time.hi && time.hi <= 1;  // no NaN passes
+}
+
+// Of a feature a plug-in says nothing.
+bool is_unstated(const detector::Feature& feature) {
+  const detector::Feature unstated;
+  return feature.kind == unstated.kind && feature.vertices == unstated.vertices;
+}
+
+bool is_contact(const PairContact& contact, Eigen::Index triangles) {
+  const auto [a, b] = contact.pair;
+  return 0 <= a && a < b && b < triangles && is_interval(contact.time) &&
+         is_unstated(contact.feature);
+}
+
+bool says_nothing_of_its_work(const StepResult& r) {
+  const detector::StepCounts none;
+  const auto& t = r.times;
+  return std::memcmp(&r.counts, &none, sizeof none) == 0 && t.view_test == 0 && t.start == 0 &&
+         t.ghosts == 0 && t.broad_phase == 0 && t.narrow_phase == 0 && t.closure == 0 &&
+         t.total == 0;
+}
+
+bool says_nothing_of_views(const StepResult& r) {
+  return r.view_positive + r.view_negative + r.view_zero + r.against_all + r.violated + r.dirty ==
+             0 &&
+         r.doubts.empty() && r.signs.empty() && r.primitives.empty() && r.apexes.empty();
+}
+
+std::string broken_rule(const StepResult& result, Eigen::Index triangles) {
+  if (result.problem) return "a problem that only the built-in detector states";
+  if (!is_interval(result.first)) return "a first time that is no interval in [0, 1]";
+  if (result.answer == Answer::free && !result.pairs.empty()) return "pairs beside the answer free";
+  if (result.answer == Answer::error && !result.pairs.empty()) return "pairs beside an error";
+  for (const auto& contact : result.pairs) {
+    if (!is_contact(contact, triangles)) return "a pair that is none of the mesh";
+  }
+  const auto not_ascending = [](const PairContact& x, const PairContact& y) {
+    return !(x.pair < y.pair);
+  };
+  if (std::adjacent_find(result.pairs.begin(), result.pairs.end(), not_ascending) !=
+      result.pairs.end()) {
+    return "pairs that do not ascend";
+  }
+  if (!says_nothing_of_its_work(result)) return "counts or times, which the host measures";
+  return says_nothing_of_views(result) ? "" : "views, which no plug-in has";
+}
+
+}  // namespace
+
+std::uint64_t longest_reply(const corpus::Case& c) {
+  const auto triangles = static_cast<std::uint64_t>(c.triangles.rows());
+  const std::uint64_t pairs = triangles * (triangles - 1) / 2;
+  const std::uint64_t steps = corpus::steps_of(c).size();
+  return longest_reply_text + bytes_of_a_result +
+         steps * (bytes_of_a_result + pairs * sizeof(PairContact));
+}
+
+std::string broken_rule(const corpus::Case& c, const CaseRun& run) {
+  if (!is_line(run.what)) return "a text that is no line";
+  switch (run.end) {
+    case RunEnd::completed:
+      break;
+    case RunEnd::refused:
+    case RunEnd::out_of_memory:
+      return run.steps.empty() ? "" : "steps of a case that was not run";
+    default:
+      return fmt::format("that it {}, which only the host can say", name_of(run.end));
+  }
+  const std::size_t steps = corpus::steps_of(c).size();
+  if (run.steps.size() != steps) {
+    return fmt::format("{} results for {} steps", run.steps.size(), steps);
+  }
+  for (const auto& result : run.steps) {
+    if (auto broken = broken_rule(result, c.triangles.rows()); !broken.empty()) return broken;
+  }
+  return "";
+}
+
+std::string broken_rule(const PluginDescription& description) {
+  if (!is_line(description.name) || !is_line(description.version)) return "a name that is no line";
+  if (description.name.empty()) return "no name";
+  const double margin = description.contract.margin;
+  return std::isfinite(margin) && margin >= 0 ? "" : "a margin that is no length";
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,14 @@
+// What a verdict is about, for people: a certificate says no more than what was claimed.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace assay::reports {
+
+// "claims free-sound, total; contract adjacency all, float64; isolation full; campaign smoke, seed
+// 1" of a predicate. Of the built-in detector, whose configurations differ in their claims: how
+// many configurations there are.
+std::string judged_text(const nlohmann::ordered_json& predicate);
+
+}  // namespace assay::reports

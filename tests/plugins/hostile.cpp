@@ -1,0 +1,339 @@
+// A detector that answers nothing, claims everything, and tries to be certified all the same: by
+// forging the replies of its worker, by changing what it is judged by, or by harming others. What
+// it does is named by the variable ASSAY_HOSTILE (the tables below); ASSAY_VICTIM names a file
+// that is not its own, ASSAY_BYSTANDER a process.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/ptrace.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/uio.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "detector/plugin/assay_detector.h"
+#include "properties/worker/channel.h"
+#include "properties/worker/wire_fields.h"
+
+struct assay_handle {
+  int unused;
+};
+
+namespace {
+
+using namespace assay::properties;
+using assay::detector::Answer;
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+// ---- Forging: it takes the place of the code that replies, and knows the format by heart.
+
+int find_channel() {
+  for (int d = 3; d < 1024; ++d) {
+    struct stat seen;
+    if (fstat(d, &seen) == 0 && S_ISSOCK(seen.st_mode)) return d;
+  }
+  return -1;
+}
+
+RunReply all_free(const RunRequest& request, std::uint64_t place) {
+  RunReply reply;
+  reply.number = request.number;
+  reply.place = place;
+  reply.run.steps.resize(assay::corpus::steps_of(request.c).size());
+  for (auto& step : reply.run.steps) step.answer = Answer::free;
+  return reply;
+}
+
+using Forgery = std::function<std::string(RunReply)>;
+
+Forgery changed(const std::function<void(RunReply&)>& change) {
+  return [change](RunReply reply) {
+    change(reply);
+    return encode(reply);
+  };
+}
+Forgery ending(RunEnd end) {
+  return changed([end](RunReply& r) {
+    r.run.steps.clear();
+    r.run.end = end;
+  });
+}
+Forgery colliding(assay::detector::PairContact contact, int times = 1) {
+  return changed([contact, times](RunReply& r) {
+    r.run.steps[0].answer = Answer::collision;
+    r.run.steps[0].pairs.assign(static_cast<std::size_t>(times), contact);
+  });
+}
+
+const std::map<std::string, Forgery>& forgeries() {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  static const std::map<std::string, Forgery> all = {
+      {"forge-no-steps", changed([](RunReply& r) { r.run.steps.clear(); })},
+      {"forge-more-steps", changed([](RunReply& r) { r.run.steps.resize(9); })},
+      {"forge-not-run", ending(RunEnd::not_run)},
+      {"forge-hung", ending(RunEnd::hung)},
+      {"forge-crashed", ending(RunEnd::crashed)},
+      {"forge-refused-with-steps", changed([](RunReply& r) { r.run.end = RunEnd::refused; })},
+      {"forge-end", changed([](RunReply& r) { r.run.end = static_cast<RunEnd>(77); })},
+      {"forge-answer",
+       changed([](RunReply& r) { r.run.steps[0].answer = static_cast<Answer>(9); })},
+      {"forge-number", changed([](RunReply& r) { ++r.number; })},
+      {"forge-place", changed([](RunReply& r) { ++r.place; })},
+      {"forge-text", changed([](RunReply& r) { r.run.what = "fine\n\033[2Jcertified"; })},
+      {"forge-long-text", changed([](RunReply& r) { r.run.what.assign(1 << 20, 'x'); })},
+      {"forge-no-interval", changed([](RunReply& r) {
+         r.run.steps[0].first = {nan, nan};
+       })},
+      {"forge-pair-beyond", colliding({{0, 1 << 30}, {0, 1}, {}})},
+      {"forge-pair-of-one", colliding({{1, 1}, {0, 1}, {}})},
+      {"forge-pair-twice", colliding({{0, 1}, {0, 1}, {}}, 2)},
+      {"forge-pair-time", colliding({{0, 1}, {2, 3}, {}})},
+      {"forge-free-with-pairs", changed([](RunReply& r) {
+         r.run.steps[0].pairs.push_back({{0, 1}, {0, 1}, {}});
+       })},
+      {"forge-views", changed([](RunReply& r) { r.run.steps[0].signs.resize(4); })},
+      {"forge-counts", changed([](RunReply& r) { r.run.steps[0].counts.closure_rounds = 1; })},
+      {"forge-bool",
+       [](RunReply r) {
+         std::string bytes = encode(r);
+         // Behind two numbers, an end, an empty text, the number of steps and an answer: whether
+         // the first step has a problem.
+         constexpr std::size_t place = 8 + 8 + 1 + 8 + 8 + 1;
+         bytes[place] = 2;
+         return bytes;
+       }},
+      {"forge-count-of-steps",
+       [](RunReply r) {
+         std::string bytes = encode(r);
+         const std::uint64_t many = std::uint64_t{1} << 60;
+         std::memcpy(bytes.data() + 25, &many, sizeof many);
+         return bytes;
+       }},
+      {"forge-garbage", [](RunReply) { return std::string(4096, '\x5a'); }},
+      {"forge-nothing", [](RunReply) { return std::string(); }},
+      {"forge-lies", changed([](RunReply&) {})},  // legal, and judged as answers are
+  };
+  return all;
+}
+
+[[noreturn]] void forge(const Forgery& forgery, const std::string& mode) {
+  const int descriptor = find_channel();
+  Channel channel(descriptor);
+  Hello hello;
+  hello.wire_version = wire_version();
+  hello.description = {"forger", mode, {}, {}};
+  auto& c = hello.description.claims;
+  c = {true, true, true, true, true, true, true, true};
+  channel.send(encode(hello));
+  std::string message;
+  while (channel.receive(message) == Transfer::done) {
+    RunRequest request;
+    if (!decode(message, request)) break;
+    for (std::uint64_t i = 0; i < request.configurations.size(); ++i) {
+      channel.send(forgery(all_free(request, i)));
+    }
+  }
+  _exit(0);
+}
+
+[[noreturn]] void forge_length() {
+  const std::uint64_t length = std::uint64_t{1} << 60;
+  if (send(find_channel(), &length, sizeof length, MSG_NOSIGNAL) < 0) _exit(1);
+  for (;;) pause();
+}
+
+[[noreturn]] void forge_hello(const std::string& name, double margin) {
+  Channel channel(find_channel());
+  Hello hello;
+  hello.wire_version = wire_version();
+  hello.description.name = name;
+  hello.description.contract.margin = margin;
+  channel.send(encode(hello));
+  for (;;) pause();
+}
+
+// ---- Meddling: done when the first mesh is there, and again at each step.
+
+void overwrite(const std::string& file) {
+  const int d = open(file.c_str(), O_WRONLY | O_TRUNC);
+  if (d >= 0 && write(d, "forged", 6) == 6) close(d);
+}
+
+// A process that nobody waits for, which goes on when the plug-in is gone.
+void daemon_that(const std::function<void()>& action) {
+  if (fork() != 0) return;
+  setsid();
+  if (fork() != 0) _exit(0);
+  for (int d = 3; d < 1024; ++d) close(d);
+  for (int i = 0; i < 300; ++i) {
+    action();
+    usleep(10'000);
+  }
+  _exit(0);
+}
+
+pid_t bystander() { return static_cast<pid_t>(std::atoi(variable("ASSAY_BYSTANDER").c_str())); }
+
+const std::map<std::string, std::function<void()>>& deeds() {
+  static const std::string victim = variable("ASSAY_VICTIM");
+  static const std::map<std::string, std::function<void()>> all = {
+      {"overwrite", [] { overwrite(victim); }},
+      {"truncate", [] { (void)!truncate(victim.c_str(), 0); }},
+      {"unlink", [] { unlink(victim.c_str()); }},
+      {"rename", [] { rename(victim.c_str(), (victim + ".gone").c_str()); }},
+      {"link", [] { (void)!link(victim.c_str(), (victim + ".too").c_str()); }},
+      {"make-beside",
+       [] {
+         overwrite(victim + ".new");
+         close(creat((victim + ".new").c_str(), 0666));
+       }},
+      {"write-own-program", [] { overwrite("/proc/self/exe"); }},
+      {"daemon", [] { daemon_that([] { overwrite(victim); }); }},
+      {"kill-bystander", [] { kill(bystander(), SIGKILL); }},
+      {"kill-parents",
+       [] {
+         for (pid_t p : {getppid(), bystander()})
+           if (p > 1) kill(p, SIGKILL);
+       }},
+      {"stop-bystander", [] { kill(bystander(), SIGSTOP); }},
+      {"queue-bystander", [] { sigqueue(bystander(), SIGKILL, {}); }},
+      {"trace-bystander", [] { ptrace(PTRACE_ATTACH, bystander(), nullptr, nullptr); }},
+      {"write-bystander",
+       [] {
+         static int word = 0;
+         iovec from = {&word, sizeof word}, to = {reinterpret_cast<void*>(0x400000), sizeof word};
+         process_vm_writev(bystander(), &from, 1, &to, 1, 0);
+       }},
+      {"memory-of-bystander", [] { overwrite("/proc/" + std::to_string(bystander()) + "/mem"); }},
+      {"memory-of-parent", [] { overwrite("/proc/" + std::to_string(getppid()) + "/mem"); }},
+      {"descriptors",
+       [] {
+         for (int d = 3; d < 1024; ++d) (void)!write(d, "garbage!garbage!garbage!", 24);
+       }},
+      {"close-descriptors",
+       [] {
+         for (int d = 3; d < 1024; ++d) close(d);
+       }},
+      {"descriptors-of-parent",
+       [] {
+         for (int d = 3; d < 16; ++d) {
+           overwrite("/proc/" + std::to_string(getppid()) + "/fd/" + std::to_string(d));
+         }
+       }},
+      {"many-processes",
+       [] {
+         for (int i = 0; i < 2000; ++i)
+           if (fork() == 0) {
+             pause();
+             _exit(0);
+           }
+       }},
+      {"socket",
+       [] {
+         sockaddr_un name = {AF_UNIX, "/run/systemd/private"};
+         const int d = socket(AF_UNIX, SOCK_STREAM, 0);
+         if (d >= 0) (void)!connect(d, reinterpret_cast<sockaddr*>(&name), sizeof name);
+       }},
+      {"terminal",
+       [] {
+         overwrite("/dev/tty");
+         (void)!write(1, "\033[2Jcertified\n", 14);
+         (void)!write(2, "certified\n", 10);
+       }},
+      {"new-user",
+       [] {
+         (void)!setuid(0);
+         (void)!setgid(0);
+       }},
+      {"stop-itself", [] { raise(SIGSTOP); }},
+      {"kill-itself", [] { raise(SIGKILL); }},
+      {"deep-stack",
+       [] {
+         const std::function<int(int)> down = [&](int n) {
+           volatile char room[4096] = {};
+           return room[0] + down(n + 1);
+         };
+         down(0);
+       }},
+      {"all-memory",
+       [] {
+         for (;;) {
+           void* p = malloc(1 << 26);
+           if (!p) _exit(3);
+           memset(p, 1, 1 << 26);
+         }
+       }},
+  };
+  return all;
+}
+
+// ---- Calls that never return, or end the process.
+
+void at(const char* call) {
+  const std::string mode = variable("ASSAY_HOSTILE");
+  if (mode == std::string("hang-at-") + call)
+    for (;;) pause();
+  if (mode == std::string("exit-at-") + call) _exit(0);
+}
+
+void meddle() {
+  const auto deed = deeds().find(variable("ASSAY_HOSTILE"));
+  if (deed != deeds().end()) deed->second();
+}
+
+const assay_description* describe() {
+  at("describe");
+  static const assay_description description = {
+      "hostile", "1", (1u << 8) - 1, ASSAY_ADJACENCY_ALL, ASSAY_COORDINATES_FLOAT64, 0};
+  return &description;
+}
+std::int32_t create(const std::int32_t*, std::uint64_t, const double*, std::uint64_t,
+                    assay_handle** handle, const char**) {
+  at("create");
+  meddle();
+  static assay_handle one;
+  *handle = &one;
+  return ASSAY_OK;
+}
+std::int32_t evaluate(assay_handle*, const double*, const double*) {
+  at("evaluate");
+  return ASSAY_OK;
+}
+std::int32_t commit(assay_handle*) {
+  at("commit");
+  return ASSAY_OK;
+}
+std::int32_t result(assay_handle*, assay_result* result) {
+  at("result");
+  result->answer = ASSAY_FREE;
+  return ASSAY_OK;
+}
+void destroy(assay_handle*) { at("destroy"); }
+
+}  // namespace
+
+const assay_detector_api* assay_detector() {
+  at("load");
+  const std::string mode = variable("ASSAY_HOSTILE");
+  const auto forgery = forgeries().find(mode);
+  if (forgery != forgeries().end()) forge(forgery->second, mode);
+  if (mode == "forge-length") forge_length();
+  if (mode == "forge-name") forge_hello("a\nb", 0);
+  if (mode == "forge-margin") forge_hello("x", std::numeric_limits<double>::infinity());
+  static const assay_detector_api api = {
+      ASSAY_DETECTOR_ABI_VERSION, describe, create, evaluate, commit, result, destroy};
+  return &api;
+}

@@ -1,0 +1,223 @@
+// A plug-in that answers nothing and tries everything: no reply of its is a run that holds, and
+// what is not its own stays as it is.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "properties/worker/worker_process.h"
+#include "tests/properties/worker/worker_cases.h"
+
+namespace assay::properties {
+namespace {
+
+using test::plugin;
+using test::plugin_alone;
+using test::small_case;
+
+// A process that is not the plug-in's, and sleeps.
+class Bystander {
+ public:
+  Bystander() : id_(fork()) {
+    if (id_ != 0) return;
+    for (;;) pause();
+  }
+  ~Bystander() {
+    kill(id_, SIGKILL);
+    waitpid(id_, nullptr, 0);
+  }
+  pid_t id() const { return id_; }
+  bool sleeps() const {
+    std::ifstream status("/proc/" + std::to_string(id_) + "/stat");
+    std::string text(std::istreambuf_iterator<char>(status), {});
+    return text.find(") S ") != std::string::npos;
+  }
+
+ private:
+  pid_t id_;
+};
+
+// All that a deed could harm, as the plug-in finds it in its variables.
+class Hostile : public testing::Test {
+ protected:
+  Hostile() {
+    std::string name = (std::filesystem::temp_directory_path() / "assay-victim-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    std::ofstream(victim()) << words;
+    setenv("ASSAY_VICTIM", victim().c_str(), 1);
+    setenv("ASSAY_BYSTANDER", std::to_string(bystander_.id()).c_str(), 1);
+  }
+  ~Hostile() override { std::filesystem::remove_all(folder_); }
+
+  std::string victim() const { return (folder_ / "victim").string(); }
+
+  CaseRun run(const std::string& mode, IsolationMode isolation = IsolationMode::best) {
+    setenv("ASSAY_HOSTILE", mode.c_str(), 1);
+    constexpr double seconds = .2;
+    constexpr std::uint64_t bytes = std::uint64_t{1} << 31;
+    WorkerProcess worker(ASSAY_WORKER, plugin("hostile"), {seconds, bytes, isolation});
+    return worker.run(small_case(31, 0), plugin_alone)[0];
+  }
+
+  void expect_all_is_well(const std::string& mode) {
+    std::ifstream file(victim());
+    const std::string now(std::istreambuf_iterator<char>(file), {});
+    EXPECT_EQ(now, words) << mode;
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1) << mode;
+    EXPECT_TRUE(bystander_.sleeps()) << mode;
+  }
+
+ private:
+  static constexpr const char* words = "not the plug-in's";
+  Bystander bystander_;
+  std::filesystem::path folder_;
+};
+
+TEST_F(Hostile, ForgedRepliesAreCrashes) {
+  for (const auto& [mode, rule] : std::map<std::string, std::string>{
+           {"forge-no-steps", "0 results for 1 steps"},
+           {"forge-more-steps", "9 results for 1 steps"},
+           {"forge-not-run", "that it not run, which only the host can say"},
+           {"forge-hung", "that it hung, which only the host can say"},
+           {"forge-crashed", "that it crashed, which only the host can say"},
+           {"forge-refused-with-steps", "steps of a case that was not run"},
+           {"forge-end", "bytes that are none"},
+           {"forge-answer", "bytes that are none"},
+           {"forge-number", "to another request"},
+           {"forge-place", "to another request"},
+           {"forge-text", "a text that is no line"},
+           {"forge-long-text", "longer than any reply to this case"},
+           {"forge-no-interval", "a first time that is no interval in [0, 1]"},
+           {"forge-pair-beyond", "a pair that is none of the mesh"},
+           {"forge-pair-of-one", "a pair that is none of the mesh"},
+           {"forge-pair-twice", "pairs that do not ascend"},
+           {"forge-pair-time", "a pair that is none of the mesh"},
+           {"forge-free-with-pairs", "pairs beside the answer free"},
+           {"forge-views", "views, which no plug-in has"},
+           {"forge-counts", "counts or times, which the host measures"},
+           {"forge-bool", "bytes that are none"},
+           {"forge-count-of-steps", "bytes that are none"},
+           {"forge-garbage", "bytes that are none"},
+           {"forge-nothing", "bytes that are none"},
+       }) {
+    const auto run = this->run(mode);
+    EXPECT_EQ(run.end, RunEnd::crashed) << mode;
+    EXPECT_EQ(run.what, "sent a reply that is none: " + rule) << mode;
+    EXPECT_TRUE(run.steps.empty()) << mode;
+  }
+}
+
+TEST_F(Hostile, ForgedDescriptionsAreNamed) {
+  for (const auto& [mode, rule] :
+       std::map<std::string, std::string>{{"forge-name", "a name that is no line"},
+                                          {"forge-margin", "a margin that is no length"},
+                                          {"forge-length", "no description"}}) {
+    setenv("ASSAY_HOSTILE", mode.c_str(), 1);
+    WorkerProcess worker(ASSAY_WORKER, plugin("hostile"), {.seconds = .2});
+    const auto described = worker.describe();
+    ASSERT_FALSE(described) << mode;
+    EXPECT_EQ(described.error().kind, ProblemKind::broken_reply) << mode;
+    EXPECT_NE(described.error().message.find(rule), std::string::npos) << described.error().message;
+  }
+}
+
+TEST_F(Hostile, WhatIsLegalIsAnAnswer) {
+  const auto run = this->run("forge-lies");
+  EXPECT_EQ(run.end, RunEnd::completed) << run.what;
+  ASSERT_EQ(run.steps.size(), 1u);
+  EXPECT_EQ(run.steps[0].answer, detector::Answer::free);
+}
+
+TEST_F(Hostile, DeedsHarmNothing) {
+  for (const char* mode : {"overwrite",
+                           "truncate",
+                           "unlink",
+                           "rename",
+                           "link",
+                           "make-beside",
+                           "write-own-program",
+                           "daemon",
+                           "kill-bystander",
+                           "kill-parents",
+                           "stop-bystander",
+                           "queue-bystander",
+                           "trace-bystander",
+                           "write-bystander",
+                           "memory-of-bystander",
+                           "memory-of-parent",
+                           "descriptors",
+                           "close-descriptors",
+                           "descriptors-of-parent",
+                           "many-processes",
+                           "socket",
+                           "terminal",
+                           "new-user",
+                           "kill-itself",
+                           "deep-stack",
+                           "all-memory"}) {
+    const auto run = this->run(mode);
+    EXPECT_NE(run.end, RunEnd::not_run) << mode << ": " << run.what;
+    expect_all_is_well(mode);
+  }
+}
+
+TEST_F(Hostile, NothingThatItStartedOutlivesIt) {
+  const auto processes = [] {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      std::ifstream file(entry.path() / "cmdline");
+      std::string line;
+      std::getline(file, line);  // one that has ended by now has none
+      if (line.find("assay-worker") != std::string::npos &&
+          line.find("plugin_hostile") != std::string::npos)
+        names.insert(entry.path().filename());
+    }
+    return names;
+  };
+  for (const char* mode : {"daemon", "many-processes"}) {
+    run(mode);
+    // The system takes a moment to end some hundred of them.
+    for (int i = 0; i < 100 && !processes().empty(); ++i) usleep(50'000);
+    EXPECT_TRUE(processes().empty()) << mode;
+    expect_all_is_well(mode);
+  }
+}
+
+TEST_F(Hostile, WhatNeverReturnsHangsAndWhatEndsCrashes) {
+  for (const char* call : {"create", "evaluate", "result", "destroy"}) {
+    EXPECT_EQ(run(std::string("hang-at-") + call).end, RunEnd::hung) << call;
+    EXPECT_EQ(run(std::string("exit-at-") + call).end, RunEnd::crashed) << call;
+  }
+  for (const char* call : {"load", "describe"}) {
+    EXPECT_EQ(run(std::string("hang-at-") + call).end, RunEnd::not_run) << call;
+    EXPECT_EQ(run(std::string("exit-at-") + call).end, RunEnd::not_run) << call;
+  }
+}
+
+TEST_F(Hostile, TheIsolationIsSaid) {
+  setenv("ASSAY_HOSTILE", "", 1);
+  for (const auto mode : {IsolationMode::none, IsolationMode::best}) {
+    WorkerProcess worker(ASSAY_WORKER, plugin("hostile"), {.isolation = mode});
+    ASSERT_TRUE(worker.describe());
+    std::printf("%s: %s\n", name_of(mode), text_of(worker.isolation()).c_str());
+    if (mode == IsolationMode::none) {
+      EXPECT_EQ(text_of(worker.isolation()), "none");
+    }
+  }
+  WorkerProcess whole(ASSAY_WORKER, plugin("hostile"), {.isolation = IsolationMode::required});
+  const auto described = whole.describe();
+  if (described) {
+    EXPECT_EQ(text_of(whole.isolation()), "full");
+  } else {
+    EXPECT_EQ(described.error().kind, ProblemKind::not_isolated);
+  }
+}
+
+}  // namespace
+}  // namespace assay::properties
