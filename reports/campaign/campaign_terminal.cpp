@@ -70,8 +70,8 @@ class CampaignTerminal : public properties::CampaignObserver {
 
   void on_failures_shrunk(const properties::KeptFailures& kept) override {
     progress_.reset();
-    const auto failures =
-        write_failures(kept, out_, {request_.plugin ? request_.plugin->string() : "", request_.isolation});
+    const auto failures = write_failures(
+        kept, out_, {request_.plugin ? request_.plugin->string() : "", request_.isolation});
     fmt::print("{}", failures.text);
     std::fflush(stdout);
     written_ = failures.written;

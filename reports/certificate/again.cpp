@@ -62,7 +62,8 @@ Expected<properties::TrialsAgain> run_certified_again(
   request.seed = run.seed;
   request.jobs = asked.jobs;
   request.worker = properties::worker_program();
-  if (auto chosen = choose_detector({library.value(), asked.detector.isolation}, request); !chosen) return chosen.error();
+  if (auto chosen = choose_detector({library.value(), asked.detector.isolation}, request); !chosen)
+    return chosen.error();
   const auto ours = properties::read_binding(properties::binding_of(request), folder);
   if (!ours) return Refusal(ours.error());
   const auto difference = difference_of_builds(run, ours.value());

@@ -1,4 +1,5 @@
-// Closest points of segments and triangles, for pictures: in plain doubles, no verdict rests on it.
+// Closest points of segments and triangles, for pictures: in plain doubles of any size, no verdict
+// rests on it.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +9,7 @@ namespace assay::reports {
 
 struct NearestPoints {
   Eigen::Vector3d a, b;  // one on each
-  double distance() const { return (a - b).norm(); }
+  double distance() const { return (a - b).stableNorm(); }
   Eigen::Vector3d middle() const { return 0.5 * (a + b); }
 };
 

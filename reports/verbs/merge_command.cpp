@@ -49,7 +49,8 @@ int run_merge(const MergeRequest& request) {
   const auto planned = findings.planned(), trials = findings.tally.trials();
   fmt::print("{} stores of campaign {}, seed {}: {} of {} trials; writes {}\n",
              stores.value().size(), run.plan.name, run.seed, trials, planned, out.string());
-  const auto failures = write_failures(kept.value(), request.out, {findings.library, properties::IsolationMode::best});
+  const auto failures = write_failures(kept.value(), request.out,
+                                       {findings.library, properties::IsolationMode::best});
   fmt::print("{}", failures.text);
   if (!failures.written) return refuse(failures.written.error());
   const auto judgement = judge(findings, properties::asked_of_a_run());
