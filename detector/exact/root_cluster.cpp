@@ -37,7 +37,7 @@ namespace {
 constexpr int first_log_cells = 4;
 
 // The times lo to lo + 2^log_width, or a root at lo.
-struct Part {
+struct ClusterPart {
   Dyadic lo;
   int log_width = 0;
   Polynomial f;  // over the part; zero for a root
@@ -60,7 +60,7 @@ class GapIsolation {
     add({lo, log_width, f.over(lo, hi), {}, first_log_cells});
     const std::size_t before = found_.size();
     while (!open_.empty() && (wanted_ == Roots::all || found_.size() == before)) {
-      Part part = std::move(open_.back());
+      ClusterPart part = std::move(open_.back());
       open_.pop_back();
       if (part.f.is_zero()) {
         found_.push_back({part.lo, part.lo, gap_, 0});
@@ -75,7 +75,7 @@ class GapIsolation {
   }
 
  private:
-  void narrow(const Part& part) {
+  void narrow(const ClusterPart& part) {
     for (int log_cells = part.log_cells; log_cells > 1; log_cells /= 2) {
       std::optional<Integer> tried;
       for (const bool from_end : {false, true}) {
@@ -93,7 +93,8 @@ class GapIsolation {
 
   // The boundary between cells that is nearest to the guess from one end of the part; nothing
   // outside of the part. From the end 1 the step goes back by n f(1)/f'(1).
-  static std::optional<Integer> guessed_cell(const Part& part, int log_cells, bool from_end) {
+  static std::optional<Integer> guessed_cell(const ClusterPart& part, int log_cells,
+                                             bool from_end) {
     const Polynomial& f = part.f;
     Integer value = f[0], slope = f[1];
     if (from_end) {
@@ -111,7 +112,7 @@ class GapIsolation {
   }
 
   // To the two cells around the guess, where all roots of the part are there.
-  bool narrow_to(const Part& part, const Integer& guess, int log_cells) {
+  bool narrow_to(const ClusterPart& part, const Integer& guess, int log_cells) {
     const Integer last = (Integer(1) << static_cast<unsigned>(log_cells)) - 2;
     Integer first = guess - 1;
     if (first.sign() < 0) first = 0;
@@ -126,21 +127,21 @@ class GapIsolation {
   }
 
   // `begin` and `end` in shares of the part.
-  void add_sub_part(const Part& part, const Dyadic& begin, const Dyadic& end, int log_width,
+  void add_sub_part(const ClusterPart& part, const Dyadic& begin, const Dyadic& end, int log_width,
                     int log_cells) {
     add({place(part, begin), log_width, part.f.over(begin, end), {}, log_cells});
   }
 
   // If there is one.
-  void add_root(const Part& part, const Dyadic& at) {
+  void add_root(const ClusterPart& part, const Dyadic& at) {
     if (part.f.sign_at(at) == 0) open_.push_back({place(part, at), 0, {}, {}, 0});
   }
 
-  static Dyadic place(const Part& part, const Dyadic& share) {
+  static Dyadic place(const ClusterPart& part, const Dyadic& share) {
     return part.lo + Dyadic{share.mantissa, share.exponent + part.log_width};
   }
 
-  void add(Part part) {
+  void add(ClusterPart part) {
     ++counted_;
     part.changes = sign_changes_over_unit(part.f);
     open_.push_back(std::move(part));
@@ -154,7 +155,7 @@ class GapIsolation {
   TimeEnclosure gap_;
   Roots wanted_;
   std::vector<IsolatedRoot>& found_;
-  std::vector<Part> open_;  // the first one is last
+  std::vector<ClusterPart> open_;  // the first one is last
   int counted_ = 0;
 };
 
