@@ -17,6 +17,6 @@ namespace assay::detector {
 
 // As Detector::create, with these stages. Errors are the same.
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
-                            const Options& options, Stages stages);
+                            const Options& options, Stages stages, const StopFunction& stop = {});
 
 }  // namespace assay::detector

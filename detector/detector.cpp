@@ -2,6 +2,7 @@
 
 #include "detector/assembly.h"
 #include "detector/mesh/mesh_checks.h"
+#include "detector/mesh/paced_stop.h"
 #include "detector/state/state_bytes.h"
 #include "detector/step/step.h"
 
@@ -9,10 +10,20 @@ namespace assay::detector {
 
 namespace {
 
+// A search takes 0.1 ms and more, however small the component. Where components are many and small,
+// as in a soup of triangles, that is more than their steps take: such are not searched for a place,
+// so that the searches take at most 6 us a triangle beside what large components take.
+Effort effort_for(const Component& component, const Topology& mesh) {
+  constexpr std::size_t few_components = 64, triangles_a_search = 16, small = 64;
+  const bool too_many =
+      mesh.components.size() > few_components + mesh.triangles.size() / triangles_a_search;
+  return too_many && component.triangles.size() < small ? Effort::least : Effort::thorough;
+}
+
 // From where all of S at rest is seen best, ghosts included.
 std::vector<ViewAnchor> place_anchors(const Surface& surface,
                                       const std::vector<ApexRule>& apex_rules, Culling culling,
-                                      const PositionsView& positions) {
+                                      const PositionsView& positions, PacedStop& pace) {
   std::vector<MovingPoint> apexes;
   for (std::size_t l = 0; l < surface.loops.size(); ++l) {
     const Point apex = place_apex(apex_rules[l], surface.loops[l], positions);
@@ -21,11 +32,16 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
   const Positions x = with_apexes(positions, apexes, false);
   std::vector<ViewAnchor> anchors;
   for (const auto& component : surface.all().components) {
-    anchors.push_back(
-        culling == Culling::view_auto
-            ? choose_view_anchor(surface.all(), component, surface.first_apex, x)
-            : make_view_anchor(culling == Culling::view_line ? ViewKind::line : ViewKind::point,
-                               surface.all(), component, surface.first_apex, x));
+    const Effort effort = effort_for(component, surface.mesh);
+    if (pace.after(effort == Effort::least ? 400 : 20'000)) break;
+    if (culling == Culling::view_auto) {
+      anchors.push_back(
+          choose_view_anchor(surface.all(), component, surface.first_apex, x, effort, &pace));
+    } else {
+      const ViewKind kind = culling == Culling::view_line ? ViewKind::line : ViewKind::point;
+      anchors.push_back(
+          make_view_anchor(kind, surface.all(), component, surface.first_apex, x, effort, &pace));
+    }
   }
   return anchors;
 }
@@ -62,23 +78,40 @@ Expected<Detector> Detector::create(const TrianglesView& triangles, const Positi
   return assemble(triangles, positions, options, standard_stages(options));
 }
 
+Expected<Detector> Detector::create(const TrianglesView& triangles, const PositionsView& positions,
+                                    const Options& options, const StopFunction& stop) {
+  return assemble(triangles, positions, options, standard_stages(options), stop);
+}
+
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
-                            const Options& options, Stages stages) {
+                            const Options& options, Stages stages, const StopFunction& stop) {
   if (auto problem = check_triangles(triangles, positions.rows())) return std::move(*problem);
   if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
+  PacedStop pace(stop);
+  // Once it has said so it is not asked again.
+  const StopFunction paced = [&] { return pace.now(); };
+  const auto stopped = [] {
+    return Problem{InputError::stopped, "stopped while the detector was created"};
+  };
+  if (pace.now()) return stopped();
   Surface surface = stages.boundary->close_up(triangles, positions.rows());
+  if (pace.now()) return stopped();
   const bool views = uses_views(options.culling);
   // Before the tree, where no apex has to be chosen with its help: what the search for a place
   // takes is given back when the tree is built.
   std::vector<ViewAnchor> anchors;
   if (views && surface.is_closed())
-    anchors = place_anchors(surface, {}, options.culling, positions);
-  BoundingVolumeTree tree(surface.mesh, positions);
+    anchors = place_anchors(surface, {}, options.culling, positions, pace);
+  if (pace.stopped()) return stopped();
+  BoundingVolumeTree tree(surface.mesh, positions, paced);
+  if (pace.now()) return stopped();
   std::vector<ApexRule> rules;
   if (views && !surface.is_closed()) {
-    rules = stages.boundary->choose_apexes(surface, tree, positions, *stages.elementary);
-    anchors = place_anchors(surface, rules, options.culling, positions);
+    rules = stages.boundary->choose_apexes(surface, tree, positions, *stages.elementary, paced);
+    if (pace.stopped()) return stopped();
+    anchors = place_anchors(surface, rules, options.culling, positions, pace);
   }
+  if (pace.now()) return stopped();
   SearchMemory search(surface.mesh, tree);
   search.kept = stages.pair_search->prepare(surface.mesh, tree);
   StepContext context{options,           std::move(stages),  std::move(surface), std::move(tree),

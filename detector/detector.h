@@ -51,10 +51,14 @@ class SavedState {
 class Detector {
  public:
   // Errors: those of check_triangles and check_positions. `positions` shape the tree and the view
-  // anchors (preprocessing, O(M log M)); any positions of the mesh will do, the first frame is
-  // best.
+  // anchors and apexes (preprocessing, O((M + ghosts) log M)); any positions of the mesh will do,
+  // the first frame is best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
+  // The same, and `stop` ends it: error stopped. Asked after every few milliseconds of work, but for
+  // the adjacency of the mesh and its checks, 0.5 us a triangle, of which it is asked in between.
+  static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
+                                   const Options& options, const StopFunction& stop);
   Detector(Detector&&) noexcept;
   Detector& operator=(Detector&&) noexcept;
   ~Detector();
@@ -96,7 +100,7 @@ class Detector {
   struct Parts;
   explicit Detector(std::unique_ptr<Parts> parts);
   friend Expected<Detector> assemble(const TrianglesView&, const PositionsView&, const Options&,
-                                     Stages);
+                                     Stages, const StopFunction&);
   std::unique_ptr<Parts> parts_;
 };
 

@@ -72,4 +72,14 @@ Point place_apex(const ApexRule& rule, const Loop& loop, const PositionsView& x)
   return apex;
 }
 
+Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& apexes, bool at_end) {
+  Positions all(x.rows() + static_cast<Eigen::Index>(apexes.size()), 3);
+  all.topRows(x.rows()) = x;
+  for (std::size_t l = 0; l < apexes.size(); ++l) {
+    const Point& p = at_end ? apexes[l].t1 : apexes[l].t0;
+    all.row(x.rows() + static_cast<Eigen::Index>(l)) << p[0], p[1], p[2];
+  }
+  return all;
+}
+
 }  // namespace assay::detector

@@ -23,4 +23,7 @@ inline constexpr std::array<ApexRule, 5> apex_rules = {{{0.0}, {0.25}, {-0.25}, 
 // the mean normal vanishes or overflows. Finite for finite positions.
 Point place_apex(const ApexRule& rule, const Loop& loop, const PositionsView& x);
 
+// x, and below it the apexes' places at t=0 or t=1.
+Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& apexes, bool at_end);
+
 }  // namespace assay::detector

@@ -1,19 +1,10 @@
 #include "detector/boundary/boundary_handler.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "detector/boundary/apex_choice.h"
 
 namespace assay::detector {
-
-Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& apexes, bool at_end) {
-  Positions all(x.rows() + static_cast<Eigen::Index>(apexes.size()), 3);
-  all.topRows(x.rows()) = x;
-  for (std::size_t l = 0; l < apexes.size(); ++l) {
-    const Point& p = at_end ? apexes[l].t1 : apexes[l].t0;
-    all.row(x.rows() + static_cast<Eigen::Index>(l)) << p[0], p[1], p[2];
-  }
-  return all;
-}
 
 Surface BoundaryHandler::close_up(const TrianglesView& triangles, Eigen::Index vertex_count) const {
   return make_surface(triangles, vertex_count);
@@ -22,34 +13,11 @@ Surface BoundaryHandler::close_up(const TrianglesView& triangles, Eigen::Index v
 std::vector<ApexRule> BoundaryHandler::choose_apexes(const Surface& surface,
                                                      BoundingVolumeTree& tree,
                                                      const PositionsView& x,
-                                                     const ElementaryTest& elementary) const {
-  std::vector<ApexRule> chosen(surface.loops.size(), apex_rules[0]);
-  if (surface.is_closed()) return chosen;
+                                                     const ElementaryTest& elementary,
+                                                     const StopFunction& stop) const {
+  if (surface.is_closed()) return {};
   tree.refit(surface.mesh, x, x);
-  auto ghost = static_cast<std::int32_t>(surface.mesh.triangles.size());
-  for (std::size_t l = 0; l < surface.loops.size(); ++l) {
-    const auto end = ghost + static_cast<std::int32_t>(surface.loops[l].size());
-    std::ptrdiff_t fewest = -1;
-    for (const auto& rule : apex_rules) {
-      // The apexes of other loops are not looked at.
-      std::vector<MovingPoint> apexes(surface.loops.size());
-      const Point apex = place_apex(rule, surface.loops[l], x);
-      apexes[l] = {apex, apex};
-      const Positions all = with_apexes(x, apexes, false);
-      std::vector<std::uint8_t> touched(surface.mesh.triangles.size(), 0);
-      GhostCounts counts;
-      const GhostSweep still{surface, tree, all, all, elementary, true};
-      for (auto g = ghost; g < end; ++g) sweep_ghost(still, g, touched, counts);
-      const auto count = std::count(touched.begin(), touched.end(), 1);
-      if (fewest < 0 || count < fewest) {
-        fewest = count;
-        chosen[l] = rule;
-      }
-      if (fewest == 0) break;
-    }
-    ghost = end;
-  }
-  return chosen;
+  return ApexChoice(surface, tree, x, elementary, stop).run().rules;
 }
 
 std::vector<MovingPoint> BoundaryHandler::place_apexes(const Surface& surface,

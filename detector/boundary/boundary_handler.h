@@ -13,11 +13,12 @@ class BoundaryHandler {
 
   virtual Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count) const;
 
-  // The rule of each loop, for the life of a detector: the one whose ghosts touch fewest triangles
-  // at x (ties: first of apex_rules). Five static sweeps.
+  // The rule of each loop, for the life of a detector: one whose ghosts touch few triangles at x
+  // (apex_choice.h). Of no use where `stop` asked for an end.
   virtual std::vector<ApexRule> choose_apexes(const Surface& surface, BoundingVolumeTree& tree,
                                               const PositionsView& x,
-                                              const ElementaryTest& elementary) const;
+                                              const ElementaryTest& elementary,
+                                              const StopFunction& stop = {}) const;
 
   // The apexes' places over a step, one a loop: at each end a function of that frame alone, so an
   // apex is where the last step left it.
@@ -35,8 +36,5 @@ class BoundaryHandler {
  private:
   GhostTest test_;
 };
-
-// x, and below it the apexes' places at t=0 or t=1.
-Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& apexes, bool at_end);
 
 }  // namespace assay::detector

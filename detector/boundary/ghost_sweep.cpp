@@ -1,7 +1,53 @@
 #include "detector/boundary/ghost_sweep.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace assay::detector {
 namespace {
+
+// The plane of a ghost at rest, in the coordinates of the tree's grid: these are brought near 1 and
+// rounded to floats, by at most 2^-24 of the greatest of them.
+class GhostPlane {
+ public:
+  GhostPlane() = default;
+  explicit GhostPlane(const std::array<FloatLanes, 3>& corners) {
+    Point size;  // at most what a coordinate is, of the ghost or of what the tree holds
+    std::array<Point, 2> sides;
+    for (std::size_t k = 0; k < 3; ++k) {
+      size[k] = 2;
+      for (const auto& corner : corners) size[k] = std::max<double>(size[k], std::abs(corner[k]));
+      for (std::size_t i = 0; i < 2; ++i) sides[i][k] = double(corners[i + 1][k]) - corners[0][k];
+    }
+    // A coordinate is wrong by 2^-24 size, a side and an offset of 2 size at most by twice that;
+    // the products of doubles by far less. Twice the bound, for what is of second order.
+    constexpr double wrong = 0x1p-22;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t m = (k + 1) % 3, n = (k + 2) % 3;
+      normal_[k] = sides[0][m] * sides[1][n] - sides[0][n] * sides[1][m];
+      offset_ += normal_[k] * corners[0][k];
+      const double of_normal = wrong * ((std::abs(sides[0][m]) + std::abs(sides[1][m])) * size[n] +
+                                        (std::abs(sides[0][n]) + std::abs(sides[1][n])) * size[m]);
+      slack_ += of_normal * 2 * size[k] + std::abs(normal_[k]) * wrong * size[k];
+    }
+  }
+
+  // All of the box lies on one side: strictly, or so that it may touch the plane.
+  bool misses(const MovingBox& box, bool grazing) const {
+    double middle = -offset_, reach = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double lo = box.lo_t0[k], hi = box.hi_t0[k];
+      middle += normal_[k] * (lo + hi) / 2;
+      reach += std::abs(normal_[k]) * (hi - lo) / 2;
+    }
+    if (grazing) return reach > 2 * slack_ && std::abs(middle) >= reach - slack_;
+    return std::abs(middle) > reach + slack_;
+  }
+
+ private:
+  Point normal_ = {0, 0, 0};
+  double offset_ = 0, slack_ = 0;
+};
 
 class HoleSweep {
  public:
@@ -15,20 +61,30 @@ class HoleSweep {
         stop_(stop),
         touched_(touched),
         counts_(counts),
-        faces_(sweep.x_t0, sweep.x_t1, sweep.elementary, sweep.piercing_at_start) {}
+        faces_(sweep.x_t0, sweep.x_t1, sweep.elementary, sweep.piercing_at_start) {
+    plan_asking();
+  }
 
   bool run() {
-    descend(HoleTree::root, BoundingVolumeTree::root);
+    descend(HoleTree::root, tree_.root_of(component_));
     return !stopped_;
   }
 
  private:
   // Both are split at once, so that their boxes stay of like size.
   void descend(std::size_t of_hole, std::int32_t node) {
-    const auto component = tree_.component(node);
-    if (stopped_ || (component != component_ && component != mixed_components)) return;
+    if (stopped_) return;
+    ++counts_.box_tests;
+    if (counts_.work() >= next_asking_) ask();
     if (apart(hole_.box(of_hole), tree_.box(node))) return;
-    const bool splits_hole = !hole_.is_leaf(of_hole), splits_tree = !tree_.is_leaf(node);
+    const bool splits_hole = !hole_.is_leaf(of_hole);
+    // By planes ghost by ghost: a fan's ghosts have a side in common, no two of them a plane.
+    const bool splits_tree =
+        !tree_.is_leaf(node) && !(sweep_.by_planes != ByPlanes::no && splits_hole);
+    if (sweep_.by_planes != ByPlanes::no && !splits_hole) {
+      if (node == tree_.root_of(component_)) plane_ = plane_of(hole_.ghost(of_hole));
+      if (plane_.misses(tree_.box(node), sweep_.by_planes == ByPlanes::grazing)) return;
+    }
     if (!splits_hole && !splits_tree) {
       test(hole_.ghost(of_hole), tree_.triangle(node));
       return;
@@ -41,12 +97,27 @@ class HoleSweep {
   }
 
   void test(std::int32_t ghost, std::int32_t t) {
-    constexpr std::uint64_t pairs_between_stops = 256;
-    if (counts_.pairs++ % pairs_between_stops == 0 && stop_ && stop_()) stopped_ = true;
+    if (counts_.pairs++ == 0) ask();
     if (sweep_.near) (*sweep_.near)[at(t)] = 1;
     if (stopped_ || touched_[at(t)]) return;
     touched_[at(t)] = sweep_.test == GhostTest::boxes ||
                       faces_.meet(all_.triangles[at(ghost)], all_.triangles[at(t)], counts_);
+    if (touched_[at(t)] && sweep_.found) sweep_.found->push_back(t);
+  }
+
+  GhostPlane plane_of(std::int32_t ghost) const {
+    const auto& v = all_.triangles[at(ghost)];
+    const auto corner = [&](std::size_t i) { return tree_.grid()(sweep_.x_t0, v[i]); };
+    return GhostPlane({corner(0), corner(1), corner(2)});
+  }
+
+  void ask() {
+    stopped_ = stopped_ || (stop_ && stop_());
+    plan_asking();
+  }
+  // At the next multiple: sweeps of many small holes, counted together, ask no more often.
+  void plan_asking() {
+    next_asking_ = (counts_.work() / sweep_.work_between_stops + 1) * sweep_.work_between_stops;
   }
 
   const GhostSweep& sweep_;
@@ -58,6 +129,8 @@ class HoleSweep {
   std::vector<std::uint8_t>& touched_;
   GhostCounts& counts_;
   const FacePairTest faces_;
+  GhostPlane plane_;
+  std::uint64_t next_asking_ = 0;
   bool stopped_ = false;
 };
 

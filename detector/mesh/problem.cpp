@@ -28,6 +28,8 @@ const char* name_of(InputError error) {
       return "other_state_version";
     case InputError::mesh_too_large:
       return "mesh_too_large";
+    case InputError::stopped:
+      return "stopped";
   }
   return "unknown_error";
 }

@@ -21,6 +21,7 @@ enum class InputError : std::uint8_t {
   damaged_state = 10,         // bytes that are no saved state: cut, changed, of something else
   other_state_version = 11,   // bytes of a saved state in a form that this build does not read
   mesh_too_large = 12,        // more triangles or vertices than the detector's indices can number
+  stopped = 13,               // the stop function asked for an end before there was a detector
 };
 
 const char* name_of(InputError error);

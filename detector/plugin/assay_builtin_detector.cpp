@@ -15,6 +15,7 @@ static_assert(ASSAY_BUILTIN_NO_TRIANGLES == static_cast<int>(InputError::no_tria
 static_assert(ASSAY_BUILTIN_OTHER_STATE_VERSION ==
               static_cast<int>(InputError::other_state_version));
 static_assert(ASSAY_BUILTIN_MESH_TOO_LARGE == static_cast<int>(InputError::mesh_too_large));
+static_assert(ASSAY_BUILTIN_STOPPED == static_cast<int>(InputError::stopped));
 static_assert(ASSAY_CULLING_VIEW_AUTO == static_cast<int>(Culling::view_auto));
 static_assert(ASSAY_CULLING_VIEW_POINT == static_cast<int>(Culling::view_point));
 static_assert(ASSAY_CULLING_VIEW_LINE == static_cast<int>(Culling::view_line));

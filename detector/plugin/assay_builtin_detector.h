@@ -42,6 +42,7 @@ enum {
   ASSAY_BUILTIN_DAMAGED_STATE = 10,        /* no saved state, or one that was cut or changed */
   ASSAY_BUILTIN_OTHER_STATE_VERSION = 11,  /* saved in a form that this build does not read */
   ASSAY_BUILTIN_MESH_TOO_LARGE = 12,       /* more triangles or vertices than indices can number */
+  ASSAY_BUILTIN_STOPPED = 13,              /* (not met in C: create takes no stop function) */
   ASSAY_BUILTIN_WRONG_OPTIONS = 64,        /* an option has no such value; struct_size is wrong */
   ASSAY_BUILTIN_SMALL_BUFFER = 65,         /* the state takes more bytes */
   ASSAY_BUILTIN_TOO_MANY = 66,             /* more than 2^31 - 1 triangles or vertices */

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <span>
 
+#include "detector/mesh/paced_stop.h"
+
 namespace assay::detector {
 
 // Splits a range of items at the median centre and numbers the nodes.
@@ -14,9 +16,11 @@ struct BoundingVolumeTree::Builder {
   const Topology& mesh;
   std::vector<Point> triangle_centres, component_centres;
   std::vector<std::int32_t> order;  // of the triangles of one component
+  PacedStop pace;
 
-  Builder(BoundingVolumeTree& grown, const Topology& of, const PositionsView& x)
-      : tree(grown), mesh(of) {
+  Builder(BoundingVolumeTree& grown, const Topology& of, const PositionsView& x,
+          const StopFunction& stop)
+      : tree(grown), mesh(of), pace(stop) {
     triangle_centres.reserve(mesh.triangles.size());
     for (const auto& triangle : mesh.triangles) triangle_centres.push_back(centre(triangle, x));
     for (const auto& component : mesh.components) {
@@ -61,6 +65,9 @@ struct BoundingVolumeTree::Builder {
     return middle;
   }
 
+  // A split looks at each item some eight times.
+  bool has_to_end(Items items) { return pace.after(8 * items.size()); }
+
   std::int32_t add_children(std::int32_t node) {
     const auto first = static_cast<std::int32_t>(tree.child_.size());
     tree.child_[at(node)] = first;
@@ -72,11 +79,13 @@ struct BoundingVolumeTree::Builder {
 
   void grow_over_components(std::int32_t node, Items components) {
     if (components.size() == 1) {
+      tree.component_root_[at(components[0])] = node;
       order = mesh.components[at(components[0])].triangles;
       grow_over_triangles(node, order, components[0]);
       return;
     }
     tree.component_[at(node)] = mixed_components;
+    if (has_to_end(components)) return;
     const std::size_t middle = split(components, component_centres);
     const auto first = add_children(node);
     grow_over_components(first, components.first(middle));
@@ -90,6 +99,7 @@ struct BoundingVolumeTree::Builder {
       tree.leaf_[at(triangles[0])] = node;
       return;
     }
+    if (has_to_end(triangles)) return;
     const std::size_t middle = split(triangles, triangle_centres);
     const auto first = add_children(node);
     grow_over_triangles(first, triangles.first(middle), component);
@@ -97,7 +107,8 @@ struct BoundingVolumeTree::Builder {
   }
 };
 
-BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView& x) {
+BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView& x,
+                                       const StopFunction& stop) {
   const std::size_t nodes = 2 * mesh.triangles.size() - 1;
   child_.reserve(nodes);
   component_.reserve(nodes);
@@ -105,10 +116,11 @@ BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView
   child_.resize(1);
   component_.resize(1);
   leaf_.resize(mesh.triangles.size());
+  component_root_.resize(mesh.components.size());
   boxes_.resize(nodes);
   std::vector<std::int32_t> components(mesh.components.size());
   std::iota(components.begin(), components.end(), 0);
-  Builder(*this, mesh, x).grow_over_components(root, components);
+  Builder(*this, mesh, x, stop).grow_over_components(root, components);
 }
 
 MovingBox BoundingVolumeTree::box_of_triangle(const std::array<std::int32_t, 3>& corners,

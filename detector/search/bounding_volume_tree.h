@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 #include "detector/search/moving_box.h"
 
@@ -20,7 +21,8 @@ class BoundingVolumeTree {
  public:
   // Splits components, then triangles, at the median of their centres along the longest side of
   // those. A leaf holds one triangle. O(M log M).
-  BoundingVolumeTree(const Topology& mesh, const PositionsView& x);
+  // Where `stop` asks for an end the tree is of no use.
+  BoundingVolumeTree(const Topology& mesh, const PositionsView& x, const StopFunction& stop = {});
 
   static constexpr std::int32_t root = 0;
   std::size_t node_count() const { return child_.size(); }
@@ -32,6 +34,8 @@ class BoundingVolumeTree {
   std::int32_t parent(std::int32_t node) const { return parent_[at((node - 1) / 2)]; }
   // The component of all triangles below, or mixed_components.
   std::int32_t component(std::int32_t node) const { return component_[at(node)]; }
+  // The node above all triangles of a component, and no others.
+  std::int32_t root_of(std::int32_t component) const { return component_root_[at(component)]; }
 
   const FloatGrid& grid() const { return points_.grid(); }
   // Of the step of the last refit.
@@ -50,6 +54,7 @@ class BoundingVolumeTree {
   std::vector<std::int32_t> parent_;  // by pair of siblings
   std::vector<std::int32_t> leaf_;    // by triangle
   std::vector<std::int32_t> component_;
+  std::vector<std::int32_t> component_root_;  // by component
   std::vector<MovingBox> boxes_;
   RoundedPositions points_;
 };

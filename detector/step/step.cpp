@@ -101,7 +101,7 @@ class Step {
     work_.clean.assign(mesh_.triangles.size(), 0);
     work_.touched.assign(mesh_.triangles.size(), 0);
     work_.free.assign(mesh_.components.size(), 0);
-    if (looks() && (!is_auto() || auto_.glances(work_))) classify_components();
+    if (looks() && (!is_auto() || auto_.glances(work_)) && !classify_components()) return false;
     if (is_auto() && !work_.all_free() && !(work_.has_views() && auto_.promises(work_))) {
       drop_views();
       take_clean_at_start(work_, context_.options.start);
@@ -127,16 +127,19 @@ class Step {
     work_.counts.free_components = 0;
   }
 
-  void classify_components() {
+  bool classify_components() {
     Stopwatch watch(result_.times.view_test);
     work_.signs.assign(work_.surface.all().triangles.size(), ViewSign::zero);
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      context_.stages.classifier->classify(work_.surface.all(), work_.component(c), work_.x_t0,
-                                           work_.x_t1, work_.primitives[c], work_.signs,
-                                           work_.counts.view);
+      if (!context_.stages.classifier->classify(work_.surface.all(), work_.component(c), work_.x_t0,
+                                                work_.x_t1, work_.primitives[c], work_.signs,
+                                                work_.counts.view, work_.stop)) {
+        return false;
+      }
       work_.free[c] = context_.stages.release->is_free(work_, c);
       work_.counts.free_components += work_.free[c];
     }
+    return true;
   }
 
   bool find_start() {

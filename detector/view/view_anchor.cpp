@@ -11,20 +11,36 @@ namespace {
 class AnchorChoice {
  public:
   AnchorChoice(const Topology& mesh, const Component& component, Eigen::Index vertex_count,
-               const PositionsView& x, std::size_t most_planes)
-      : mesh_(mesh), component_(component), x_(x), planes_(mesh, component, x, most_planes) {
+               const PositionsView& x, std::size_t most_planes, PacedStop* pace)
+      : mesh_(mesh),
+        component_(component),
+        x_(x),
+        pace_(pace),
+        planes_(mesh, component, x, most_planes) {
     own_ = static_cast<std::size_t>(
         std::lower_bound(component.vertices.begin(), component.vertices.end(), vertex_count) -
         component.vertices.begin());
   }
 
   ViewAnchor run(ViewKind kind) {
-    const auto points = search_points(planes_);
+    const auto points = search_points(planes_, pace_);
     return kind == ViewKind::point ? best_point(points) : best_line(points);
   }
 
+  ViewAnchor without_search(ViewKind kind) const {
+    const auto own = planes_.points().first(own_);
+    Point mean = {0, 0, 0};
+    for (const auto& p : own) {
+      for (std::size_t k = 0; k < 3; ++k) mean[k] += p[k] / static_cast<double>(own_);
+    }
+    if (kind == ViewKind::point) return {ViewKind::point, {weights(mean), {}}};
+    const Point between = {(mean[0] + own[0][0]) / 2, (mean[1] + own[0][1]) / 2,
+                           (mean[2] + own[0][2]) / 2};
+    return {ViewKind::line, {weights(mean), weights(between)}};
+  }
+
   ViewAnchor run() {
-    const auto points = search_points(planes_);
+    const auto points = search_points(planes_, pace_);
     ViewAnchor point = best_point(points);
     const auto score_of_point = score_as_line(point);
     if (score_of_point == perfect()) return point;
@@ -43,7 +59,7 @@ class AnchorChoice {
   }
 
   ViewAnchor best_line(const std::vector<ScoredPoint>& points) const {
-    const auto lines = search_lines(planes_, points);
+    const auto lines = search_lines(planes_, points, pace_);
     return choose<ScoredLine>(lines, [&](const ScoredLine& s) {
       ViewAnchor anchor{ViewKind::line, {weights(s.q0), weights(s.q1)}};
       return std::pair(planes_.score(placed(anchor, 0), placed(anchor, 1)), std::move(anchor));
@@ -76,13 +92,16 @@ class AnchorChoice {
   }
 
   // The best of the first few as they are really placed; of those nearly as good, one inside.
+  // A look at each triangle and each vertex.
+  bool has_to_end() const { return pace_ && pace_->after(8 * component_.triangles.size()); }
+
   template <class Scored, class Make>
   ViewAnchor choose(const std::vector<Scored>& ranked, Make make) const {
     constexpr std::size_t most_placed = 8;
     std::vector<std::pair<std::int64_t, ViewAnchor>> placed;
     for (std::size_t i = 0; i < ranked.size() && placed.size() < most_placed; ++i) {
       placed.push_back(make(ranked[i]));
-      if (placed.back().first == ranked.front().score) break;
+      if (placed.back().first == ranked.front().score || has_to_end()) break;
     }
     std::stable_sort(placed.begin(), placed.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -90,7 +109,7 @@ class AnchorChoice {
     if (is_inside(placed[0].second)) return placed[0].second;
     constexpr std::size_t most_tested = 32;
     for (std::size_t i = 0; i < std::min(ranked.size(), most_tested); ++i) {
-      if (ranked[i].score < least) break;
+      if (ranked[i].score < least || has_to_end()) break;
       auto [score, anchor] = make(ranked[i]);
       if (score >= least && is_inside(anchor)) return anchor;
     }
@@ -104,23 +123,30 @@ class AnchorChoice {
   const Topology& mesh_;
   const Component& component_;
   const PositionsView& x_;
+  PacedStop* pace_;
   ViewPlanes planes_;
   std::size_t own_ = 0;
 };
 
+std::size_t most_planes(Effort effort, const Component& component) {
+  if (effort != Effort::quick) return ViewPlanes::most_planes;
+  return std::clamp<std::size_t>(component.triangles.size() / 8, 64, 1000);
+}
+
 }  // namespace
 
 ViewAnchor make_view_anchor(ViewKind kind, const Topology& mesh, const Component& component,
-                            Eigen::Index vertex_count, const PositionsView& x) {
-  return AnchorChoice(mesh, component, vertex_count, x, ViewPlanes::most_planes).run(kind);
+                            Eigen::Index vertex_count, const PositionsView& x, Effort effort,
+                            PacedStop* pace) {
+  AnchorChoice choice(mesh, component, vertex_count, x, most_planes(effort, component), pace);
+  return effort == Effort::least ? choice.without_search(kind) : choice.run(kind);
 }
 
 ViewAnchor choose_view_anchor(const Topology& mesh, const Component& component,
-                              Eigen::Index vertex_count, const PositionsView& x, Effort effort) {
-  const std::size_t most = effort == Effort::thorough
-                               ? ViewPlanes::most_planes
-                               : std::clamp<std::size_t>(component.triangles.size() / 8, 64, 1000);
-  return AnchorChoice(mesh, component, vertex_count, x, most).run();
+                              Eigen::Index vertex_count, const PositionsView& x, Effort effort,
+                              PacedStop* pace) {
+  AnchorChoice choice(mesh, component, vertex_count, x, most_planes(effort, component), pace);
+  return effort == Effort::least ? choice.without_search(ViewKind::point) : choice.run();
 }
 
 ViewPrimitive place_view(const ViewAnchor& anchor, const PositionsView& x_t0,

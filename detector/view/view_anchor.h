@@ -4,6 +4,7 @@
 // The primitive may be anywhere (L3 holds wherever it is); a good place only makes V+ large.
 #pragma once
 
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 #include "detector/view/affine_weights.h"
@@ -21,14 +22,17 @@ struct ViewAnchor {
 enum class Effort : std::uint8_t {
   thorough,  // at most 20,000 triangles
   quick,     // every eighth triangle, 64 to 1,000 of them
+  least,     // none: the mean of the vertices, and halfway to one of them, 2 us
 };
 
 // The best place found by search (view_search.h) for the component of `mesh` (its ghosts too) at
 // these positions. A point of winding number 1 is taken where one is found that costs at most 5 %
 // of the triangles. Uses vertices below `vertex_count` (apexes are above). A few hundred passes
-// over at most 20,000 triangles: 4 ms a thousand for a line, 1 ms for a point.
+// over at most 20,000 triangles: 4 ms a thousand for a line, 1 ms for a point. Some place, soon, once
+// `pace` says to end.
 ViewAnchor make_view_anchor(ViewKind kind, const Topology& mesh, const Component& component,
-                            Eigen::Index vertex_count, const PositionsView& x);
+                            Eigen::Index vertex_count, const PositionsView& x,
+                            Effort effort = Effort::thorough, PacedStop* pace = nullptr);
 
 // A point or a line, whichever is better. The test of a line takes about eight times as long as
 // that of a point (60 ns against 7 ns a triangle, where a step with contacts takes 1.4 us and
@@ -36,7 +40,7 @@ ViewAnchor make_view_anchor(ViewKind kind, const Topology& mesh, const Component
 // positive that the point does not, or all of them, which alone makes steps free (L5).
 ViewAnchor choose_view_anchor(const Topology& mesh, const Component& component,
                               Eigen::Index vertex_count, const PositionsView& x,
-                              Effort effort = Effort::thorough);
+                              Effort effort = Effort::thorough, PacedStop* pace = nullptr);
 
 // In double: the same bytes on every machine.
 ViewPrimitive place_view(const ViewAnchor& anchor, const PositionsView& x_t0,

@@ -12,12 +12,13 @@ class ViewClassifier {
   // Signs of the triangles of a component of `surface`, ghosts too, over the step (L1, L2), written
   // to signs[triangle]. A triangle may be called zero at the cost of time; never wrongly positive
   // or negative.
-  virtual void classify(const Topology& surface, const Component& component,
+  // False when stopped; then the signs are of no use.
+  virtual bool classify(const Topology& surface, const Component& component,
                         const PositionsView& x_t0, const PositionsView& x_t1,
                         const ViewPrimitive& primitive, std::vector<ViewSign>& signs,
-                        ViewCounts& counts) const {
-    detector::classify(surface, component, x_t0, x_t1, primitive, signs, counts,
-                       best_instruction_set(), arithmetic_);
+                        ViewCounts& counts, const StopFunction& stop) const {
+    return detector::classify(surface, component, x_t0, x_t1, primitive, signs, counts,
+                              best_instruction_set(), arithmetic_, stop);
   }
 
  private:

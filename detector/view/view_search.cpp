@@ -106,14 +106,16 @@ Point longest_direction(std::span<const Point> points, const Point& mean) {
 
 // Steps along the axes while one improves the score, then smaller ones. `move(n, step)` makes the
 // neighbour n of the best so far.
-template <class Scored, class Move>
-void descend(std::vector<Scored>& tried, Scored best, int neighbours, Move move) {
+template <class Scored, class Move, class HasToEnd>
+void descend(std::vector<Scored>& tried, Scored best, int neighbours, Move move,
+             HasToEnd has_to_end) {
   constexpr int most_rounds = 24;
   double step = 0.125;
   constexpr double least_step = 1.0 / 256;
   for (int round = 0; round < most_rounds && step >= least_step; ++round) {
     Scored next = best;
     for (int n = 0; n < neighbours; ++n) {
+      if (has_to_end()) return;
       const Scored candidate = move(best, n, step);
       if (candidate.score > next.score) next = candidate;
     }
@@ -153,9 +155,17 @@ bool is_perfect(const ViewPlanes& planes, std::int64_t score) {
                       static_cast<std::int64_t>(planes.size());
 }
 
+// To be asked before a score: of a triangle it takes a fifth of a box test from a point, and as long
+// as one from a line.
+auto asker(const ViewPlanes& planes, PacedStop* pace, bool of_lines) {
+  const std::uint64_t work = planes.size() / (of_lines ? 1 : 5) + 1;
+  return [pace, work] { return pace && pace->after(work); };
+}
+
 }  // namespace
 
-std::vector<ScoredPoint> search_points(const ViewPlanes& planes) {
+std::vector<ScoredPoint> search_points(const ViewPlanes& planes, PacedStop* pace) {
+  const auto has_to_end = asker(planes, pace, false);
   std::vector<Point> places = vertex_means(planes.points(), {0, 0, 0});
   places.insert(places.begin() + 1, mean_of_triangles(planes));
   add_points_behind_triangles(planes, places);
@@ -163,17 +173,19 @@ std::vector<ScoredPoint> search_points(const ViewPlanes& planes) {
   std::vector<ScoredPoint> tried;
   for (const auto& q : places) {
     tried.push_back({q, planes.score(q)});
-    if (is_perfect(planes, tried.back().score)) break;
+    if (is_perfect(planes, tried.back().score) || has_to_end()) break;
   }
   rank(tried);
   if (!is_perfect(planes, tried.front().score)) {
     constexpr double apart = 0.125;
     for (const auto& start : spread(tried, descents, apart)) {
-      descend(tried, ScoredPoint{start, planes.score(start)}, 6,
-              [&](const ScoredPoint& from, int n, double step) {
-                const Point q = neighbour(from.q, n, step);
-                return ScoredPoint{q, planes.score(q)};
-              });
+      descend(
+          tried, ScoredPoint{start, planes.score(start)}, 6,
+          [&](const ScoredPoint& from, int n, double step) {
+            const Point q = neighbour(from.q, n, step);
+            return ScoredPoint{q, planes.score(q)};
+          },
+          has_to_end);
     }
     rank(tried);
   }
@@ -181,7 +193,8 @@ std::vector<ScoredPoint> search_points(const ViewPlanes& planes) {
 }
 
 std::vector<ScoredLine> search_lines(const ViewPlanes& planes,
-                                     const std::vector<ScoredPoint>& points) {
+                                     const std::vector<ScoredPoint>& points, PacedStop* pace) {
+  const auto has_to_end = asker(planes, pace, true);
   const Point mean = vertex_means(planes.points(), {0, 0, 0}).front();
   const Point direction = longest_direction(planes.points(), mean);
   double lo = 0, hi = 0;
@@ -194,7 +207,7 @@ std::vector<ScoredLine> search_lines(const ViewPlanes& planes,
   std::vector<ScoredLine> tried;
   const auto attempt = [&](const Point& a, const Point& b) {
     tried.push_back({a, b, planes.score(a, b)});
-    return is_perfect(planes, tried.back().score);
+    return is_perfect(planes, tried.back().score) || has_to_end();
   };
   for (const double part : {0.5, 0.75, 0.875, 0.9375, 0.25}) {
     if (attempt(along(mean, direction, part * lo), along(mean, direction, part * hi))) {
@@ -206,16 +219,19 @@ std::vector<ScoredLine> search_lines(const ViewPlanes& planes,
   constexpr double apart = 0.25;
   const std::vector<Point> pool = spread(points, pool_size, apart);
   for (std::size_t i = 0; i < pool.size(); ++i) {
-    for (std::size_t j = i + 1; j < pool.size(); ++j) attempt(pool[i], pool[j]);
+    for (std::size_t j = i + 1; j < pool.size() && !has_to_end(); ++j) attempt(pool[i], pool[j]);
   }
   rank(tried);
   for (std::size_t i = 0, count = std::min(tried.size(), descents); i < count; ++i) {
     const ScoredLine start = tried[i];
-    descend(tried, start, 12, [&](const ScoredLine& from, int n, double step) {
-      const Point a = n < 6 ? neighbour(from.q0, n, step) : from.q0;
-      const Point b = n < 6 ? from.q1 : neighbour(from.q1, n - 6, step);
-      return ScoredLine{a, b, planes.score(a, b)};
-    });
+    descend(
+        tried, start, 12,
+        [&](const ScoredLine& from, int n, double step) {
+          const Point a = n < 6 ? neighbour(from.q0, n, step) : from.q0;
+          const Point b = n < 6 ? from.q1 : neighbour(from.q1, n - 6, step);
+          return ScoredLine{a, b, planes.score(a, b)};
+        },
+        has_to_end);
   }
   rank(tried);
   return tried;

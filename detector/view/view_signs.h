@@ -6,6 +6,7 @@
 
 #include "detector/mesh/arithmetic.h"
 #include "detector/mesh/step_counts.h"
+#include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 #include "detector/view/view_filter.h"
 #include "detector/view/view_lanes.h"
@@ -19,11 +20,13 @@ ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitiv
 
 // Signs over the step of the component's triangles, written to signs[triangle]: lanes first (none
 // in float), then view_sign for what they leave open. Counts and signs do not depend on `set`.
-void classify(const Topology& mesh, const Component& component, const PositionsView& x_t0,
+// `stop` is asked after a millisecond's work or so, and more often where integers decide. False
+// when it ended it.
+bool classify(const Topology& mesh, const Component& component, const PositionsView& x_t0,
               const PositionsView& x_t1, const ViewPrimitive& primitive,
               std::vector<ViewSign>& signs, ViewCounts& counts,
               InstructionSet set = best_instruction_set(),
-              Arithmetic arithmetic = Arithmetic::exact);
+              Arithmetic arithmetic = Arithmetic::exact, const StopFunction& stop = {});
 
 // Whether all triangles of the component are positive at one instant. Stops soon after the first
 // that is not. Bounded arithmetic says so only where it is certain.

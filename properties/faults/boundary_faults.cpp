@@ -69,7 +69,8 @@ struct ApexChosenAnew : BoundaryHandler {
 struct AlwaysCentroid : BoundaryHandler {
   std::vector<detector::ApexRule> choose_apexes(const Surface& surface,
                                                 detector::BoundingVolumeTree&, const PositionsView&,
-                                                const detector::ElementaryTest&) const override {
+                                                const detector::ElementaryTest&,
+                                                const detector::StopFunction&) const override {
     return std::vector<detector::ApexRule>(surface.loops.size(), detector::apex_rules[0]);
   }
 };

@@ -140,17 +140,19 @@ ViewSign common_sign(std::initializer_list<ViewSign> signs) {
              : ViewSign::zero;
 }
 
-void TriangleSigns::classify(const detector::Topology& surface,
+bool TriangleSigns::classify(const detector::Topology& surface,
                              const detector::Component& component,
                              const detector::PositionsView& x_t0,
                              const detector::PositionsView& x_t1, const ViewPrimitive& primitive,
-                             std::vector<ViewSign>& signs, detector::ViewCounts& counts) const {
+                             std::vector<ViewSign>& signs, detector::ViewCounts& counts,
+                             const detector::StopFunction&) const {
   for (const auto t : component.triangles) {
     const auto& v = surface.triangles[at(t)];
     const auto corner = [&](std::size_t i) { return detector::moving_point(x_t0, x_t1, v[i]); };
     signs[at(t)] = sign({corner(0), corner(1), corner(2)}, primitive);
     ++counts.exact;
   }
+  return true;
 }
 
 ViewSign right_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive) {

@@ -64,10 +64,10 @@ detector::ViewSign sampled(const detector::MovingTriangle& triangle,
 // A classifier that looks at one triangle after the other.
 class TriangleSigns : public detector::ViewClassifier {
  public:
-  void classify(const detector::Topology& surface, const detector::Component& component,
+  bool classify(const detector::Topology& surface, const detector::Component& component,
                 const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
                 const detector::ViewPrimitive& primitive, std::vector<detector::ViewSign>& signs,
-                detector::ViewCounts& counts) const override;
+                detector::ViewCounts& counts, const detector::StopFunction& stop) const override;
   virtual detector::ViewSign sign(const detector::MovingTriangle& triangle,
                                   const detector::ViewPrimitive& primitive) const = 0;
 };

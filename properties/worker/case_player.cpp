@@ -16,9 +16,10 @@ CasePlayer::CasePlayer(const corpus::Case& c, const detector::Options& options, 
 
 detector::Expected<CasePlayer> CasePlayer::make(const corpus::Case& c,
                                                 const detector::Options& options,
-                                                std::optional<detector::Stages> stages) {
+                                                std::optional<detector::Stages> stages,
+                                                const detector::StopFunction& stop) {
   auto made = detector::assemble(c.triangles, c.frames.front(), options,
-                                 stages ? *std::move(stages) : standard_stages(options));
+                                 stages ? *std::move(stages) : standard_stages(options), stop);
   if (!made) return std::move(made.error());
   return CasePlayer(c, options, std::move(made.value()));
 }

@@ -16,7 +16,8 @@ class CasePlayer {
   // must outlive the player. Errors and cost are those of Detector::create.
   static detector::Expected<CasePlayer> make(const corpus::Case& c,
                                              const detector::Options& options,
-                                             std::optional<detector::Stages> stages = {});
+                                             std::optional<detector::Stages> stages = {},
+                                             const detector::StopFunction& stop = {});
 
   // The steps of the case. REQUIRES s < steps() in all that follows.
   std::size_t steps() const { return script_.size(); }

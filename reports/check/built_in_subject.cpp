@@ -3,6 +3,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "detector/search/stopwatch.h"
 #include "properties/worker/case_player.h"
 #include "reports/check/subject.h"
 
@@ -22,9 +23,14 @@ detector::Options options_of(const BuiltInChoice& choice, const CheckInput& inpu
 
 class BuiltIn : public Subject {
  public:
-  BuiltIn(properties::CasePlayer player, const detector::Options& options, const corpus::Case& c,
-          Limits& limits)
-      : player_(std::move(player)), options_(options), case_(c), limits_(limits) {}
+  // player: nothing where a limit was reached before there was one.
+  BuiltIn(std::optional<properties::CasePlayer> player, double create_ms,
+          const detector::Options& options, const corpus::Case& c, Limits& limits)
+      : player_(std::move(player)),
+        create_ms_(create_ms),
+        options_(options),
+        case_(c),
+        limits_(limits) {}
 
   std::string title() const override {
     const std::string culling = fmt::format("culling {}", properties::name_of(options_.culling));
@@ -38,17 +44,17 @@ class BuiltIn : public Subject {
             {"detector", nullptr}};
   }
 
+  std::optional<double> create_ms() const override { return create_ms_; }
+
   bool judged_by_claims() const override {
     return options_.arithmetic != detector::Arithmetic::exact;
   }
 
   StepResult answer(std::size_t s, const detector::StopFunction& stop) override try {
-    return player_.play(s, stop);
+    return player_ ? player_->play(s, stop) : undecided();
   } catch (const std::bad_alloc&) {
     limits_.memory_failed();
-    StepResult result;
-    result.answer = detector::Answer::undecided;
-    return result;
+    return undecided();
   }
 
   StepError error_of(const StepResult& result) const override {
@@ -61,11 +67,19 @@ class BuiltIn : public Subject {
   }
 
   std::string stage_that_lost(std::size_t s, detector::TrianglePair pair) const override {
-    return properties::stage_that_lost(case_.triangles, player_.x_t0(s), player_.x_t1(s), pair);
+    if (!player_) return "";
+    return properties::stage_that_lost(case_.triangles, player_->x_t0(s), player_->x_t1(s), pair);
   }
 
  private:
-  properties::CasePlayer player_;
+  static StepResult undecided() {
+    StepResult result;
+    result.answer = detector::Answer::undecided;
+    return result;
+  }
+
+  std::optional<properties::CasePlayer> player_;
+  double create_ms_;
   detector::Options options_;
   const corpus::Case& case_;
   Limits& limits_;
@@ -76,10 +90,21 @@ class BuiltIn : public Subject {
 Expected<std::unique_ptr<Subject>> make_built_in(const BuiltInChoice& choice,
                                                  const CheckInput& input, Limits& limits) {
   const detector::Options options = options_of(choice, input);
-  auto made = properties::CasePlayer::make(input.c, options);
-  if (!made) return Refusal(fmt::format("{}: {}", input.file, made.error().message));
+  std::optional<properties::CasePlayer> player;
+  double create_ms = 0;
+  try {
+    const detector::Stopwatch watch(create_ms);
+    auto made = properties::CasePlayer::make(input.c, options, {}, limits.stop_function());
+    if (made) {
+      player = std::move(made.value());
+    } else if (made.error().error != detector::InputError::stopped) {
+      return Refusal(fmt::format("{}: {}", input.file, made.error().message));
+    }
+  } catch (const std::bad_alloc&) {
+    limits.memory_failed();
+  }
   return std::unique_ptr<Subject>(
-      std::make_unique<BuiltIn>(std::move(made.value()), options, input.c, limits));
+      std::make_unique<BuiltIn>(std::move(player), create_ms, options, input.c, limits));
 }
 
 }  // namespace assay::reports

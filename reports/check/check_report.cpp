@@ -13,6 +13,7 @@ Json check_report(const std::vector<std::string>& files, const detector::Topolog
                   const Subject& subject, const CheckOutcome& outcome, Json steps) {
   const auto or_null = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
   const auto tested = subject.to_json();
+  const auto create_ms = subject.create_ms();
   return {{"schema", "assay-check/1"},
           {"version", version_text()},
           {"files", files},
@@ -26,6 +27,7 @@ Json check_report(const std::vector<std::string>& files, const detector::Topolog
           {"outcome", outcome.word()},
           {"limit_reached", or_null(outcome.limit_reached)},
           {"peak_memory_bytes", peak_resident_bytes()},
+          {"times_ms", {{"create", create_ms ? Json(*create_ms) : Json()}}},
           {"steps", std::move(steps)}};
 }
 

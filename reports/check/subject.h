@@ -23,6 +23,8 @@ class Subject {
   virtual std::string title() const = 0;
   // Of the report: `culling` and `arithmetic` (null for a plug-in) and `detector`.
   virtual nlohmann::ordered_json to_json() const = 0;
+  // Milliseconds of preprocessing; nothing where a plug-in does it in a process of its own.
+  virtual std::optional<double> create_ms() const { return std::nullopt; }
   // Judged by its claims; otherwise it must agree with the oracle in every bit.
   virtual bool judged_by_claims() const { return true; }
 
@@ -54,7 +56,8 @@ struct BuiltInChoice {
 };
 
 // `input` outlives the subject; its coordinates are rounded where the plug-in's contract says so.
-// A plug-in's worker ends what takes longer or more memory than `limits`.
+// A plug-in's worker ends what takes longer or more memory than `limits`. A built-in detector that
+// they end before it is made is undecided in each step.
 Expected<std::unique_ptr<Subject>> make_built_in(const BuiltInChoice& choice,
                                                  const CheckInput& input, Limits& limits);
 Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& library,

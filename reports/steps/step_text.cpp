@@ -58,7 +58,7 @@ std::string diff_text(const properties::StepDiff& diff) {
 
 std::string step_text(std::size_t number, const detector::StepResult& result,
                       const oracle::StepJudgement* judgement, double oracle_ms,
-                      const properties::StepDiff* diff) {
+                      const properties::StepDiff* diff, std::optional<double> create_ms) {
   std::string out = fmt::format("step {}: {}", number, properties::name_of(result.answer));
   if (result.answer == Answer::collision) {
     out += fmt::format(" at t = {}, {} pairs in contact", time_text(result.first),
@@ -74,11 +74,12 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
   out += fmt::format(
       "  sets: V+ {}  V- {}  V0 {}  violated {}  dirty {}\n"
       "  work: {} box tests, {} candidate pairs, {} elementary tests, {} closure rounds\n"
-      "  ms:   view test {:.1f}, start {:.1f}, broad phase {:.1f}, narrow phase {:.1f}, closure "
+      "  ms:   {}view test {:.1f}, start {:.1f}, broad phase {:.1f}, narrow phase {:.1f}, closure "
       "{:.1f}, detector {:.1f}",
       result.view_positive, result.view_negative, result.view_zero, result.violated, result.dirty,
       result.counts.search.box_tests, result.counts.search.candidate_pairs,
-      result.counts.narrow.elementary_tests, result.counts.closure_rounds, result.times.view_test,
+      result.counts.narrow.elementary_tests, result.counts.closure_rounds,
+      create_ms ? fmt::format("create {:.1f}, ", *create_ms) : "", result.times.view_test,
       result.times.start, result.times.broad_phase, result.times.narrow_phase, result.times.closure,
       result.times.total);
   if (judgement) {

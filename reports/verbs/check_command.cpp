@@ -121,6 +121,11 @@ class Check {
     return verdict.broken == std::vector<properties::Claim>{properties::Claim::deterministic};
   }
 
+  // Told once, with the first step.
+  std::optional<double> create_ms(std::size_t s) const {
+    return s == 0 ? subject_.create_ms() : std::nullopt;
+  }
+
   nlohmann::ordered_json run_step(std::size_t s) {
     Progress progress(fmt::format("step {}/{}", s + 1, step_count()));
     const detector::StopFunction stop = [&] {
@@ -146,7 +151,7 @@ class Check {
     outcome_.undecided |= result.answer == Answer::undecided;
     if (request_.no_oracle) {
       progress.finish();
-      fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr));
+      fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr, create_ms(s)));
       return step_json(result, nullptr, 0, nullptr);
     }
 
@@ -157,7 +162,7 @@ class Check {
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
     outcome_.left_out_misses += diff.left_out_missed ? 1 : 0;
-    fmt::print("{}", step_text(s + 1, result, &judgement, oracle_ms, &diff));
+    fmt::print("{}", step_text(s + 1, result, &judgement, oracle_ms, &diff, create_ms(s)));
     if (diff.outcome == Outcome::defect) print_defect(s, diff);
     std::fflush(stdout);
     auto json = step_json(result, &judgement, oracle_ms, &diff);

@@ -55,7 +55,8 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
   std::vector<detector::ApexRule> choose_apexes(const detector::Surface& surface,
                                                 detector::BoundingVolumeTree&,
                                                 const detector::PositionsView&,
-                                                const detector::ElementaryTest&) const override {
+                                                const detector::ElementaryTest&,
+                                                const detector::StopFunction&) const override {
     return std::vector<detector::ApexRule>(surface.loops.size());
   }
   // Before the first step, where view primitives are chosen, no apex is pinned yet.

@@ -27,11 +27,12 @@ class Trace {
 class NotedClassifier : public ViewClassifier {
  public:
   explicit NotedClassifier(Trace& trace) : trace_(trace) {}
-  void classify(const Topology& surface, const Component& component, const PositionsView& x_t0,
+  bool classify(const Topology& surface, const Component& component, const PositionsView& x_t0,
                 const PositionsView& x_t1, const ViewPrimitive& primitive,
-                std::vector<ViewSign>& signs, ViewCounts& counts) const override {
+                std::vector<ViewSign>& signs, ViewCounts& counts,
+                const StopFunction& stop) const override {
     trace_.note("view test");
-    ViewClassifier::classify(surface, component, x_t0, x_t1, primitive, signs, counts);
+    return ViewClassifier::classify(surface, component, x_t0, x_t1, primitive, signs, counts, stop);
   }
 
  private:

@@ -97,6 +97,8 @@ TEST_F(Commands, ReportHoldsTheContactsAndTimes) {
   const auto outcome = run_assay("check " + frames + " --json " + (scratch / "r.json"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   const auto report = json::parse(read_text(scratch / "r.json"));
+  EXPECT_GT(report["times_ms"]["create"], 0);
+  EXPECT_NE(outcome.out.find("  ms:   create "), std::string::npos);
   bool collided = false;
   for (const auto& step : report["steps"]) {
     if (step["answer"] != "collision") continue;
@@ -145,6 +147,7 @@ TEST_F(Commands, ResultDoesNotDependOnJobs) {
               0);
     auto report = json::parse(read_text(scratch / "j.json"));
     report.erase("peak_memory_bytes");
+    report.erase("times_ms");
     for (auto& step : report["steps"]) {
       step.erase("times_ms");
       step["oracle"].erase("time_ms");

@@ -1,0 +1,41 @@
+// Asks a stop function after every so much work: often enough to end in time, too seldom to cost.
+//
+// The unit of work is what a box test costs, about 5 ns; callers count roughly. The function may
+// ask the system how much memory there is, which takes 10 us. Once it has asked for an end it is
+// not asked again.
+#pragma once
+
+#include <cstdint>
+
+#include "detector/mesh/step_types.h"
+
+namespace assay::detector {
+
+class PacedStop {
+ public:
+  // A millisecond: a tenth of what a stop may be late, for work is counted roughly.
+  static constexpr std::uint64_t usual_interval = 200'000;
+
+  explicit PacedStop(const StopFunction& stop, std::uint64_t interval = usual_interval)
+      : stop_(stop), interval_(interval) {}
+
+  // Whether to end: asks when as much work was done since it last asked.
+  bool after(std::uint64_t work) {
+    if (stopped_) return true;
+    done_ += work;
+    return done_ >= interval_ && now();
+  }
+  // Asks in any case.
+  bool now() {
+    done_ = 0;
+    return stopped_ = stopped_ || (stop_ && stop_());
+  }
+  bool stopped() const { return stopped_; }
+
+ private:
+  const StopFunction& stop_;
+  std::uint64_t interval_, done_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace assay::detector
