@@ -55,18 +55,16 @@ bool CandidateSearch::close() {
   const PairTables tables = stages_.rule.closure();
   contacts_.ask(AskedTypes::in_closure(stages_.rule.candidates(), tables));
   std::vector<Marking::Change> grown;
-  for (std::size_t seen = 0;;) {
+  for (;;) {
     grown.clear();
-    for (; seen < contacts_.contacts().size(); ++seen) {
-      for (const auto& pair : contacts_.contacts()[seen].pairs) {
-        if (!same_component(pair.a, pair.b)) continue;
-        for (const auto t : {pair.a, pair.b}) {
-          const auto type = memory_.marks.types[at(t)];
-          if (type != TriangleType::positive && type != TriangleType::negative) continue;
-          if (!stages_.rule.joins_closure(pair, t)) continue;
-          grown.push_back({t, type == TriangleType::positive ? TriangleType::positive_grown
-                                                             : TriangleType::negative_grown});
-        }
+    for (const auto& pair : contacts_.take_new_pairs()) {
+      if (!same_component(pair.a, pair.b)) continue;
+      for (const auto t : {pair.a, pair.b}) {
+        const auto type = memory_.marks.types[at(t)];
+        if (type != TriangleType::positive && type != TriangleType::negative) continue;
+        if (!stages_.rule.joins_closure(pair, t)) continue;
+        grown.push_back({t, type == TriangleType::positive ? TriangleType::positive_grown
+                                                           : TriangleType::negative_grown});
       }
     }
     if (grown.empty()) return true;

@@ -42,7 +42,10 @@ class CandidateSearch {
   // looks at: marks, search and tests around the triangles that joined.
   bool close();
 
-  const FeatureContacts& contacts() const { return contacts_; }
+  // See FeatureContacts.
+  std::vector<PairContact> take_contacts() { return contacts_.take(); }
+  const NarrowCounts& narrow_counts() const { return contacts_.counts(); }
+  double test_time() const { return contacts_.test_time(); }
   const SearchCounts& search_counts() const { return counts_; }
   const MarkingCounts& marking_counts() const { return marking_counts_; }
   std::uint64_t closure_rounds() const { return closure_rounds_; }

@@ -1,7 +1,5 @@
 #include "detector/search/feature_contacts.h"
 
-#include <algorithm>
-
 #include "detector/contact/contact_filter.h"
 #include "detector/search/stopwatch.h"
 
@@ -66,7 +64,6 @@ bool FeatureContacts::add_candidate(std::int32_t a, std::int32_t b, bool may_pie
 }
 
 void FeatureContacts::test(FeatureKey key) {
-  FeatureContact contact;
   const auto first = first_of(key), second = second_of(key);
   const auto& face = mesh_.triangles[at(second)];
   if (kind_of(key) == FeatureKind::piercing) {
@@ -75,11 +72,9 @@ void FeatureContacts::test(FeatureKey key) {
     const std::array<Point, 3> corners = {point_of(x_t0_, face[0]), point_of(x_t0_, face[1]),
                                           point_of(x_t0_, face[2])};
     if (!elementary_.pierces(e0, e1, corners)) return;
-    contact.time = elementary_.piercing_time(e0, e1, corners);
-    contact.feature = {FeatureKind::piercing, {e[0], e[1], face[0], face[1], face[2]}};
-    for (const auto t : mesh_.edge_triangles.row(first)) {
-      contact.pairs.push_back({std::min(t, second), std::max(t, second)});
-    }
+    const TimeEnclosure time = elementary_.piercing_time(e0, e1, corners);
+    const Feature feature{FeatureKind::piercing, {e[0], e[1], face[0], face[1], face[2]}};
+    for (const auto t : mesh_.edge_triangles.row(first)) add(t, second, time, feature);
   } else {
     const FourPoints points = query(key);
     if (separated_along_an_axis(points)) {
@@ -90,23 +85,17 @@ void FeatureContacts::test(FeatureKey key) {
     const ContactResult result = elementary_.test(points, want_);
     counts_.rungs.add(result.rung);
     if (!result.contact) return;
-    contact.time = result.time;
     if (kind_of(key) == FeatureKind::vertex_face) {
-      contact.feature = {FeatureKind::vertex_face, {first, face[0], face[1], face[2], -1}};
-      for (const auto t : mesh_.vertex_triangles.row(first)) {
-        contact.pairs.push_back({std::min(t, second), std::max(t, second)});
-      }
+      const Feature feature{FeatureKind::vertex_face, {first, face[0], face[1], face[2], -1}};
+      for (const auto t : mesh_.vertex_triangles.row(first)) add(t, second, result.time, feature);
     } else {
       const auto &a = mesh_.edges[at(first)], &b = mesh_.edges[at(second)];
-      contact.feature = {FeatureKind::edge_edge, {a[0], a[1], b[0], b[1], -1}};
+      const Feature feature{FeatureKind::edge_edge, {a[0], a[1], b[0], b[1], -1}};
       for (const auto t : mesh_.edge_triangles.row(first)) {
-        for (const auto s : mesh_.edge_triangles.row(second)) {
-          contact.pairs.push_back({std::min(t, s), std::max(t, s)});
-        }
+        for (const auto s : mesh_.edge_triangles.row(second)) add(t, s, result.time, feature);
       }
     }
   }
-  contacts_.push_back(std::move(contact));
 }
 
 bool FeatureContacts::run(const StopFunction& stop) {
@@ -118,24 +107,6 @@ bool FeatureContacts::run(const StopFunction& stop) {
   }
   untested_.clear();
   return true;
-}
-
-std::vector<PairContact> FeatureContacts::pair_contacts() const {
-  std::vector<PairContact> out;
-  for (const auto& contact : contacts_) {
-    for (const auto& pair : contact.pairs) out.push_back({pair, contact.time, contact.feature});
-  }
-  std::sort(out.begin(), out.end(), [](const PairContact& x, const PairContact& y) {
-    if (x.pair != y.pair) return x.pair < y.pair;
-    if (x.time != y.time) return x.time < y.time;
-    if (x.feature.kind != y.feature.kind) return x.feature.kind < y.feature.kind;
-    return x.feature.vertices < y.feature.vertices;
-  });
-  out.erase(
-      std::unique(out.begin(), out.end(),
-                  [](const PairContact& x, const PairContact& y) { return x.pair == y.pair; }),
-      out.end());
-  return out;
 }
 
 }  // namespace assay::detector

@@ -7,23 +7,18 @@
 // triangle.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "detector/contact/elementary.h"
+#include "detector/mesh/pair_contacts.h"
 #include "detector/mesh/step_counts.h"
 #include "detector/mesh/topology.h"
 #include "detector/search/feature_pairs.h"
 
 namespace assay::detector {
-
-// One contact of a feature pair.
-struct FeatureContact {
-  Feature feature;
-  TimeEnclosure time;               // {0, 0} when only yes or no was wanted
-  std::vector<TrianglePair> pairs;  // all that hold the two features
-};
 
 class FeatureContacts {
  public:
@@ -50,19 +45,24 @@ class FeatureContacts {
   // kept.
   bool run(const StopFunction& stop);
 
-  const std::vector<FeatureContact>& contacts() const { return contacts_; }
+  // Triangle pairs in contact that were found since this was last asked, each once.
+  std::vector<TrianglePair> take_new_pairs() { return contacts_.take_new_pairs(); }
   const NarrowCounts& counts() const { return counts_; }
   // Of the tests, in milliseconds.
   double test_time() const { return test_time_; }
 
-  // Least time of each triangle pair, ascending by pair.
-  std::vector<PairContact> pair_contacts() const;
+  // The first contact of each triangle pair, ascending by pair; {0, 0} is its time when only yes or
+  // no was wanted. Nothing is left behind.
+  std::vector<PairContact> take() { return contacts_.take(); }
 
  private:
   struct OneType;  // what the short constructor makes for itself
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
                   const ElementaryTest& elementary, Want want, std::unique_ptr<OneType> own);
   void test(FeatureKey key);
+  void add(std::int32_t a, std::int32_t b, const TimeEnclosure& time, const Feature& feature) {
+    contacts_.add({{std::min(a, b), std::max(a, b)}, time, feature});
+  }
   FourPoints query(FeatureKey key) const;
 
   const Topology& mesh_;
@@ -72,7 +72,7 @@ class FeatureContacts {
   std::unique_ptr<OneType> own_;
   FeaturePairs pairs_;
   std::vector<FeatureKey> untested_;
-  std::vector<FeatureContact> contacts_;
+  PairContacts contacts_;
   NarrowCounts counts_;
   double test_time_ = 0;
 };

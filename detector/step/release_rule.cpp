@@ -35,9 +35,7 @@ bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& compo
       !contacts.run(work.stop)) {
     return false;
   }
-  for (const auto& contact : contacts.contacts()) {
-    for (const auto& pair : contact.pairs) touched[at(pair.a)] = touched[at(pair.b)] = 1;
-  }
+  for (const auto& pair : contacts.take_new_pairs()) touched[at(pair.a)] = touched[at(pair.b)] = 1;
   return true;
 }
 

@@ -188,17 +188,17 @@ class Step {
       completed = candidates.collect();
     }
     // The tests are made as candidates come up.
-    times.narrow_phase = candidates.contacts().test_time();
+    times.narrow_phase = candidates.test_time();
     times.broad_phase -= times.narrow_phase;
     const auto candidates_of_k = candidates.search_counts().candidate_pairs;
     if (completed && work_.has_views() && context_.options.pairs == Pairs::all) {
       Stopwatch watch(times.closure);
       completed = candidates.close();
     }
-    result_.pairs = candidates.contacts().pair_contacts();
+    result_.pairs = candidates.take_contacts();
     work_.counts.search = candidates.search_counts();
     work_.counts.marking = candidates.marking_counts();
-    work_.counts.narrow = candidates.contacts().counts();
+    work_.counts.narrow = candidates.narrow_counts();
     work_.counts.closure_rounds = candidates.closure_rounds();
     if (is_auto() && work_.has_views()) auto_.weigh(work_.counts, candidates_of_k);
     return completed;

@@ -25,9 +25,7 @@ void add_own_contacts(const StepWork& work, std::size_t c, Flags& touched) {
     for (std::size_t j = i + 1; j < own.size(); ++j) contacts.add_candidate(own[i], own[j], true);
   }
   contacts.run({});
-  for (const auto& contact : contacts.contacts()) {
-    for (const auto& pair : contact.pairs) touched[at(pair.a)] = touched[at(pair.b)] = 1;
-  }
+  for (const auto& pair : contacts.take_new_pairs()) touched[at(pair.a)] = touched[at(pair.b)] = 1;
 }
 
 enum class StartLayers { by_piece, of_component, not_looked_at };
