@@ -33,9 +33,9 @@ struct GhostSweep {
 // Sets touched[t] of each mesh triangle t that a ghost of the hole (ghosts of one component)
 // touches at any time in [0,1]: closed faces of the two that share no vertex meet, those of
 // triangles next to the loop and of degenerate ghosts included. Triangles that are set already are
-// not looked at again. The hole's tree, of this step and of the tree's grid, is descended
-// against the component's part of the mesh's own: box tests where they meet, and up to 15 elementary tests a pair. False
-// when stopped.
+// not looked at again. The hole's tree, of this step and of the tree's grid, is descended against
+// the component's part of the mesh's own: box tests where they meet, and up to 15 elementary tests
+// a pair. False when stopped.
 bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
                 std::vector<std::uint8_t>& touched, GhostCounts& counts);
 
