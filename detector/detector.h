@@ -55,8 +55,9 @@ class Detector {
   // the first frame is best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
-  // The same, and `stop` ends it: error stopped. Asked after every few milliseconds of work, but for
-  // the adjacency of the mesh and its checks, 0.5 us a triangle, of which it is asked in between.
+  // The same, and `stop` ends it: error stopped. Asked after every few milliseconds of work, but
+  // for the adjacency of the mesh and its checks, 0.5 us a triangle, of which it is asked in
+  // between.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options, const StopFunction& stop);
   Detector(Detector&&) noexcept;

@@ -28,8 +28,8 @@ enum class Effort : std::uint8_t {
 // The best place found by search (view_search.h) for the component of `mesh` (its ghosts too) at
 // these positions. A point of winding number 1 is taken where one is found that costs at most 5 %
 // of the triangles. Uses vertices below `vertex_count` (apexes are above). A few hundred passes
-// over at most 20,000 triangles: 4 ms a thousand for a line, 1 ms for a point. Some place, soon, once
-// `pace` says to end.
+// over at most 20,000 triangles: 4 ms a thousand for a line, 1 ms for a point. Some place, soon,
+// once `pace` says to end.
 ViewAnchor make_view_anchor(ViewKind kind, const Topology& mesh, const Component& component,
                             Eigen::Index vertex_count, const PositionsView& x,
                             Effort effort = Effort::thorough, PacedStop* pace = nullptr);

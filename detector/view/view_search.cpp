@@ -155,8 +155,8 @@ bool is_perfect(const ViewPlanes& planes, std::int64_t score) {
                       static_cast<std::int64_t>(planes.size());
 }
 
-// To be asked before a score: of a triangle it takes a fifth of a box test from a point, and as long
-// as one from a line.
+// To be asked before a score: of a triangle it takes a fifth of a box test from a point, and as
+// long as one from a line.
 auto asker(const ViewPlanes& planes, PacedStop* pace, bool of_lines) {
   const std::uint64_t work = planes.size() / (of_lines ? 1 : 5) + 1;
   return [pace, work] { return pace && pace->after(work); };

@@ -57,7 +57,8 @@ TEST(PairContacts, KeepsTheFirstContactOfEachPair) {
   }
 }
 
-// 21 contacts of each of 100,000 pairs: a list of them all, or a list a contact, took 2.2 KB a pair.
+// 21 contacts of each of 100,000 pairs: a list of them all, or a list a contact, took 2.2 KB a
+// pair.
 TEST(PairContacts, TakeLittleBesideTheResult) {
   constexpr int pairs = 100'000, contacts_of_pair = 21;
   PairContacts contacts;
