@@ -115,14 +115,23 @@ std::optional<int> most_common(const std::map<int, std::vector<std::int32_t>>& b
 
 }  // namespace
 
+std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
+                                          const std::vector<std::uint8_t>& clean) {
+  const auto& own = mesh.components[c].triangles;
+  std::vector<std::int32_t> witnesses;
+  for (std::size_t i = 0; i < own.size() && witnesses.size() < most_attempts; ++i) {
+    if (clean[at(own[i])]) witnesses.push_back(own[i]);
+  }
+  return witnesses;
+}
+
 std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
                              std::span<const std::int32_t> in_doubt,
+                             const std::vector<std::int32_t>& witnesses,
                              std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& clean) {
   const auto release = [&](const std::vector<std::int32_t>& triangles) {
     for (const auto t : triangles) clean[at(t)] = 1;
   };
-  const auto& own = at_instant.surface.mesh.components[c].triangles;
-  const bool some_clean = in_doubt.size() < own.size();
   std::vector<Piece> alone;
   {
     Flood flood(at_instant, seen, clean);
@@ -140,14 +149,7 @@ std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
   if (alone.empty()) return 0;
   std::vector<const std::vector<std::int32_t>*> asked;
   for (const auto& piece : alone) asked.push_back(&piece.triangles);
-  // All clean ones share the common layer, also those that were released just now.
-  std::vector<std::int32_t> some;
-  if (some_clean) {
-    for (std::size_t i = 0; i < own.size() && some.size() < most_attempts; ++i) {
-      if (clean[at(own[i])]) some.push_back(own[i]);
-    }
-    asked.push_back(&some);
-  }
+  if (!witnesses.empty()) asked.push_back(&witnesses);
   const auto windings = windings_outside(at_instant, c, asked);
   const std::uint64_t winding_numbers = asked.size();
   std::map<int, std::vector<std::int32_t>> by_layer;  // key: winding number outside
@@ -156,7 +158,7 @@ std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
     auto& of_layer = by_layer[*windings[i]];
     of_layer.insert(of_layer.end(), alone[i].triangles.begin(), alone[i].triangles.end());
   }
-  const auto common = some_clean ? windings.back() : most_common(by_layer);
+  const auto common = witnesses.empty() ? most_common(by_layer) : windings.back();
   if (!common) return winding_numbers;
   if (const auto found = by_layer.find(*common); found != by_layer.end()) release(found->second);
   return winding_numbers;
@@ -167,7 +169,7 @@ std::uint64_t mark_clean_by_layers(const TouchedSurface& at_instant, std::size_t
                                    std::vector<std::uint8_t>& clean) {
   const auto& own = at_instant.surface.mesh.components[c].triangles;
   for (const auto t : own) clean[at(t)] = 0;
-  return release_pieces(at_instant, c, own, seen, clean);
+  return release_pieces(at_instant, c, own, {}, seen, clean);
 }
 
 }  // namespace assay::detector

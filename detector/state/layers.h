@@ -19,6 +19,12 @@ struct TouchedSurface {
   Arithmetic arithmetic = Arithmetic::exact;
 };
 
+// Clean triangles of the mesh's component `c`, a few of them, ascending: any one names the common
+// layer of all clean ones. More than one because doubles may fail at one and not at the next. None
+// only where no triangle of the component is clean.
+std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
+                                          const std::vector<std::uint8_t>& clean);
+
 // Sets clean[t] for those of `in_doubt` that L9 releases, triangles of the mesh's component `c`,
 // ascending, all not clean; all others of the component that are clean touch nothing and share a
 // layer.
@@ -27,9 +33,8 @@ struct TouchedSurface {
 // and ghosts form a cycle); layers continue across links, and pieces are the classes. A piece that
 // holds a clean triangle is released: found by flood. Any other has one exact winding number (in
 // bounded arithmetic a piece whose number doubles cannot tell stays dirty), and is released when
-// its layer is the common one: that of the clean triangles of the component, or, where there are
-// none, the layer with most untouched triangles (tie: the one that holds the lowest triangle
-// index). "Connected" would not be enough: two tetrahedra, one inside the other, may share an edge
+// its layer is the common one: that of `witnesses`, or, where there are none, the layer with most
+// untouched triangles (tie: the one that holds the lowest triangle index). "Connected" would not be enough: two tetrahedra, one inside the other, may share an edge
 // (case L9_shared_edge_two_layers).
 //
 // `seen` is scratch by mesh triangle, 0 for those of the component. Costs the triangles in doubt
@@ -37,6 +42,7 @@ struct TouchedSurface {
 // winding numbers of all such pieces together. Returns how many of these it took.
 std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
                              std::span<const std::int32_t> in_doubt,
+                             const std::vector<std::int32_t>& witnesses,
                              std::vector<std::uint8_t>& seen, std::vector<std::uint8_t>& clean);
 
 // The same without history: all triangles of the component are in doubt.

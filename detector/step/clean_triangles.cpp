@@ -68,7 +68,7 @@ StepState state_at_end(const StepWork& work, const ReleaseRule& release,
   state.lost.resize(state.inside.size(), 0);
   if (work.has_views()) return state;
   for (std::size_t c = 0; c < state.lost.size(); ++c) {
-    if (work.ghosts(c).empty() && !state.lost[c]) continue;
+    if (!release.is_lost(work, pairs, c)) continue;
     state.lost[c] = 1;
     for (const auto t : work.own_triangles(c)) state.clean[at(t)] = 0;
   }

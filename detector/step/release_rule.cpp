@@ -112,8 +112,9 @@ bool ReleaseRule::release(StepWork& work, const std::vector<std::int32_t>& compo
       const auto c = at(components[i]);
       if (!add_ghost_touches(work, c, in_doubt[i], touched)) return false;
       if (work.stop && work.stop()) return false;
-      work.counts.release.winding_numbers += release_pieces(
-          {work.surface, work.x_t0, touched, arithmetic_}, c, in_doubt[i], seen, work.clean);
+      work.counts.release.winding_numbers +=
+          release_pieces({work.surface, work.x_t0, touched, arithmetic_}, c, in_doubt[i],
+                         witnesses(work, c), seen, work.clean);
     }
   }
   for (const auto& triangles : in_doubt) {
@@ -126,6 +127,17 @@ bool ReleaseRule::release(StepWork& work, const std::vector<std::int32_t>& compo
     work.counts.release.released += static_cast<std::uint64_t>(released);
   }
   return true;
+}
+
+std::vector<std::int32_t> ReleaseRule::witnesses(const StepWork& work, std::size_t c) const {
+  return layer_witnesses(work.surface.mesh, c, work.clean);
+}
+
+bool ReleaseRule::is_lost(const StepWork& work, const std::vector<PairContact>&,
+                          std::size_t c) const {
+  // Only view-auto keeps account of what is lost.
+  const bool was_lost = !work.lost.empty() && work.lost[c] != 0;
+  return was_lost || !work.ghosts(c).empty();
 }
 
 void ReleaseRule::settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,

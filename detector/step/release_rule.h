@@ -47,6 +47,14 @@ class ReleaseRule {
   virtual void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
                       StepState& state) const;
 
+  // The triangles that name the common layer of a component in `release`: clean at t=0 by L8.
+  virtual std::vector<std::int32_t> witnesses(const StepWork& work, std::size_t component) const;
+
+  // L8 after a step without views: the ghosts of the component were not swept, so whatever the
+  // pairs were nothing is known of a component that has ghosts; nor of one that was lost before.
+  virtual bool is_lost(const StepWork& work, const std::vector<PairContact>& pairs,
+                       std::size_t component) const;
+
  protected:
   Arithmetic arithmetic() const { return arithmetic_; }
 

@@ -35,8 +35,8 @@ struct ReleaseHalfChecked : ReleaseRule {
       if (ghosts == Ghosts::tested) detector::add_ghost_touches(work, c, in_doubt, touched);
       switch (layers) {
         case ReleasedLayers::of_pieces:
-          detector::release_pieces({work.surface, work.x_t0, touched}, c, in_doubt, seen,
-                                   work.clean);
+          detector::release_pieces({work.surface, work.x_t0, touched}, c, in_doubt,
+                                   witnesses(work, c), seen, work.clean);
           break;
         case ReleasedLayers::across_touched:
           release_across_touched(work, c, in_doubt, touched);
@@ -53,11 +53,12 @@ struct ReleaseHalfChecked : ReleaseRule {
 
  private:
   // Pieces go on through what is touched, and that alone stays dirty.
-  static void release_across_touched(StepWork& work, std::size_t c, const Triangles& in_doubt,
-                                     const Flags& touched) {
+  void release_across_touched(StepWork& work, std::size_t c, const Triangles& in_doubt,
+                              const Flags& touched) const {
     const Flags nothing(touched.size(), 0);
     Flags seen(nothing);
-    detector::release_pieces({work.surface, work.x_t0, nothing}, c, in_doubt, seen, work.clean);
+    detector::release_pieces({work.surface, work.x_t0, nothing}, c, in_doubt, witnesses(work, c),
+                             seen, work.clean);
     for (const auto t : in_doubt) work.clean[at(t)] &= !touched[at(t)];
   }
 
@@ -96,6 +97,18 @@ struct ReleasedWhileTouched : ReleaseRule {
   }
 };
 
+// The state of a triangle is asked for by its place in the component: another component's answers.
+struct WitnessesByPlace : ReleaseRule {
+  Triangles witnesses(const StepWork& work, std::size_t c) const override {
+    Triangles found;
+    const auto own = work.own_triangles(c);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (work.clean[i]) found.push_back(own[i]);
+    }
+    return found;
+  }
+};
+
 }  // namespace
 
 std::vector<Fault> release_faults() {
@@ -123,6 +136,10 @@ std::vector<Fault> release_faults() {
           "release/released-while-touched",
           "what still touches something is released beside a clean neighbour", "L9",
           "F_released_while_touched", 5),
+      planted<WitnessesByPlace>(
+          "release/witnesses-by-place",
+          "the common layer is named by triangles whose place another component has clean", "L9",
+          "F_witness_of_another", 11),
   };
 }
 

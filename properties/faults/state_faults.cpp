@@ -64,6 +64,14 @@ struct FirstPairsAreAll : ReleaseRule {
   }
 };
 
+// A step without views loses an open component only where it found a contact.
+struct LostByContactAlone : ReleaseRule {
+  bool is_lost(const StepWork& work, const std::vector<PairContact>& pairs,
+               std::size_t c) const override {
+    return !pairs.empty() && ReleaseRule::is_lost(work, pairs, c);
+  }
+};
+
 struct KeptElsewhere : ReleaseRule {
   bool still_holds(const StepState&, const detector::PositionsView&) const override { return true; }
 };
@@ -89,6 +97,8 @@ class EvaluationKept : public ReleaseRule {
   mutable detector::Positions free_from_;
 };
 
+constexpr detector::Options auto_views = {detector::Culling::view_auto, detector::Start::verified,
+                                          detector::Pairs::all};
 constexpr detector::Options first_pairs = {detector::Culling::view_point, detector::Start::verified,
                                            detector::Pairs::first};
 
@@ -114,6 +124,10 @@ std::vector<Fault> state_faults() {
       planted<FirstPairsAreAll>("state/first-pairs-are-all",
                                 "after a collision found by K alone the rest is taken for clean",
                                 "L8", "F_first_pairs_only", 6, first_pairs),
+      planted<LostByContactAlone>(
+          "state/lost-by-contact-alone",
+          "after a free step without views an open component is believed as clean as before", "L8",
+          "F_views_dropped", 47, auto_views),
       planted<KeptElsewhere>("state/kept-elsewhere",
                              "the state is kept although the step starts at other positions", "L8",
                              "F_start_elsewhere", 6),
