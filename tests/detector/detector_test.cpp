@@ -271,6 +271,21 @@ TEST(Detector, PairsFirstHasTheFirstTime) {
   EXPECT_EQ(next.dirty, anew.dirty) << "and so what a new start finds is released (L9)";
 }
 
+// Where K holds no contact there is none (L3): nothing is missing from the pairs that were found.
+TEST(Detector, L8_AFreeStepByFirstPairsLeavesNothingInDoubt) {
+  const Positions x = octahedron_positions(2);
+  Positions dented = x;
+  dented.row(4) << 0, 0, -.5;
+  Detector first = make(octahedron(), x, Culling::view_point, Start::verified, Pairs::first);
+  const auto result = first.step(x, dented);
+  EXPECT_EQ(result.answer, Answer::free);
+  EXPECT_EQ(result.counts.free_components, 0u);
+  const auto next = first.evaluate(dented, dented);
+  EXPECT_EQ(next.counts.free_components, 0u);
+  EXPECT_EQ(next.counts.release.in_doubt, 0u);
+  EXPECT_EQ(next.dirty, 0u);
+}
+
 TEST(Detector, WrongNumberOfPrimitivesIsRefused) {
   Detector detector = make(octahedron(), octahedron_positions(2));
   const std::vector<ViewPrimitive> two(2);

@@ -37,6 +37,7 @@ def arguments():
     p.add_argument("--these", help="a JSON list of mutants (file, line, mutated) instead of a draw")
     p.add_argument("--anew", action="store_true", help="forget the outcomes of earlier runs")
     p.add_argument("--all-killed", action="store_true", help="want every mutant killed")
+    p.add_argument("--filter", help="tests of detector_tests to ask, and no other program's")
     p.add_argument("--judge-alone", action="store_true", help="leave the detector's tests out")
     return p.parse_args()
 
@@ -47,7 +48,8 @@ def judges_of(options, build):
         subprocess.run([str(build.build / "mutation_facts"), facts, *options.sizes], check=True)
     judges = [workbench.Judge("mutant_judge", build.link_command("mutant_judge"), [facts])]
     if not options.judge_alone:
-        for name, filtered in TESTS.items():
+        tests = {"detector_tests": options.filter} if options.filter else TESTS
+        for name, filtered in tests.items():
             judges.append(workbench.Judge(name, build.link_command(name),
                                           ["--gtest_fail_fast", f"--gtest_filter={filtered}"]))
     return judges

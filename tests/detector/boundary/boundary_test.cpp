@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "detector/boundary/apex.h"
+#include "detector/boundary/boundary_handler.h"
 #include "detector/boundary/ghost_sweep.h"
 #include "detector/detector.h"
 #include "detector/search/pair_rule.h"
@@ -78,6 +79,22 @@ TEST(Apex, IsFiniteForEveryFiniteLoop) {
     for (const auto& rule : apex_rules) {
       for (const double c : place_apex(rule, {0, 1, 2}, x)) EXPECT_TRUE(std::isfinite(c)) << s;
     }
+  }
+}
+
+// Each by its own rule at both ends of a step: where it stood at the end of the one before.
+TEST(Apex, OfEachHoleIsPlacedByTheRuleOfThatHole) {
+  const Surface surface = make_surface(without({0, 6}), 6);
+  ASSERT_EQ(surface.loops.size(), 2u);
+  const Positions x_t0 = octahedron_positions(2), x_t1 = octahedron_positions(3);
+  const std::vector<ApexRule> rules = {{0.0}, {0.25}};
+  const BoundaryHandler handler;
+  const auto step = handler.place_apexes(surface, rules, x_t0, x_t1),
+             next = handler.place_apexes(surface, rules, x_t1, x_t0);
+  for (std::size_t l = 0; l < 2; ++l) {
+    EXPECT_EQ(step[l].t0, place_apex(rules[l], surface.loops[l], x_t0));
+    EXPECT_EQ(step[l].t1, next[l].t0);
+    EXPECT_EQ(step[l].t0, next[l].t1);
   }
 }
 

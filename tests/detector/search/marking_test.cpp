@@ -125,6 +125,23 @@ TEST(Marking, WorkIsThatOfTheChange) {
   EXPECT_EQ(second.cleared, depth_of(tree, 100));
 }
 
+// Of two flags that a triangle gets at once, the nodes above may have one already.
+TEST(Marking, SeveralFlagsAtOnceAllReachTheRoot) {
+  SearchMeshes random(4);
+  const MovingMesh mesh = random.sheets(1, 30, false);
+  const BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
+  Marks marks(tree);
+  std::vector<TriangleType> types = marks.types;
+  MarkingCounts counts;
+  for (const auto& [t, type] :
+       {std::pair(100, TriangleType::negative), std::pair(7, TriangleType::negative_grown),
+        std::pair(100, TriangleType::positive_grown)}) {
+    types[at(t)] = type;
+    Marking().bring_to(types, tree, marks, counts);
+    expect_marked(tree, marks, types);
+  }
+}
+
 using Pairs = std::set<std::pair<std::int32_t, std::int32_t>>;
 
 Pairs pairs_of(const PairSearch& search, const SearchInput& input, SearchCounts& counts) {

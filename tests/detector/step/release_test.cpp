@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "detector/detector.h"
+#include "detector/state/state_fields.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"
 
@@ -135,6 +136,30 @@ TEST(SavedState, RestoredGivesTheSameBits) {
   }
   ASSERT_FALSE(detector.restore(saved));
   EXPECT_GT(detector.step(out, in).dirty, 0u) << "back at the saved state";
+}
+
+// Apexes that this detector chose by itself have no part in a state from elsewhere.
+TEST(SavedState, RestoredIsTheWholeState) {
+  const Positions x = octahedron_positions(2);
+  Detector detector = make();
+  detector.step(x, tip_at(.25));
+  const SavedState saved = detector.state();
+  // With its tip on the centroid of the hole a ghost fan stands elsewhere.
+  Detector other = std::move(Detector::create(with_hole(), tip_at(2. / 3), with_points()).value());
+  ASSERT_NE(other.state().fields().apex_rules[0].height, saved.fields().apex_rules[0].height);
+  ASSERT_FALSE(other.restore(saved));
+  EXPECT_EQ(other.state().bytes(), saved.bytes());
+}
+
+TEST(SavedState, WhatWasEvaluatedBeforeARestoreIsNotCommittedAfterIt) {
+  const Positions x = octahedron_positions(2);
+  Detector detector = make();
+  detector.step(x, x);
+  const SavedState saved = detector.state();
+  detector.evaluate(x, tip_at(1.5));
+  ASSERT_FALSE(detector.restore(saved));
+  EXPECT_EQ(detector.commit()->error, InputError::nothing_to_commit);
+  EXPECT_EQ(detector.state().bytes(), saved.bytes());
 }
 
 TEST(SavedState, OfAnotherMeshOrCullingIsRefused) {

@@ -251,6 +251,36 @@ TEST(ViewAuto, EvaluateLeavesTheChoiceAloneAndResetForgetsIt) {
   play();
 }
 
+// The flat pressing and the passage through the hole below happen without views: what was lost is
+// looked at as at a new start, by the sweep of the ghosts too. They are pierced already there.
+TEST(ViewAuto, L9L11_WhatWasLostIsLookedAtAsAtANewStart) {
+  const Triangles all = revolved(sphere_rings);
+  const Triangles t = all.bottomRows(all.rows() - 1);
+  const Positions x = sphere(1);
+  Positions over = x;
+  over.col(2) *= -.875;
+  over.col(2) += .125 * x.col(0) + .0625 * x.col(1);
+  // Vertex 68 stands opposite to the hole; through it, and well beyond.
+  Positions out = x;
+  out.row(68) = .5 * (x.row(0) + x.row(1) + x.row(9));
+  Positions next = out;
+  next.row(68) *= 1.125;
+  Detector anew = make(t, x, Culling::view_auto, Start::verified);
+  const auto expected = anew.step(out, next);
+  ASSERT_FALSE(has_no_views(expected));
+  EXPECT_GE(expected.violated, 5u);
+  EXPECT_GE(expected.dirty, 5u);
+  // The word that the start is clean is given for the first step alone.
+  for (const auto start : {Start::verified, Start::clean}) {
+    Detector detector = make(t, x, Culling::view_auto, start);
+    EXPECT_TRUE(has_no_views(detector.step(x, over)));
+    EXPECT_TRUE(has_no_views(detector.step(over, out))) << "a rest";
+    const auto result = detector.step(out, next);
+    EXPECT_EQ(result.doubts, expected.doubts);
+    expect_same_contacts(result, expected);
+  }
+}
+
 TEST(ViewAuto, AdjacentPairsAreThoseThatShareAVertex) {
   const Surface surface = make_surface(octahedron(), 6);
   // Of 28 pairs the four of opposite triangles share none.

@@ -1,0 +1,94 @@
+// The decisions of view-auto, one by one, from the counts that they rest on.
+#include <gtest/gtest.h>
+
+#include "detector/step/view_auto.h"
+#include "tests/detector/points.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::octahedron;
+using tests::octahedron_positions;
+
+// Two octahedra without their first triangles, all seen positive: views save every pair.
+struct TwoOpen {
+  static Triangles triangles() {
+    Triangles t(14, 3);
+    t << octahedron().bottomRows(7), octahedron().bottomRows(7).array() + 6;
+    return t;
+  }
+  static Positions positions() {
+    Positions x(14, 3);
+    x << octahedron_positions(1), octahedron_positions(1).rowwise() + Eigen::RowVector3d(10, 0, 0),
+        1. / 3, 1. / 3, 1. / 3, 10 + 1. / 3, 1. / 3, 1. / 3;  // two apexes
+    return x;
+  }
+  StepWork work(bool first_is_free, bool second_is_free) {
+    StepWork work{surface, tree, boundary, elementary, stop, x, x, nullptr};
+    work.primitives.resize(2);
+    work.signs.assign(surface.all().triangles.size(), ViewSign::positive);
+    work.free = {first_is_free, second_is_free};
+    return work;
+  }
+  Positions x = positions();
+  Surface surface = make_surface(triangles(), 12);
+  BoundingVolumeTree tree{surface.mesh, x.topRows(12)};
+  BoundaryHandler boundary;
+  ElementaryTest elementary;
+  StopFunction stop;
+};
+
+// The fewest pairs of culling bvh at which the views of a step are used.
+std::uint64_t least_pairs(bool first_is_free, bool second_is_free, double overhead = 0) {
+  TwoOpen mesh;
+  ViewChoice before;
+  before.overhead = overhead;
+  StepWork work = mesh.work(first_is_free, second_is_free);
+  for (std::uint64_t pairs = 0; pairs < 10'000; ++pairs) {
+    if (ViewAuto(mesh.surface, pairs, before).promises(work)) return pairs;
+  }
+  return 10'000;
+}
+
+TEST(ViewPolicy, GhostsOfFreeComponentsAreNoWork) {
+  const auto none = least_pairs(false, false), first = least_pairs(true, false),
+             second = least_pairs(false, true);
+  EXPECT_GT(first, 0u);
+  EXPECT_EQ(first, second);
+  EXPECT_EQ(none, first + second) << "a ghost's box and a triangle: 9 pairs each";
+  EXPECT_EQ(least_pairs(true, true), 0u);
+}
+
+// A pair left out saves a third of its cost.
+TEST(ViewPolicy, WhatViewsHaveCostMustBeSavedByTheSigns) {
+  EXPECT_EQ(least_pairs(true, true, 100), 300u);
+  EXPECT_EQ(least_pairs(true, true, 1000), 3000u);
+}
+
+// After a look that paid.
+ViewChoice after_a_look(const ViewChoice& before) {
+  const TwoOpen mesh;
+  return ViewAuto(mesh.surface, 100, before).after({}, true);
+}
+
+TEST(ViewPolicy, WhatViewsHaveCostIsForgottenByHalves) {
+  ViewChoice choice;
+  choice.overhead = 64;
+  for (const double expected : {32., 16., 8.}) {
+    choice = after_a_look(choice);
+    EXPECT_EQ(choice.overhead, expected);
+  }
+}
+
+TEST(ViewPolicy, RestsAreForgottenByHalves) {
+  ViewChoice choice;
+  choice.next_rest = 32;
+  for (const std::uint64_t expected : {16u, 8u, 4u, 2u, 1u, 1u}) {
+    choice = after_a_look(choice);
+    EXPECT_EQ(choice.next_rest, expected);
+    EXPECT_EQ(choice.rest, 0u);
+  }
+}
+
+}  // namespace
+}  // namespace assay::detector
