@@ -30,12 +30,13 @@ std::vector<std::int32_t> layer_witnesses(const Topology& mesh, std::size_t c,
 // layer.
 //
 // Two untouched triangles are linked when they alone share an edge (oppositely directed, as mesh
-// and ghosts form a cycle); layers continue across links, and pieces are the classes. A piece that
-// holds a clean triangle is released: found by flood. Any other has one exact winding number (in
-// bounded arithmetic a piece whose number doubles cannot tell stays dirty), and is released when
-// its layer is the common one: that of `witnesses`, or, where there are none, the layer with most
-// untouched triangles (tie: the one that holds the lowest triangle index). "Connected" would not be enough: two tetrahedra, one inside the other, may share an edge
-// (case L9_shared_edge_two_layers).
+// and ghosts form a cycle); layers continue across links, and pieces are the classes. A piece
+// that holds a clean triangle is released: found by flood. Any other has one exact winding
+// number (in bounded arithmetic a piece whose number doubles cannot tell stays dirty), and is
+// released when its layer is the common one: that of `witnesses`, or, where there are none, the
+// layer with most untouched triangles (tie: the one that holds the lowest triangle index).
+// "Connected" would not be enough: two tetrahedra, one inside the other, may share an edge (case
+// L9_shared_edge_two_layers).
 //
 // `seen` is scratch by mesh triangle, 0 for those of the component. Costs the triangles in doubt
 // and, where there is a piece without a clean triangle, a few passes over the component for the

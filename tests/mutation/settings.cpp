@@ -28,7 +28,6 @@ const Setting all[] = {
     {"point, saved state", {.culling = Culling::view_point}, true, true, true},
     {"auto, saved state", {.culling = Culling::view_auto}, true, true, true},
     {"point, clean start", {Culling::view_point, Start::clean}},
-    {"auto, clean start", {Culling::view_auto, Start::clean}},
     {"line, first", {Culling::view_line, verified, first}},
     {"auto, first", {Culling::view_auto, verified, first}},
     {"cone", {.culling = Culling::normal_cone}},
