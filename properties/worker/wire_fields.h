@@ -56,7 +56,7 @@ struct LastOf<detector::GhostTest> {
 };
 template <>
 struct LastOf<detector::InputError> {
-  static constexpr auto value = detector::InputError::mesh_too_large;
+  static constexpr auto value = detector::InputError::stopped;
 };
 template <>
 struct LastOf<detector::Answer> {
