@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
+#include <cstdio>
 #include <functional>
 
 namespace assay::tests {
@@ -22,36 +22,72 @@ inline constexpr std::size_t given_stack_bytes = 8 * small_stack_bytes;
 inline constexpr std::size_t given_stack_bytes = small_stack_bytes;
 #endif
 
-// Bytes that were used, those of the thread itself included (about 4 KB). A page below the stack
-// cannot be written: what uses more crashes.
-inline std::size_t on_small_stack(std::function<void()> body) {
-  constexpr std::size_t guard = 4096;
-  constexpr std::byte untouched{0xa5};
-  void* block = mmap(nullptr, guard + given_stack_bytes, PROT_READ | PROT_WRITE,
-                     MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
-  if (block == MAP_FAILED || mprotect(block, guard, PROT_NONE) != 0) {
+namespace small_stack {
+
+// The thread's own data lies above its first frame, on the same block, and is not the body's: a
+// thread of the thread sanitizer has nearly a megabyte of it.
+#if defined(__SANITIZE_THREAD__)
+inline constexpr std::size_t threads_own_bytes = 2 * 1024 * 1024;
+#else
+inline constexpr std::size_t threads_own_bytes = 64 * 1024;
+#endif
+inline constexpr std::byte untouched{0xa5};
+inline constexpr std::size_t page = 4096;
+
+struct Run {
+  std::byte* block;
+  const std::function<void()>& body;
+  std::size_t used = 0;
+};
+
+// Counts from this frame downwards. The page below what the body is given cannot be written: a body
+// that uses more crashes.
+inline void* run(void* given) {
+  Run& run = *static_cast<Run*>(given);
+  std::byte here{};
+  const auto from_block = static_cast<std::size_t>(&here - run.block);
+  const std::size_t guard = (from_block - given_stack_bytes) / page * page - page;
+  if (mprotect(run.block + guard, page, PROT_NONE) != 0) {
+    ADD_FAILURE() << "no guard below the stack";
+    return nullptr;
+  }
+  run.body();
+  const std::byte* deepest =
+      std::find_if(run.block + guard + page, &here, [](std::byte b) { return b != untouched; });
+  run.used = static_cast<std::size_t>(&here - deepest);
+  return nullptr;
+}
+
+}  // namespace small_stack
+
+// Bytes of stack that `body` used, between its caller's frame and the deepest byte that it wrote.
+inline std::size_t on_small_stack(const std::function<void()>& body) {
+  constexpr std::size_t bytes = small_stack::threads_own_bytes + given_stack_bytes;
+  void* block =
+      mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+  if (block == MAP_FAILED) {
     ADD_FAILURE() << "no memory for a stack";
     return 0;
   }
-  auto* stack = static_cast<std::byte*>(block) + guard;
-  std::fill_n(stack, given_stack_bytes, untouched);
+  std::fill_n(static_cast<std::byte*>(block), bytes, small_stack::untouched);
+  small_stack::Run run{static_cast<std::byte*>(block), body};
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
   pthread_t thread{};
-  const auto call = [](void* given) -> void* {
-    (*static_cast<std::function<void()>*>(given))();
-    return nullptr;
-  };
-  EXPECT_EQ(pthread_attr_setstack(&attributes, stack, given_stack_bytes), 0);
-  const int failed = pthread_create(&thread, &attributes, call, &body);
+  EXPECT_EQ(pthread_attr_setstack(&attributes, block, bytes), 0);
+  const int failed = pthread_create(&thread, &attributes, small_stack::run, &run);
   EXPECT_EQ(failed, 0);
   if (failed == 0) pthread_join(thread, nullptr);
   pthread_attr_destroy(&attributes);
-  const auto* deepest =
-      std::find_if(stack, stack + given_stack_bytes, [](std::byte b) { return b != untouched; });
-  const auto used = static_cast<std::size_t>(stack + given_stack_bytes - deepest);
-  munmap(block, guard + given_stack_bytes);
-  return used;
+  munmap(block, bytes);
+  return run.used;
+}
+
+// Fails when `body` uses more than half of the stack: the other half is for whoever calls.
+inline void expect_enough_stack(const char* what, const std::function<void()>& body) {
+  const std::size_t used = on_small_stack(body);
+  std::printf("%s: %zu KB of stack\n", what, used / 1024);
+  EXPECT_LT(used, given_stack_bytes / 2);
 }
 
 }  // namespace assay::tests

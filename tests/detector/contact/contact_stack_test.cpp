@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <random>
 
 #include "detector/contact/contact_exact.h"
@@ -44,14 +43,8 @@ void expect_answered(const FourPoints& query) {
   }
 }
 
-void expect_enough_stack(const char* what, const std::function<void()>& body) {
-  const std::size_t used = tests::on_small_stack(body);
-  std::printf("%s: %zu KB of stack\n", what, used / 1024);
-  EXPECT_LT(used, tests::given_stack_bytes / 2) << "half of it is for whoever calls";
-}
-
 TEST(ContactStack, RootsThatManyBitsTellApart) {
-  expect_enough_stack("roots next to 1", [] {
+  tests::expect_enough_stack("roots next to 1", [] {
     for (int big = 20; big <= 1020; big += 100) {
       for (int small = -20; small >= -1070; small -= 150) {
         const double a = std::ldexp(1, big), c = std::ldexp(5, big / 2), e = std::ldexp(1, small);
@@ -63,7 +56,7 @@ TEST(ContactStack, RootsThatManyBitsTellApart) {
 }
 
 TEST(ContactStack, ExponentsOverAllDoubles) {
-  expect_enough_stack("exponents over all doubles", [] {
+  tests::expect_enough_stack("exponents over all doubles", [] {
     std::mt19937_64 engine(20117);
     const auto below = [&engine](int n) { return static_cast<int>(engine() % std::uint64_t(n)); };
     for (int i = 0; i < 600; ++i) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <random>
 
 #include "detector/view/view_exact.h"
@@ -21,15 +20,9 @@ ViewSign sign_by_both_rungs(const MovingTriangle& triangle, const ViewPrimitive&
   return exact;
 }
 
-void expect_view_stack(const char* what, const std::function<void()>& body) {
-  const std::size_t used = tests::on_small_stack(body);
-  std::printf("%s: %zu KB of stack\n", what, used / 1024);
-  EXPECT_LT(used, tests::given_stack_bytes / 2) << "half of it is for whoever calls";
-}
-
 // An end of the line comes from far away: roots next to 1 that many bits tell apart.
 TEST(ViewStack, LineWhoseEndComesFromFarAway) {
-  expect_view_stack("end from far away", [] {
+  tests::expect_enough_stack("end from far away", [] {
     const double least = std::ldexp(1, -1068);
     const MovingTriangle triangle = {MovingPoint{{0, 0, 0}, {1, 0, 0}},
                                      MovingPoint{{0, 1, 0}, {0, 0, -least}},
@@ -43,7 +36,7 @@ TEST(ViewStack, LineWhoseEndComesFromFarAway) {
 }
 
 TEST(ViewStack, ExponentsOverAllDoubles) {
-  expect_view_stack("exponents over all doubles", [] {
+  tests::expect_enough_stack("exponents over all doubles", [] {
     std::mt19937_64 engine(20118);
     const auto below = [&engine](int n) { return static_cast<int>(engine() % std::uint64_t(n)); };
     for (int i = 0; i < 300; ++i) {
