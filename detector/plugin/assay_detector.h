@@ -22,8 +22,18 @@
  * destroy. A step usually starts where the last committed one ended. When it starts elsewhere, it
  * is a new start: nothing carried from earlier steps may be trusted.
  *
- * VERSIONS. abi_version is the first member of the table in every version and the host refuses
- * another version than its own. Members are only ever added with a new version. */
+ * LEFT OUT. What the description's contract leaves out is never put to the detector: a step that
+ * starts in contact, say, is skipped, and the next one is a new start.
+ *
+ * PARTS. A library may hold less than a detector of whole steps: one elementary query (vertex-face,
+ * edge-edge), or the candidate pairs of a broad phase. It fills in the functions that it has and
+ * sets the others to NULL. evaluate, commit and result stand together; they and candidates need
+ * create and destroy.
+ *
+ * VERSIONS. abi_version is the first member of the table in every version. Members are only ever
+ * added at the end, with a new version. A host of version 2 loads tables of version 1 too: it reads
+ * the table up to destroy and the description up to margin, and takes the other members to be 0. It
+ * refuses versions above its own. */
 #ifndef ASSAY_DETECTOR_H
 #define ASSAY_DETECTOR_H
 
@@ -33,7 +43,7 @@
 extern "C" {
 #endif
 
-#define ASSAY_DETECTOR_ABI_VERSION 1u
+#define ASSAY_DETECTOR_ABI_VERSION 2u
 
 #if defined(_WIN32)
 #define ASSAY_DETECTOR_EXPORT __declspec(dllexport)
@@ -59,7 +69,8 @@ enum {
   ASSAY_CLAIM_ALL_PAIRS = 1u << 4,     /* every pair in contact during the step, none too late */
   ASSAY_CLAIM_NO_SPURIOUS = 1u << 5,   /* no collision, pair or contact time before there is one */
   ASSAY_CLAIM_DETERMINISTIC = 1u << 6, /* the same calls give the same results */
-  ASSAY_CLAIM_TOTAL = 1u << 7          /* every valid input within the limits is answered */
+  ASSAY_CLAIM_TOTAL = 1u << 7,         /* every valid input within the limits is answered */
+  ASSAY_CLAIM_CANDIDATES = 1u << 8     /* of `candidates`: every pair in contact is among them */
 };
 
 /* Which neighbours are tested against each other; contacts of the others are not held against the
@@ -76,6 +87,28 @@ enum {
                                    the detector and the oracle see it */
 };
 
+/* Which steps the detector takes, by how the mesh lies at t = 0. The others are left out. */
+enum {
+  ASSAY_START_ANY = 0,  /* every step */
+  ASSAY_START_FREE = 1, /* steps that start without a contact */
+  ASSAY_START_APART = 2 /* steps in which no vertex and face, and no two edges, that share no vertex
+                           are nearer to each other than start_distance at t = 0 */
+};
+
+/* Which features the detector tests against each other. Contacts of the others are not held against
+ * it, and counted: those of features that are left out, and of a mesh whose edges pierce its faces
+ * when a step starts. */
+enum { ASSAY_FEATURES_BOTH = 0, ASSAY_FEATURES_VERTEX_FACE = 1, ASSAY_FEATURES_EDGE_EDGE = 2 };
+
+enum {
+  ASSAY_REPORTS_PAIRS = 0,
+  ASSAY_REPORTS_NO_PAIRS = 1 /* answer and time alone: claims on pairs are not judged */
+};
+
+#define ASSAY_WIDEST_TIME_TOLERANCE 1e-3
+
+/* A description that sets the members up to margin and leaves the others 0 has the contract of
+ * version 1. */
 typedef struct assay_description {
   const char* name;    /* one line, not empty */
   const char* version; /* one line */
@@ -84,6 +117,17 @@ typedef struct assay_description {
   int32_t coordinates; /* ASSAY_COORDINATES_... */
   double margin;       /* distance at which triangles count as touching, user's units; finite, >= 0.
                           Above 0 no-spurious is not judged */
+
+  /* Since version 2. */
+  int32_t start;         /* ASSAY_START_... */
+  double start_distance; /* user's units; above 0 with ASSAY_START_APART, else 0 */
+  double least_nonzero;  /* every coordinate is 0 or of a magnitude from least_nonzero */
+  double largest;   /* to largest; both 0: every finite number. Else 0 <= least_nonzero <= largest,
+                            largest above 0. Meshes beyond it are left out */
+  int32_t features; /* ASSAY_FEATURES_... */
+  double time_tolerance; /* a time counts as late, early or wrong when it is off by more than this
+                            share of the step; 0 <= time_tolerance <= 1e-3 */
+  int32_t reports;       /* ASSAY_REPORTS_... */
 } assay_description;
 
 /* The detector's own data of one mesh. */
@@ -102,6 +146,22 @@ typedef struct assay_result {
                                known: then pairs are judged without times */
   const char* message;      /* with ASSAY_ERROR: one line, or NULL */
 } assay_result;
+
+enum { ASSAY_QUERY_VERTEX_FACE = 0, ASSAY_QUERY_EDGE_EDGE = 1 };
+
+/* Of one elementary query. The host sets all to 0 before the call. */
+typedef struct assay_query_result {
+  int32_t answer;  /* ASSAY_FREE, ASSAY_COLLISION, ASSAY_UNDECIDED, ASSAY_ERROR */
+  double first_lo; /* as of assay_result */
+  double first_hi;
+} assay_query_result;
+
+/* Pairs of triangles that may be in contact during the step. The host sets all to 0 before the
+ * call. */
+typedef struct assay_candidates {
+  uint64_t pair_count;  /* any order, each once or more */
+  const int32_t* pairs; /* pair_count x 2 triangle indices; may be NULL when there are none */
+} assay_candidates;
 
 typedef struct assay_detector_api {
   uint32_t abi_version; /* ASSAY_DETECTOR_ABI_VERSION */
@@ -128,6 +188,24 @@ typedef struct assay_detector_api {
 
   /* Frees the handle. */
   void (*destroy)(assay_handle* handle);
+
+  /* Since version 2: each may be NULL. */
+
+  /* How many threads the detector may use, 1 or more: called once, before everything but describe.
+   * Results must not depend on it where deterministic is claimed. */
+  void (*use_threads)(uint32_t count);
+
+  /* Whether two features meet during the step, and when first: a part of its own, judged by
+   * `check-queries`, `self-test` and campaigns of queries. x_t0, x_t1: 4 x 3 doubles, of the vertex
+   * and the three corners of the face, or of the two ends of one edge and the two of the other. Needs
+   * no handle. */
+  int32_t (*query)(int32_t kind, const double* x_t0, const double* x_t1,
+                   assay_query_result* result);
+
+  /* Pairs that may be in contact during the step: a broad phase, judged by ASSAY_CLAIM_CANDIDATES.
+   * Carries nothing from step to step. */
+  int32_t (*candidates)(assay_handle* handle, const double* x_t0, const double* x_t1,
+                        assay_candidates* candidates);
 } assay_detector_api;
 
 /* The one symbol that a plug-in exports. Returns a table that is valid as long as the library is

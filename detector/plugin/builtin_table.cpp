@@ -10,15 +10,15 @@ std::int32_t guarded(const Function& function) {
 }
 
 const assay_description* describe() {
-  static const assay_description description = {
-      "built-in as a plug-in",
-      "1",
-      ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_FIRST_TIME |
-          ASSAY_CLAIM_FIRST_PAIRS | ASSAY_CLAIM_ALL_PAIRS | ASSAY_CLAIM_NO_SPURIOUS |
-          ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL,
-      ASSAY_ADJACENCY_ALL,
-      ASSAY_COORDINATES_FLOAT64,
-      0};
+  static const assay_description description = [] {
+    assay_description d = {};
+    d.name = "built-in as a plug-in";
+    d.version = "1";
+    d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_FIRST_TIME |
+               ASSAY_CLAIM_FIRST_PAIRS | ASSAY_CLAIM_ALL_PAIRS | ASSAY_CLAIM_NO_SPURIOUS |
+               ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
+    return d;
+  }();
   return &description;
 }
 
@@ -76,7 +76,16 @@ void destroy(assay_handle* h) { delete h; }
 
 const assay_detector_api* assay_builtin_detector() {
   using namespace assay::detector;
-  static const assay_detector_api api = {
-      ASSAY_DETECTOR_ABI_VERSION, describe, create, evaluate, commit, result, destroy};
+  static const assay_detector_api api = [] {
+    assay_detector_api table = {};
+    table.abi_version = ASSAY_DETECTOR_ABI_VERSION;
+    table.describe = describe;
+    table.create = create;
+    table.evaluate = evaluate;
+    table.commit = commit;
+    table.result = result;
+    table.destroy = destroy;
+    return table;
+  }();
   return &api;
 }

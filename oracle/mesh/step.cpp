@@ -17,7 +17,7 @@ using detector::FeatureKind;
 
 // What one thread has found. Candidates are judged as they are met and never stored.
 struct Worker {
-  PairStore pairs;
+  PairStore pairs, asked_pairs;
   RungCounts rungs;
   std::uint64_t candidates = 0;
 };
@@ -30,6 +30,7 @@ class StepJudge {
         x_t1_(x_t1),
         features_(mesh_features(triangles)),
         gate_(options.stop),
+        asked_(options.features),
         workers_(std::max(options.jobs, 1)) {}
 
   StepJudgement run() {
@@ -96,6 +97,8 @@ class StepJudge {
     const Feature feature{FeatureKind::vertex_face, {v, f[0], f[1], f[2], -1}};
     for (const std::int32_t t : features_.triangles_of_vertex.of(item)) {
       worker.pairs.add(t, static_cast<std::int32_t>(face), answer.first, feature);
+      if (asked_ == AskedFeatures::vertex_face)
+        worker.asked_pairs.add(t, static_cast<std::int32_t>(face), answer.first, feature);
     }
   }
 
@@ -110,6 +113,7 @@ class StepJudge {
     for (const std::int32_t s : features_.triangles_of_edge.of(item)) {
       for (const std::int32_t t : features_.triangles_of_edge.of(other)) {
         worker.pairs.add(s, t, answer.first, feature);
+        if (asked_ == AskedFeatures::edge_edge) worker.asked_pairs.add(s, t, answer.first, feature);
       }
     }
   }
@@ -128,11 +132,15 @@ class StepJudge {
   StepJudgement collect() {
     StepJudgement result;
     for (std::size_t i = 0; i < workers_.size(); ++i) {
-      if (i > 0) workers_[0].pairs.merge(workers_[i].pairs);
+      if (i > 0) {
+        workers_[0].pairs.merge(workers_[i].pairs);
+        workers_[0].asked_pairs.merge(workers_[i].asked_pairs);
+      }
       result.rungs += workers_[i].rungs;
       result.feature_candidates += workers_[i].candidates;
     }
     result.pairs = workers_[0].pairs.take();
+    result.asked_pairs = workers_[0].asked_pairs.take();
     if (gate_.was_stopped()) return result;
     result.complete = true;
     result.answer = result.pairs.empty() ? detector::Answer::free : detector::Answer::collision;
@@ -147,6 +155,7 @@ class StepJudge {
   const detector::PositionsView& x_t1_;
   const MeshFeatures features_;
   StopGate gate_;
+  const AskedFeatures asked_;
   std::vector<Worker> workers_;
 };
 

@@ -25,17 +25,20 @@ const char* name_of(detector::FeatureKind kind) {
 namespace {
 
 // How a detector's times are read: `unique` is the enclosure of exact arithmetic, `interval` any
-// interval that holds the time.
-enum class Times { unique, interval };
+// interval that holds the time, or misses it by no more than the tolerance.
+struct Times {
+  bool unique = false;
+  double tolerance = 0;
 
-// t* of the oracle is its lo when lo == hi, else strictly between two adjacent doubles: an interval
-// of doubles holds it when it holds both ends.
-bool begins_after(const TimeEnclosure& ours, const TimeEnclosure& theirs, Times times) {
-  return times == Times::unique ? theirs < ours : ours.lo > theirs.lo;
-}
-bool ends_before(const TimeEnclosure& ours, const TimeEnclosure& theirs, Times times) {
-  return times == Times::unique ? ours < theirs : ours.hi < theirs.hi;
-}
+  // t* of the oracle is its lo when lo == hi, else strictly between two adjacent doubles: an
+  // interval of doubles holds it when it holds both ends.
+  bool begins_after(const TimeEnclosure& ours, const TimeEnclosure& theirs) const {
+    return unique ? theirs < ours : ours.lo > theirs.lo + tolerance;
+  }
+  bool ends_before(const TimeEnclosure& ours, const TimeEnclosure& theirs) const {
+    return unique ? ours < theirs : ours.hi < theirs.hi - tolerance;
+  }
+};
 
 // The oracle's side that counts under a contract.
 struct Truth {
@@ -44,15 +47,17 @@ struct Truth {
   TimeEnclosure first;  // when complete and there are pairs
 };
 
+bool is_earlier(const PairContact& a, const PairContact& b) { return a.time < b.time; }
+
 class Comparison {
  public:
   Comparison(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-             const Claims& claims, const Contract& contract, Times times)
+             const Claims& claims, const Contract& contract, bool unique_times)
       : result_(result),
         judgement_(judgement),
         claims_(claims),
         contract_(contract),
-        times_(times) {}
+        times_{unique_times, contract.time_tolerance} {}
 
   StepDiff run(const std::function<bool(TrianglePair)>& left_out) {
     if (result_.answer == Answer::error) {
@@ -61,15 +66,9 @@ class Comparison {
       return std::move(diff_);
     }
     diff_.partial = !detector_complete() || !judgement_.complete;
-    for (const auto& contact : judgement_.pairs) {
-      (left_out(contact.pair) ? diff_.left_out : truth_.pairs).push_back(contact);
-    }
-    truth_.complete = judgement_.complete;
-    const auto earlier = [](const PairContact& a, const PairContact& b) { return a.time < b.time; };
-    const auto first = std::min_element(truth_.pairs.begin(), truth_.pairs.end(), earlier);
-    if (first != truth_.pairs.end()) truth_.first = first->time;
-
-    compare_pairs(left_out);
+    find_truth(left_out);
+    compare_with_all();
+    compare_with_what_counts();
     compare_answers();
     excuse();
     weigh();
@@ -79,28 +78,53 @@ class Comparison {
  private:
   bool detector_complete() const { return result_.answer != Answer::undecided; }
 
-  void compare_pairs(const std::function<bool(TrianglePair)>& left_out) {
-    auto ours = result_.pairs.begin();
+  void find_truth(const std::function<bool(TrianglePair)>& left_out) {
+    const bool all_features = contract_.features == TestedFeatures::both;
+    const auto& asked = all_features ? judgement_.pairs : judgement_.asked_pairs;
+    for (const auto& contact : asked) {
+      if (!left_out(contact.pair)) truth_.pairs.push_back(contact);
+    }
+    // What is not among these, or is so later.
+    auto counted = truth_.pairs.begin();
+    for (const auto& contact : judgement_.pairs) {
+      while (counted != truth_.pairs.end() && counted->pair < contact.pair) ++counted;
+      const bool counts = counted != truth_.pairs.end() && counted->pair == contact.pair &&
+                          !(contact.time < counted->time);
+      if (!counts) diff_.left_out.push_back(contact);
+    }
+    truth_.complete = judgement_.complete;
+    const auto first = std::min_element(truth_.pairs.begin(), truth_.pairs.end(), is_earlier);
+    if (first == truth_.pairs.end()) return;
+    truth_.first = first->time;
+    diff_.first_contact = *first;
+  }
+
+  // What the detector reports and is not there yet, counted or not.
+  void compare_with_all() {
+    // An oracle that was stopped has not refuted what it has not reached.
+    if (!judgement_.complete) return;
     auto theirs = judgement_.pairs.begin();
-    while (ours != result_.pairs.end() || theirs != judgement_.pairs.end()) {
-      if (theirs == judgement_.pairs.end() ||
-          (ours != result_.pairs.end() && ours->pair < theirs->pair)) {
-        // An oracle that was stopped has not refuted what it has not reached.
-        if (judgement_.complete) diff_.spurious.push_back(*ours);
-        ++ours;
-      } else if (ours == result_.pairs.end() || theirs->pair < ours->pair) {
-        if (detector_complete() && !left_out(theirs->pair)) diff_.missing.push_back(*theirs);
-        ++theirs;
-      } else {
-        // A stopped run may know only later contacts of a pair than its first.
-        const WrongTime wrong{ours->pair, ours->time, theirs->time};
-        if (begins_after(ours->time, theirs->time, times_) && detector_complete()) {
-          diff_.late.push_back(wrong);
-        } else if (ends_before(ours->time, theirs->time, times_) && judgement_.complete) {
-          diff_.early.push_back(wrong);
-        }
-        ++ours;
-        ++theirs;
+    for (const auto& ours : result_.pairs) {
+      while (theirs != judgement_.pairs.end() && theirs->pair < ours.pair) ++theirs;
+      if (theirs == judgement_.pairs.end() || ours.pair < theirs->pair) {
+        diff_.spurious.push_back(ours);
+      } else if (times_.ends_before(ours.time, theirs->time)) {
+        diff_.early.push_back({ours.pair, ours.time, theirs->time});
+      }
+    }
+  }
+
+  // What counts and the detector does not report, or later. A stopped run may know only later
+  // contacts of a pair than its first.
+  void compare_with_what_counts() {
+    if (!detector_complete()) return;
+    auto ours = result_.pairs.begin();
+    for (const auto& theirs : truth_.pairs) {
+      while (ours != result_.pairs.end() && ours->pair < theirs.pair) ++ours;
+      if (ours == result_.pairs.end() || theirs.pair < ours->pair) {
+        diff_.missing.push_back(theirs);
+      } else if (times_.begins_after(ours->time, theirs.time)) {
+        diff_.late.push_back({ours->pair, ours->time, theirs.time});
       }
     }
     // Without all-pairs only the least time is claimed, of the pairs reported and of the step.
@@ -109,20 +133,23 @@ class Comparison {
 
   void compare_answers() {
     const bool collision = result_.answer == Answer::collision;
-    missed_ = result_.answer == Answer::free && !truth_.pairs.empty();
-    false_alarm_ = collision && judgement_.complete && judgement_.pairs.empty();
-    diff_.wrong_answer = missed_ || false_alarm_;
-    if (collision && !truth_.pairs.empty()) {
-      // Of a stopped oracle the first time is an upper bound.
-      late_ = begins_after(result_.first, truth_.first, times_);
-      diff_.wrong_first_time =
-          truth_.complete && (late_ || ends_before(result_.first, truth_.first, times_));
-    }
-    if (missed_ || late_) return;
+    diff_.answered_free = result_.answer == Answer::free && !truth_.pairs.empty();
+    diff_.answered_collision = collision && judgement_.complete && judgement_.pairs.empty();
+    if (collision && !truth_.pairs.empty()) compare_first_times();
+    if (diff_.answered_free || diff_.late_first) return;
     for (const auto& contact : diff_.left_out) {
       diff_.left_out_missed |= result_.answer == Answer::free ||
-                               (collision && begins_after(result_.first, contact.time, times_));
+                               (collision && times_.begins_after(result_.first, contact.time));
     }
+  }
+
+  void compare_first_times() {
+    // Of a stopped oracle the first time is an upper bound.
+    diff_.late_first = times_.begins_after(result_.first, truth_.first);
+    if (!truth_.complete) return;
+    diff_.early_first = times_.ends_before(result_.first, truth_.first);
+    diff_.first = {result_.first, truth_.first, std::max(0., result_.first.lo - truth_.first.lo),
+                   std::max(0., truth_.first.hi - result_.first.hi)};
   }
 
   // What is left in unexcused_ of the missing pairs breaks first-pairs.
@@ -135,12 +162,17 @@ class Comparison {
       // Of a stopped oracle only what is earlier than the detector's first time is a miss for sure.
       const auto later = std::stable_partition(
           unexcused_.begin(), unexcused_.end(), [&](const PairContact& contact) {
-            return begins_after(result_.first, contact.time, times_);
+            return times_.begins_after(result_.first, contact.time);
           });
       excused.assign(later, unexcused_.end());
       unexcused_.erase(later, unexcused_.end());
     }
     if (claims_.all_pairs) return;
+    const bool is_silent = result_.pairs.empty() && !claims_.first_pairs;
+    if (!contract_.reports_pairs || is_silent) {
+      diff_.missing.clear();
+      return;
+    }
     diff_.missing = unexcused_;
     diff_.excused = std::move(excused);
   }
@@ -150,12 +182,15 @@ class Comparison {
   }
 
   void weigh() {
-    broken(Claim::free_sound, missed_);
-    broken(Claim::not_late, late_);
-    broken(Claim::first_time, diff_.wrong_first_time);
-    broken(Claim::first_pairs, !unexcused_.empty());
-    broken(Claim::all_pairs, !diff_.missing.empty() || !diff_.late.empty());
-    const bool spurious = false_alarm_ || !diff_.spurious.empty() || !diff_.early.empty();
+    broken(Claim::free_sound, diff_.answered_free);
+    broken(Claim::not_late, diff_.late_first);
+    broken(Claim::first_time, diff_.wrong_first_time() && truth_.complete);
+    if (contract_.reports_pairs) {
+      broken(Claim::first_pairs, !unexcused_.empty());
+      broken(Claim::all_pairs, !diff_.missing.empty() || !diff_.late.empty());
+    }
+    const bool spurious =
+        diff_.answered_collision || !diff_.spurious.empty() || !diff_.early.empty();
     broken(Claim::no_spurious, spurious && contract_.margin == 0);
     diff_.outcome = !diff_.broken.empty() ? Outcome::defect
                     : diff_.partial       ? Outcome::undecided
@@ -168,7 +203,6 @@ class Comparison {
   const Contract& contract_;
   Times times_;
   Truth truth_;
-  bool missed_ = false, false_alarm_ = false, late_ = false;
   std::vector<PairContact> unexcused_;
   StepDiff diff_;
 };
@@ -178,8 +212,21 @@ class Comparison {
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const Claims& claims, const Contract& contract,
                  const detector::TrianglesView& triangles) {
-  return Comparison(result, judgement, claims, contract, Times::interval)
-      .run([&](TrianglePair pair) { return leaves_out(contract, triangles, pair); });
+  return Comparison(result, judgement, claims, contract, false).run([&](TrianglePair pair) {
+    return leaves_out(contract, triangles, pair);
+  });
+}
+
+oracle::AskedFeatures asked_features(const Contract& contract) {
+  switch (contract.features) {
+    case TestedFeatures::both:
+      return oracle::AskedFeatures::all;
+    case TestedFeatures::vertex_face:
+      return oracle::AskedFeatures::vertex_face;
+    case TestedFeatures::edge_edge:
+      return oracle::AskedFeatures::edge_edge;
+  }
+  return oracle::AskedFeatures::all;
 }
 
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
@@ -187,9 +234,10 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
   Claims claims = claims_of(options);
   // Bad input is refused by name, which is an answer that nobody asked for, and no defect.
   claims.total = false;
-  const auto times =
-      options.arithmetic == detector::Arithmetic::exact ? Times::unique : Times::interval;
-  return Comparison(result, judgement, claims, {}, times).run([](TrianglePair) { return false; });
+  const bool unique_times = options.arithmetic == detector::Arithmetic::exact;
+  return Comparison(result, judgement, claims, {}, unique_times).run([](TrianglePair) {
+    return false;
+  });
 }
 
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,

@@ -32,15 +32,6 @@ void not_answered(RunVerdict& verdict, const Claims& claims) {
 
 }  // namespace
 
-std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& contract) {
-  corpus::Case out = c;
-  for (auto& frame : out.frames) {
-    frame = contracted(frame, contract.coordinates);
-    if (!frame.allFinite()) return std::nullopt;
-  }
-  return out;
-}
-
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
                                               const oracle::JudgeOptions& options) {
   std::vector<oracle::StepJudgement> judgements;
@@ -49,6 +40,11 @@ std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
         oracle::judge_step(start_of(c, step), end_of(c, step), c.triangles, options));
   }
   return judgements;
+}
+
+std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contract& contract,
+                                              int jobs) {
+  return judge_case(c, {jobs, {}, asked_features(contract)});
 }
 
 RunVerdict judge_run(const corpus::Case& c, const CaseRun& run,

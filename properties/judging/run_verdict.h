@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "properties/judging/agreement.h"
+#include "properties/judging/contracted_case.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {
@@ -20,13 +21,12 @@ struct RunVerdict {
   std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
 };
 
-// The case as its contract has it, for detector and oracle alike: coordinates rounded. Nothing when
-// a coordinate is beyond what the contract can hold: then the case is none for this detector.
-std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& contract);
-
 // The oracle on every step of a case.
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
                                               const oracle::JudgeOptions& options = {});
+// The same, asked for what the contract takes. REQUIRES a contracted case.
+std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contract& contract,
+                                              int jobs = 1);
 
 // REQUIRES judgements of the same case, contracted. A crash or a refusal of a case that is not
 // expected to be refused breaks `total` (where that is not claimed: Outcome::error); a hang, or the

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "detector/mesh/problem.h"
@@ -108,8 +107,7 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run) {
 std::string broken_rule(const PluginDescription& description) {
   if (!is_line(description.name) || !is_line(description.version)) return "a name that is no line";
   if (description.name.empty()) return "no name";
-  const double margin = description.contract.margin;
-  return std::isfinite(margin) && margin >= 0 ? "" : "a margin that is no length";
+  return fault_of(description.contract);
 }
 
 }  // namespace assay::properties

@@ -75,6 +75,14 @@ struct LastOf<Coordinates> {
   static constexpr auto value = Coordinates::float32;
 };
 template <>
+struct LastOf<StartRule> {
+  static constexpr auto value = StartRule::apart;
+};
+template <>
+struct LastOf<TestedFeatures> {
+  static constexpr auto value = TestedFeatures::edge_edge;
+};
+template <>
 struct LastOf<ProblemKind> {
   static constexpr auto value = last_problem_kind;
 };
@@ -126,14 +134,17 @@ void fields(Wire& wire, corpus::Case& c) {
 template <class Wire>
 void fields(Wire& wire, Claims& claims) {
   auto& [free_sound, not_late, first_time, first_pairs, all_pairs, no_spurious, deterministic,
-         total] = claims;
-  wire(free_sound, not_late, first_time, first_pairs, all_pairs, no_spurious, deterministic, total);
+         total, candidates] = claims;
+  wire(free_sound, not_late, first_time, first_pairs, all_pairs, no_spurious, deterministic, total,
+       candidates);
 }
 
 template <class Wire>
 void fields(Wire& wire, Contract& contract) {
-  auto& [adjacency, coordinates, margin] = contract;
-  wire(adjacency, coordinates, margin);
+  auto& [adjacency, coordinates, margin, start, start_distance, least_nonzero, largest, features,
+         time_tolerance, reports_pairs] = contract;
+  wire(adjacency, coordinates, margin, start, start_distance, least_nonzero, largest, features,
+       time_tolerance, reports_pairs);
 }
 
 template <class Wire>
@@ -149,8 +160,9 @@ void fields(Wire& wire, KeeperHello& hello) {
 
 template <class Wire>
 void fields(Wire& wire, PluginDescription& description) {
-  auto& [name, version, claims, contract] = description;
-  wire(name, version, claims, contract);
+  auto& [name, version, claims, contract, parts] = description;
+  auto& [steps, query, candidates] = parts;
+  wire(name, version, claims, contract, steps, query, candidates);
 }
 
 template <class Wire>

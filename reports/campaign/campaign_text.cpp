@@ -6,6 +6,7 @@
 
 #include "properties/campaign/gates/bounds.h"
 #include "properties/campaign/stored/count_names.h"
+#include "reports/campaign/measures_text.h"
 #include "reports/terminal/exit_code.h"
 
 namespace assay::reports {
@@ -211,10 +212,7 @@ std::string findings_text(const RunFindings& findings) {
   if (!run.plan.strata.empty()) {
     out += fmt::format("\n{}{}\n{}\n{}", strata_text(findings), disturbance_text(findings),
                        distribution_text(findings.tally), tags_text(findings.tally.counts));
-    if (!run.detector.built_in)
-      out += fmt::format(
-          "the contract leaves out what would have been a miss in {} steps\n",
-          properties::count_of(findings.tally.counts, properties::left_out_misses_name));
+    if (!run.detector.built_in) out += fmt::format("\n{}", measures_text(findings));
     if (run.detector.built_in && run.plan.laws_every > 0)
       out += fmt::format("\n{}", laws_text(findings));
   }

@@ -57,10 +57,10 @@ class JudgedRows {
   void add(const corpus::Case& c) {
     const auto seen = properties::contracted(c, request_.detector.contract);
     for (auto& row : rows_) ++(seen ? row.cases : row.left_out);
-    if (!seen) return;  // its numbers are beyond the contract
-    const auto truth = properties::judge_case(*seen, {request_.jobs, {}});
+    if (!seen) return;  // it is beyond the contract
+    const auto truth = properties::judge_case(*seen, request_.detector.contract, request_.jobs);
     const auto& configurations = request_.detector.configurations;
-    const auto runs = worker_.run(c, configurations);
+    const auto runs = worker_.run(*seen, configurations);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       for (const auto& step : truth) count(rows_[i], step);
       const auto verdict =
@@ -76,7 +76,7 @@ class JudgedRows {
                      configurations[i].name,
                      failure->signature(),
                      failure->what,
-                     corpus::case_text(c),
+                     corpus::case_text(*seen),
                      {}});
       }
     }

@@ -12,24 +12,33 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string claims_text(const Json& detector) {
-  const auto& configurations = detector["configurations"];
-  if (detector["built_in"].get<bool>())
+// The claims that were judged, and those that were not.
+std::string claims_text(const Json& p) {
+  const auto& configurations = p["detector"]["configurations"];
+  if (p["detector"]["built_in"].get<bool>())
     return fmt::format("what each of {} configurations claims", configurations.size());
-  std::vector<std::string> claims;
-  for (const auto& claim : configurations[0]["claims"]) claims.push_back(claim.get<std::string>());
-  return "claims " + joined(claims, ", ");
+  std::vector<std::string> judged, others;
+  for (const auto& claim : configurations[0]["claims"]) {
+    const auto word = claim.get<std::string>();
+    std::string reason;
+    for (const auto& one : p["not_judged"]) {
+      if (one["claim"] == word) reason = one["reason"].get<std::string>();
+    }
+    reason.empty() ? judged.push_back(word)
+                   : others.push_back(fmt::format("{} ({})", word, reason));
+  }
+  return fmt::format("claims {}{}",
+                     judged.empty() ? "nothing that was judged" : joined(judged, ", "),
+                     others.empty() ? "" : "; not judged: " + joined(others, ", "));
 }
 
 }  // namespace
 
 std::string judged_text(const Json& p) {
-  const auto& contract = p["detector"]["contract"];
-  const double margin = contract["margin"].get<double>();
+  const auto phrases = p["detector"]["contract"]["leaves_out"].get<std::vector<std::string>>();
   return fmt::format(
-      "{}; contract adjacency {}, {}{}{}; campaign {}, seed {}", claims_text(p["detector"]),
-      contract["adjacency"].get<std::string>(), contract["coordinates"].get<std::string>(),
-      margin > 0 ? fmt::format(", margin {}", margin) : "",
+      "{}; contract {}{}; campaign {}, seed {}", claims_text(p),
+      phrases.empty() ? "leaves nothing out" : joined(phrases, ", "),
       p["isolation"].is_null() ? ""
                                : fmt::format("; isolation {}", p["isolation"].get<std::string>()),
       p["campaign"]["name"].get<std::string>(), p["campaign"]["seed"].get<std::uint64_t>());

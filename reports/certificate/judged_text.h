@@ -6,9 +6,9 @@
 
 namespace assay::reports {
 
-// "claims free-sound, total; contract adjacency all, float64; isolation full; campaign smoke, seed
-// 1" of a predicate. Of the built-in detector, whose configurations differ in their claims: how
-// many configurations there are.
+// "claims free-sound, total; not judged: no-spurious (the contract has a margin); contract margin
+// 0.1; isolation full; campaign smoke, seed 1" of a predicate. Of the built-in detector, whose
+// configurations differ in their claims: how many configurations there are.
 std::string judged_text(const nlohmann::ordered_json& predicate);
 
 }  // namespace assay::reports

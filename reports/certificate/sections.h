@@ -1,4 +1,4 @@
-// The parts of a certificate's predicate (schema assay-certificate/2, reports/README.md), each a
+// The parts of a certificate's predicate (schema assay-certificate/3, reports/README.md), each a
 // rendering of findings.
 #pragma once
 
@@ -31,6 +31,13 @@ nlohmann::ordered_json failures_json(const properties::RunFindings& findings);
 
 // From corpus/known.json as it was when the certificate was issued, and how often each was met.
 nlohmann::ordered_json waivers_json(const properties::RunFindings& findings);
+
+// {claim, reason} of each claim that no verdict speaks of.
+nlohmann::ordered_json not_judged_json(const properties::RunFindings& findings);
+
+// What the steps of a plug-in came to, whatever it claims: a stratum or all of them
+// (measures_json.cpp).
+nlohmann::ordered_json measures_json(const properties::StepMeasures& measures);
 
 // Null where none was run.
 nlohmann::ordered_json self_test_json(const properties::RunFindings& findings);

@@ -115,6 +115,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
         judgement.failed ? Json(properties::rule_of(*judgement.failed).name) : Json(nullptr)},
        {"gates", gates_json(judgement)},
        {"detector", json_of(findings.run.detector)},
+       {"not_judged", not_judged_json(findings)},
        {"isolation", isolation_json(findings)},
        {"versions", versions_json(findings)},
        {"campaign", campaign_json(findings, plan)},

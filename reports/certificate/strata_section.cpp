@@ -101,6 +101,9 @@ Json strata_json(const RunFindings& findings) {
                     {"steps", tally.steps},
                     {"collisions", tally.collisions},
                     {"pairs", tally.pairs},
+                    {"measures", findings.run.detector.built_in
+                                     ? Json(nullptr)
+                                     : measures_json(properties::measures_in(tally.measures))},
                     {"wanted_bound", wanted > 0 ? Json(wanted) : Json(nullptr)},
                     {"bounds", bounds_json(findings, stratum)}});
   }

@@ -3,8 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "detector/step_result.h"
+#include "properties/campaign/stored/contract_json.h"
 #include "reports/check/plugin_text.h"
 #include "reports/check/subject.h"
+#include "reports/terminal/joined.h"
 #include "reports/terminal/printable.h"
 
 namespace assay::reports {
@@ -39,7 +41,6 @@ class Plugin : public Subject {
     for (const auto claim : properties::list_of(description_.claims)) {
       claims.push_back(name_of(claim));
     }
-    const auto& contract = description_.contract;
     return {{"culling", nullptr},
             {"arithmetic", nullptr},
             {"detector",
@@ -49,10 +50,7 @@ class Plugin : public Subject {
               {"claims", std::move(claims)},
               {"disturbances", worker_.disturbances()},
               {"isolation", text_of(worker_.isolation())},
-              {"contract",
-               {{"adjacency", name_of(contract.adjacency)},
-                {"coordinates", name_of(contract.coordinates)},
-                {"margin", contract.margin}}}}}};
+              {"contract", nlohmann::json(description_.contract)}}}};
   }
 
   // All steps at once: the worker carries the detector's state from one to the next. A second time
@@ -70,6 +68,10 @@ class Plugin : public Subject {
   }
 
   StepError error_of(const StepResult&) const override { return {runs_[0].what, false}; }
+
+  oracle::AskedFeatures asked() const override {
+    return properties::asked_features(description_.contract);
+  }
 
   properties::StepDiff judge(const StepResult& result,
                              const oracle::StepJudgement& judgement) const override {
@@ -103,9 +105,9 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& librar
   if (!description) return Refusal(description.error());
   auto seen = properties::contracted(input.c, description.value().contract);
   if (!seen) {
-    return Refusal(fmt::format("{}: a coordinate is beyond {}, which {} takes", input.file,
-                               name_of(description.value().contract.coordinates),
-                               description.value().name));
+    return Refusal(fmt::format("{}: nothing of it is within the contract of {}: {}", input.file,
+                               description.value().name,
+                               joined(phrases_of(description.value().contract), ", ")));
   }
   input.c = std::move(*seen);
   return std::unique_ptr<Subject>(std::make_unique<Plugin>(

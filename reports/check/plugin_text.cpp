@@ -12,10 +12,10 @@ std::string plugin_text(const std::string& name_and_version, const properties::C
   std::vector<const char*> names;
   for (const auto claim : properties::list_of(claims)) names.push_back(name_of(claim));
   const std::string words = joined(names, ", ");
-  return fmt::format(
-      "plug-in {}\nclaims: {}\ncontract: adjacency {}, {}{}\nisolation: {}", name_and_version,
-      words.empty() ? "nothing" : words, name_of(contract.adjacency), name_of(contract.coordinates),
-      contract.margin > 0 ? fmt::format(", margin {}", contract.margin) : "", text_of(isolation));
+  const std::string left_out = joined(phrases_of(contract), ", ");
+  return fmt::format("plug-in {}\nclaims: {}\ncontract: {}\nisolation: {}", name_and_version,
+                     words.empty() ? "nothing" : words,
+                     left_out.empty() ? "leaves nothing out" : left_out, text_of(isolation));
 }
 
 }  // namespace assay::reports

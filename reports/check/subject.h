@@ -41,6 +41,8 @@ class Subject {
   };
   virtual StepError error_of(const detector::StepResult& result) const = 0;
 
+  // What the oracle is to be asked for.
+  virtual oracle::AskedFeatures asked() const { return oracle::AskedFeatures::all; }
   virtual properties::StepDiff judge(const detector::StepResult& result,
                                      const oracle::StepJudgement& judgement) const = 0;
   // The stage that lost a missing pair; empty where stages are not known.

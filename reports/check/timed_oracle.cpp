@@ -27,7 +27,9 @@ Timed<oracle::StepJudgement> TimedOracle::judge(const detector::Positions& x_t0,
                                                 const detector::Positions& x_t1,
                                                 const detector::Triangles& triangles,
                                                 const detector::StopFunction& stop) const {
-  return timed(limits_, [&] { return oracle::judge_step(x_t0, x_t1, triangles, {jobs_, stop}); });
+  return timed(limits_, [&] {
+    return oracle::judge_step(x_t0, x_t1, triangles, {jobs_, stop, asked_});
+  });
 }
 
 Timed<oracle::SecondOpinion> TimedOracle::second_opinion(const detector::Positions& x_t0,

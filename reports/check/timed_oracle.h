@@ -18,7 +18,8 @@ struct Timed {
 class TimedOracle {
  public:
   // `jobs` threads. Where memory fails, the limits remember it and the answer is not complete.
-  TimedOracle(int jobs, Limits& limits) : jobs_(jobs), limits_(limits) {}
+  TimedOracle(int jobs, oracle::AskedFeatures asked, Limits& limits)
+      : jobs_(jobs), asked_(asked), limits_(limits) {}
 
   Timed<oracle::StepJudgement> judge(const detector::Positions& x_t0,
                                      const detector::Positions& x_t1,
@@ -34,6 +35,7 @@ class TimedOracle {
 
  private:
   int jobs_;
+  oracle::AskedFeatures asked_;
   Limits& limits_;
 };
 

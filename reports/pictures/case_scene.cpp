@@ -57,9 +57,9 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   if (!seen) return std::nullopt;
   CaseScene scene;
   scene.c = std::move(*seen);
-  const auto truth = properties::judge_case(scene.c);
+  const auto truth = properties::judge_case(scene.c, detector.contract);
   properties::CaseRun run{RunEnd::not_run, "the detector is not at hand", {}};
-  if (workers.detector) run = workers.detector->run(c, {&configuration, 1}).front();
+  if (workers.detector) run = workers.detector->run(scene.c, {&configuration, 1}).front();
   if (run.end != RunEnd::not_run) {
     scene.failure = properties::judge_trial(scene.c, truth, run, configuration, detector).failure;
   }

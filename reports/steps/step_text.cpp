@@ -19,7 +19,7 @@ namespace {
 
 // In ways that no claim is broken by, where the outcome is `holds`.
 bool differs(const properties::StepDiff& diff) {
-  return diff.wrong_answer || diff.wrong_first_time || !diff.missing.empty() ||
+  return diff.wrong_answer() || diff.wrong_first_time() || !diff.missing.empty() ||
          !diff.spurious.empty() || !diff.late.empty() || !diff.early.empty();
 }
 
@@ -31,8 +31,8 @@ std::string verdict_text(const properties::StepDiff& diff) {
 std::string diff_text(const properties::StepDiff& diff) {
   std::string out = fmt::format("  diff: {} missing, {} spurious, {} late, {} early{}{}{}\n",
                                 diff.missing.size(), diff.spurious.size(), diff.late.size(),
-                                diff.early.size(), diff.wrong_answer ? ", wrong answer" : "",
-                                diff.wrong_first_time ? ", wrong first time" : "",
+                                diff.early.size(), diff.wrong_answer() ? ", wrong answer" : "",
+                                diff.wrong_first_time() ? ", wrong first time" : "",
                                 diff.partial ? " (partial)" : "");
   if (!diff.broken.empty()) {
     out += "  broken:";

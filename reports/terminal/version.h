@@ -9,7 +9,7 @@ namespace assay::reports {
 // where it was built outside of a git repository.
 std::string commit_text();
 
-// "assay 0.1.0 (CGAL 5.5.1, GMP ..., ...)": this program and the libraries that its answers rest
+// "assay 0.2.0 (CGAL 5.5.1, GMP ..., ...)": this program and the libraries that its answers rest
 // on.
 std::string version_text();
 

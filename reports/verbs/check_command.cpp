@@ -56,7 +56,7 @@ class Check {
         subject_(subject),
         script_(corpus::steps_of(input.c)),
         limits_(limits),
-        oracle_(request.jobs, limits) {
+        oracle_(request.jobs, subject.asked(), limits) {
     outcome_.is_judged = !request.no_oracle;
     outcome_.judged_by_claims = subject.judged_by_claims();
   }

@@ -9,6 +9,7 @@
 #include "detector/step_result.h"
 #include "properties/campaign/phases/case_tally.h"
 #include "properties/campaign/phases/clean_starts.h"
+#include "properties/campaign/phases/planned_case.h"
 #include "properties/campaign/request.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
@@ -19,6 +20,7 @@
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/complaint.h"
+#include "reports/terminal/joined.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/printable.h"
 #include "reports/verbs/verbs.h"
@@ -68,8 +70,8 @@ std::optional<TrialName> trial_of(std::string_view id) {
 }
 
 struct ReplayedCase {
-  corpus::Case c;
-  std::optional<TrialName> trial;  // of the campaign that it is from
+  corpus::Case c;                  // of a file
+  std::optional<TrialName> trial;  // or of the campaign that it is from
 };
 
 // An id makes the case again; anything else is a file.
@@ -77,7 +79,7 @@ corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
   std::error_code ignored;
   if (!std::filesystem::exists(id_or_file, ignored)) {
     if (const auto trial = trial_of(id_or_file)) {
-      return ReplayedCase{properties::make_case(*trial->family, id_or_file).c, trial};
+      return ReplayedCase{corpus::Case{}, trial};
     }
   }
   auto read = corpus::read_case(id_or_file);
@@ -156,12 +158,14 @@ int run_replay(const ReplayRequest& request) {
                        ? ""
                        : " (an id is CAMPAIGN:SEED:FAMILY:INDEX, with a family of this build)"));
   }
-  const corpus::Case& c = made.value().c;
+  corpus::Case& c = made.value().c;
   const auto& trial = made.value().trial;
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
   if (auto chosen = choose_detector(request.detector, subject); !chosen)
     return refuse(chosen.error());
+  const auto& contract = subject.detector.contract;
+  if (trial) c = properties::case_within(contract, *trial->family, request.id_or_file).made.c;
   if (auto problem = choose_configurations(c, subject.detector)) {
     return refuse(fmt::format("{}: {}", request.id_or_file, *problem));
   }
@@ -177,11 +181,14 @@ int run_replay(const ReplayRequest& request) {
                               request.why->b, c.triangles.rows()));
   }
   const auto seen = properties::contracted(c, subject.detector.contract);
-  if (!seen) return refuse("a coordinate of the case is beyond the detector's contract");
-  const auto truth = properties::judge_case(*seen);
+  if (!seen) {
+    return refuse(fmt::format("{}: nothing of it is within the detector's contract: {}",
+                              request.id_or_file, joined(phrases_of(contract), ", ")));
+  }
+  const auto truth = properties::judge_case(*seen, contract);
   properties::WorkerProcess worker(subject.worker, subject.plugin,
                                    {.isolation = subject.isolation});
-  const auto runs = worker.run(c, subject.detector.configurations);
+  const auto runs = worker.run(*seen, subject.detector.configurations);
   for (const auto& run : runs) {
     if (run.end == properties::RunEnd::not_run) return refuse(run.what);
   }
@@ -192,7 +199,7 @@ int run_replay(const ReplayRequest& request) {
   fmt::print("{}: {}{}\n", printable(c.id), properties::size_text(properties::size_of(c)),
              c.about.empty() ? "" : "; " + printable(c.about));
   if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
-  print_steps(c, truth);
+  print_steps(*seen, truth);
   int code = exit_holds;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];

@@ -18,7 +18,7 @@ struct assay_handle {
 
 static const assay_description* describe(void) {
   static const assay_description description = {
-      "constant answer", "1", (1u << 8) - 1, ASSAY_ADJACENCY_ALL, ASSAY_COORDINATES_FLOAT64, 0};
+      .name = "constant answer", .version = "1", .claims = (1u << 8) - 1};
   return &description;
 }
 
@@ -74,6 +74,12 @@ const assay_detector_api* assay_detector(void) {
 #ifdef HANG_WHILE_LOADED
   for (;;) pause();
 #endif
-  static const assay_detector_api api = {ABI, describe, create, evaluate, commit, result, destroy};
+  static const assay_detector_api api = {.abi_version = ABI,
+                                         .describe = describe,
+                                         .create = create,
+                                         .evaluate = evaluate,
+                                         .commit = commit,
+                                         .result = result,
+                                         .destroy = destroy};
   return &api;
 }

@@ -12,12 +12,11 @@ struct assay_handle {
 };
 
 static const assay_description description = {
-    "swept boxes",
-    "1.0",
-    ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_ALL_PAIRS | ASSAY_CLAIM_TOTAL,
-    ASSAY_ADJACENCY_NO_SHARED_VERTEX,
-    ASSAY_COORDINATES_FLOAT64,
-    0};
+    .name = "swept boxes",
+    .version = "1.0",
+    .claims =
+        ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_ALL_PAIRS | ASSAY_CLAIM_TOTAL,
+    .adjacency = ASSAY_ADJACENCY_NO_SHARED_VERTEX}; /* what is not named is 0: nothing left out */
 static const assay_description* describe(void) { return &description; }
 
 static int32_t create(const int32_t* triangles, uint64_t m, const double* x, uint64_t n,
@@ -74,6 +73,11 @@ static int32_t result(assay_handle* h, assay_result* r) {
   return ASSAY_OK;
 }
 
-static const assay_detector_api api = {
-    ASSAY_DETECTOR_ABI_VERSION, describe, create, evaluate, commit, result, destroy};
+static const assay_detector_api api = {.abi_version = ASSAY_DETECTOR_ABI_VERSION,
+                                       .describe = describe,
+                                       .create = create,
+                                       .evaluate = evaluate,
+                                       .commit = commit,
+                                       .result = result,
+                                       .destroy = destroy};
 const assay_detector_api* assay_detector(void) { return &api; }

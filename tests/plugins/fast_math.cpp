@@ -119,9 +119,13 @@ struct assay_handle {
 namespace {
 
 const assay_description* describe() {
-  static const assay_description description = {"brute force, fast math",     "1",
-                                                (ASSAY_CLAIM_TOTAL << 1) - 1, ASSAY_ADJACENCY_ALL,
-                                                ASSAY_COORDINATES_FLOAT64,    0};
+  static const assay_description description = [] {
+    assay_description d = {};
+    d.name = "brute force, fast math";
+    d.version = "1";
+    d.claims = (ASSAY_CLAIM_TOTAL << 1) - 1;
+    return d;
+  }();
   return &description;
 }
 
@@ -168,7 +172,16 @@ void destroy(assay_handle* h) { delete h; }
 }  // namespace
 
 const assay_detector_api* assay_detector() {
-  static const assay_detector_api api = {
-      ASSAY_DETECTOR_ABI_VERSION, describe, create, evaluate, commit, result, destroy};
+  static const assay_detector_api api = [] {
+    assay_detector_api table = {};
+    table.abi_version = ASSAY_DETECTOR_ABI_VERSION;
+    table.describe = describe;
+    table.create = create;
+    table.evaluate = evaluate;
+    table.commit = commit;
+    table.result = result;
+    table.destroy = destroy;
+    return table;
+  }();
   return &api;
 }

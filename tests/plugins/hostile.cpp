@@ -296,8 +296,13 @@ void meddle() {
 
 const assay_description* describe() {
   at("describe");
-  static const assay_description description = {
-      "hostile", "1", (1u << 8) - 1, ASSAY_ADJACENCY_ALL, ASSAY_COORDINATES_FLOAT64, 0};
+  static const assay_description description = [] {
+    assay_description d = {};
+    d.name = "hostile";
+    d.version = "1";
+    d.claims = (ASSAY_CLAIM_TOTAL << 1) - 1;
+    return d;
+  }();
   return &description;
 }
 std::int32_t create(const std::int32_t*, std::uint64_t, const double*, std::uint64_t,
@@ -333,7 +338,16 @@ const assay_detector_api* assay_detector() {
   if (mode == "forge-length") forge_length();
   if (mode == "forge-name") forge_hello("a\nb", 0);
   if (mode == "forge-margin") forge_hello("x", std::numeric_limits<double>::infinity());
-  static const assay_detector_api api = {
-      ASSAY_DETECTOR_ABI_VERSION, describe, create, evaluate, commit, result, destroy};
+  static const assay_detector_api api = [] {
+    assay_detector_api table = {};
+    table.abi_version = ASSAY_DETECTOR_ABI_VERSION;
+    table.describe = describe;
+    table.create = create;
+    table.evaluate = evaluate;
+    table.commit = commit;
+    table.result = result;
+    table.destroy = destroy;
+    return table;
+  }();
   return &api;
 }

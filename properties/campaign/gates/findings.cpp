@@ -7,6 +7,7 @@
 
 #include "corpus/digest.h"
 #include "properties/campaign/stored/run_folder.h"
+#include "properties/judging/cause.h"
 
 namespace assay::properties {
 namespace {
@@ -283,6 +284,9 @@ std::vector<const StoredFailure*> RunFindings::kinds() const {
     if (list.empty() || list.back()->signature != failure.signature)
       list.push_back(example_of(failure.signature));
   }
+  std::stable_sort(list.begin(), list.end(), [](const auto* a, const auto* b) {
+    return oddity_of(a->signature) < oddity_of(b->signature);
+  });
   return list;
 }
 

@@ -10,6 +10,7 @@
 
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/evidence.h"
+#include "properties/campaign/stored/step_measures.h"
 #include "properties/campaign/stored/store.h"
 
 namespace assay::properties {
@@ -43,7 +44,7 @@ struct RunFindings {
   std::uint64_t planned() const;
   // Of a family; one without trials where none was judged.
   const StratumTally& tally_of(const StratumPlan& stratum) const;
-  // The first of each signature.
+  // The first of each signature, the least odd before the others (cause.h).
   std::vector<const StoredFailure*> kinds() const;
   std::uint64_t met_count(const StoredFailure& failure) const;
   bool is_waived(const std::string& signature) const;

@@ -70,9 +70,10 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
     const auto planned = f.planned(stratum);
     if (tally.trials != planned) {
       lines.push_back(fmt::format("{}: {} of {} trials", stratum.family, tally.trials, planned));
-    } else if (asked.certificate && planned > 0 && tally.discards == planned) {
+    } else if (tally.discards > 0) {
       lines.push_back(
-          fmt::format("{}: the contract takes none of its {} cases", stratum.family, planned));
+          fmt::format("{}: for {} of {} trials no case was drawn that the contract takes",
+                      stratum.family, tally.discards, planned));
     }
   }
   if (asked.certificate && f.planned() == 0) lines.push_back("the campaign plans no trial");

@@ -19,9 +19,10 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
     // What the caller vouches for wrongly is no fault of the detector.
     const bool vouched = configuration.options.start == detector::Start::clean;
     if (detector.built_in && vouched && !starts_clean(c)) return std::nullopt;
-    const auto run = worker.run(c, {&configuration, 1});
+    const auto run = worker.run(*seen, {&configuration, 1});
     if (run[0].end == RunEnd::not_run) throw std::runtime_error(run[0].what);
-    const auto verdict = judge_trial(*seen, judge_case(*seen), run[0], configuration, detector);
+    const auto verdict =
+        judge_trial(*seen, judge_case(*seen, detector.contract), run[0], configuration, detector);
     if (!verdict.failure) return std::nullopt;
     return finding_of(*verdict.failure);
   };

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "properties/judging/case_check.h"
+#include "properties/judging/cause.h"
 
 namespace assay::properties {
 
@@ -32,52 +35,27 @@ DetectorUnderTest built_in_detector() {
   return detector;
 }
 
-std::string Failure::signature() const {
-  return fmt::format("{}: {}{}{}", name_of(claim), kind,
-                     stage.empty() ? "" : fmt::format(" at {}", stage),
-                     feature.empty() ? "" : fmt::format(", {}", feature));
-}
-
 namespace {
 
-std::string time_text(const detector::TimeEnclosure& t) {
-  return t.lo == t.hi ? fmt::format("{}", t.lo) : fmt::format("({}, {})", t.lo, t.hi);
+// Adds what tells one failure of its kind from another: the stage that lost the pair.
+void find_stage(Failure& failure, const corpus::Case& c, const corpus::CaseStep& step,
+                const StepDiff& diff) {
+  const bool is_lost = std::any_of(diff.missing.begin(), diff.missing.end(),
+                                   [&](const auto& lost) { return lost.pair == failure.pair; });
+  if (is_lost)
+    failure.stage = stage_that_lost(c.triangles, start_of(c, step), end_of(c, step), *failure.pair);
 }
 
-Failure failure_of_step(const corpus::Case& c, const corpus::CaseStep& step, const StepDiff& diff,
-                        const DetectorUnderTest& detector) {
-  Failure failure;
-  failure.claim = diff.broken.front();
-  const auto about = [&](const char* kind, const detector::PairContact& contact) {
-    failure.kind = kind;
-    failure.pair = contact.pair;
-    failure.feature = name_of(contact.feature.kind);
-    failure.what = fmt::format("triangles {} and {} ({}, t = {})", contact.pair.a, contact.pair.b,
-                               failure.feature, time_text(contact.time));
-  };
-  const auto about_time = [&](const char* kind, const WrongTime& wrong) {
-    failure.kind = kind;
-    failure.pair = wrong.pair;
-    failure.what = fmt::format("triangles {} and {} at {}, oracle {}", wrong.pair.a, wrong.pair.b,
-                               time_text(wrong.detector), time_text(wrong.oracle));
-  };
-  if (!diff.missing.empty()) {
-    about("missing", diff.missing.front());
-    if (detector.built_in) {
-      failure.stage =
-          stage_that_lost(c.triangles, start_of(c, step), end_of(c, step), *failure.pair);
-    }
-  } else if (!diff.spurious.empty()) {
-    about("spurious", diff.spurious.front());
-  } else if (!diff.late.empty()) {
-    about_time("late", diff.late.front());
-  } else if (!diff.early.empty()) {
-    about_time("early", diff.early.front());
-  } else {
-    failure.kind = diff.wrong_answer ? "answer" : diff.wrong_first_time ? "first time" : "error";
-    failure.what = failure.kind + " is wrong";
-  }
-  return failure;
+// The same of a plug-in, whose stages nobody knows: what is special about the contact.
+void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep& step,
+                const oracle::StepJudgement& truth, const Contract& contract) {
+  if (!failure.pair) return;
+  const auto &x_t0 = start_of(c, step), &x_t1 = end_of(c, step);
+  const auto& pairs = contract.features == TestedFeatures::both ? truth.pairs : truth.asked_pairs;
+  const auto contact = std::find_if(pairs.begin(), pairs.end(),
+                                    [&](const auto& exact) { return exact.pair == *failure.pair; });
+  failure.cause = text_of(contact == pairs.end() ? cause_of(c.triangles, x_t0, x_t1, *failure.pair)
+                                                 : cause_of(c.triangles, x_t0, x_t1, *contact));
 }
 
 }  // namespace
@@ -94,13 +72,19 @@ Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement
       whole.steps.push_back(compare(run.steps[s], truth[s], configuration.options));
     }
   }
-  Verdict verdict{whole.outcome, {}, whole.left_out_misses};
+  Verdict verdict{whole.outcome, {}, whole.left_out_misses, {}};
   const auto steps = corpus::steps_of(c);
   for (std::size_t s = 0; s < whole.steps.size() && !verdict.failure; ++s) {
     const StepDiff& diff = whole.steps[s];
     if (diff.outcome == Outcome::defect) {
       verdict.outcome = Outcome::defect;
-      verdict.failure = failure_of_step(c, steps[s], diff, detector);
+      verdict.failure = failure_of(diff, run.steps[s]);
+      if (verdict.failure->kind == "error") verdict.failure->what = whole.what;
+      if (detector.built_in) {
+        find_stage(*verdict.failure, c, steps[s], diff);
+      } else {
+        find_cause(*verdict.failure, c, steps[s], truth[s], detector.contract);
+      }
       verdict.failure->step = s;
     } else if (diff.outcome != Outcome::holds && verdict.outcome == Outcome::holds) {
       verdict.outcome = diff.outcome;
@@ -114,6 +98,7 @@ Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement
     verdict.failure->what = whole.what.empty() ? verdict.failure->kind : whole.what;
   }
   if (verdict.failure) verdict.failure->configuration = configuration.name;
+  verdict.steps = std::move(whole.steps);
   return verdict;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "properties/campaign/phases/failure.h"
 #include "properties/judging/run_verdict.h"
 
 namespace assay::properties {
@@ -26,25 +27,11 @@ struct DetectorUnderTest {
 // arithmetic.
 DetectorUnderTest built_in_detector();
 
-// A defect, as far as it tells one defect from another.
-struct Failure {
-  Claim claim = Claim::total;
-  std::size_t step = 0;                        // of the script
-  std::optional<detector::TrianglePair> pair;  // the first that is wrong
-  std::string configuration;
-  std::string stage;    // that lost it
-  std::string feature;  // of the pair
-  std::string what;     // one line for people
-
-  // claim, kind of difference, stage, feature: what a shrunk case must keep.
-  std::string signature() const;
-  std::string kind;  // "missing", "spurious", "late", "early", "answer", "crash", ...
-};
-
 struct Verdict {
   Outcome outcome = Outcome::holds;
   std::optional<Failure> failure;   // of a defect: the first step that shows one
   std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
+  std::vector<StepDiff> steps;      // of a completed run
 };
 
 // truth: of the same case, contracted (run_verdict.h). again: a second run, if there was one. The

@@ -8,7 +8,9 @@
 
 #include "properties/campaign/phases/case_tally.h"
 #include "properties/campaign/phases/clean_starts.h"
+#include "properties/campaign/phases/planned_case.h"
 #include "properties/campaign/stored/count_names.h"
+#include "properties/campaign/stored/step_measures.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "properties/random.h"
@@ -137,6 +139,8 @@ class Trials {
   // A trial in the making: its case, what the oracle and the detector say of it, what it showed.
   struct Trial {
     GeneratedCase made;
+    corpus::Case seen;  // what the detector's contract has of it, where it takes it
+    bool is_within = true;
     std::vector<Configuration> configurations;
     std::vector<oracle::StepJudgement> truth;
     std::vector<CaseRun> runs;
@@ -146,10 +150,9 @@ class Trials {
 
   void judge(const PlannedTrial& planned, WorkerProcess& worker) {
     Trial trial = make(planned);
-    const auto seen = contracted(trial.made.c, request_.detector.contract);
-    if (!seen) return keep(trial);  // no case for this detector: its numbers do not hold it
+    if (!trial.is_within) return keep(trial);
     auto begin = Clock::now();
-    trial.truth = judge_case(*seen);
+    trial.truth = judge_case(trial.seen, request_.detector.contract);
     trial.record.oracle_us = microseconds_since(begin);
     begin = Clock::now();
     trial.runs = run(trial, trial.configurations, worker);
@@ -157,21 +160,25 @@ class Trials {
     std::vector<CaseRun> again;
     if (planned.index % repeat_every == 0) again = run(trial, trial.configurations, worker);
     for (std::size_t i = 0; i < trial.runs.size(); ++i)
-      judge_configuration(trial, *seen, i, again.empty() ? nullptr : &again[i], worker);
+      judge_configuration(trial, i, again.empty() ? nullptr : &again[i], worker);
     count(trial, planned);
     keep(trial);
   }
 
   Trial make(const PlannedTrial& planned) const {
     Trial trial;
-    trial.made = make_case(*planned.family, id_of(planned));
+    auto drawn = case_within(request_.detector.contract, *planned.family, id_of(planned));
+    trial.made = std::move(drawn.made);
+    trial.is_within = drawn.seen.has_value();
+    if (drawn.seen) trial.seen = std::move(*drawn.seen);
     const bool vouched = is_vouched_for(request_.detector, trial.made.c, planned.index);
     trial.configurations = vouched ? with_clean_start(request_.detector.configurations)
                                    : request_.detector.configurations;
     auto& record = trial.record;
     if (request_.detector.built_in)
       ++record.counts[tag_count(vouched ? "start:clean" : "start:verified")];
-    record.id = trial.made.c.id;
+    count_left_out(drawn.redrawn, drawn.steps_left_out, 0, record.counts);
+    record.id = id_of(planned);
     record.family = planned.family->name;
     record.index = planned.index;
     record.mesh = mesh_hash(trial.made.c);
@@ -181,7 +188,7 @@ class Trials {
   // Notes what disturbed the runs and how long they took. Throws where there is no worker.
   static std::vector<CaseRun> run(Trial& trial, std::span<const Configuration> configurations,
                                   WorkerProcess& worker) {
-    auto runs = worker.run(trial.made.c, configurations);
+    auto runs = worker.run(trial.seen, configurations);
     for (const auto& one : runs) {
       if (one.end == RunEnd::not_run) throw std::runtime_error(one.what);
       trial.record.disturbed += one.disturbances;
@@ -192,19 +199,21 @@ class Trials {
     return runs;
   }
 
-  void judge_configuration(Trial& trial, const corpus::Case& seen, std::size_t i,
-                           const CaseRun* again, WorkerProcess& worker) const {
+  void judge_configuration(Trial& trial, std::size_t i, const CaseRun* again,
+                           WorkerProcess& worker) const {
     const auto& configuration = trial.configurations[i];
-    const Verdict verdict =
-        judge_trial(seen, trial.truth, trial.runs[i], configuration, request_.detector, again);
+    const Verdict verdict = judge_trial(trial.seen, trial.truth, trial.runs[i], configuration,
+                                        request_.detector, again);
     trial.record.outcomes += letter_of(verdict.outcome);
-    if (verdict.left_out_misses > 0)
-      trial.record.counts[left_out_misses_name] += verdict.left_out_misses;
+    if (!request_.detector.built_in) {
+      count_measures(verdict.steps, trial.runs[i].steps, trial.truth, trial.record.counts);
+      count_left_out(0, 0, verdict.left_out_misses, trial.record.counts);
+    }
     if (!verdict.failure) return;
     // A failure is run twice before it is reported; a difference is itself a failure.
     const bool flaky = !same_answers(trial.runs[i], run(trial, {&configuration, 1}, worker)[0]);
     const auto failing =
-        failing_case(trial.made.c, configuration, request_.detector, *verdict.failure);
+        failing_case(trial.seen, configuration, request_.detector, *verdict.failure);
     trial.failures.push_back({trial.record.id, configuration.name,
                               verdict.failure->signature() + (flaky ? " (flaky)" : ""),
                               verdict.failure->what, corpus::case_text(failing), "", flaky});
@@ -212,7 +221,7 @@ class Trials {
 
   void count(Trial& trial, const PlannedTrial& planned) const {
     auto& record = trial.record;
-    record.triangles = static_cast<std::uint64_t>(trial.made.c.triangles.rows());
+    record.triangles = static_cast<std::uint64_t>(trial.seen.triangles.rows());
     for (const auto& step : trial.truth) {
       ++record.steps;
       record.collisions += step.pairs.empty() ? 0 : 1;

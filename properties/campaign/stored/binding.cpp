@@ -4,6 +4,7 @@
 
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
+#include "properties/campaign/stored/contract_json.h"
 #include "properties/campaign/stored/json_optional.h"
 #include "properties/campaign/stored/store.h"
 #include "properties/faults/fault.h"
@@ -13,7 +14,6 @@ namespace assay::properties {
 
 using Json = nlohmann::json;
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector::Contract, adjacency, coordinates, margin)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector::Configuration, name, claims)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector, name, built_in, contract, configurations)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDigests, program, worker, plugin, generator)
@@ -22,11 +22,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, seed, planted_faults, shard, detect
 namespace {
 
 BoundDetector bound(const DetectorUnderTest& detector) {
-  const auto& contract = detector.contract;
-  BoundDetector out{detector.name,
-                    detector.built_in,
-                    {name_of(contract.adjacency), name_of(contract.coordinates), contract.margin},
-                    {}};
+  BoundDetector out{detector.name, detector.built_in, detector.contract, {}};
   for (const auto& configuration : detector.configurations) {
     out.configurations.push_back({configuration.name, {}});
     for (const auto claim : list_of(detector.claims_in(configuration)))

@@ -11,7 +11,7 @@
 
 namespace assay::properties {
 
-// Schema `assay-store/3`: `campaign` (the plan, its times set to nothing: a run that ran out of
+// Schema `assay-store/4`: `campaign` (the plan, its times set to nothing: a run that ran out of
 // time may go on), `seed`, `shard`, `detector` (name, built_in, contract, configurations with their
 // claims), `planted_faults` (how many this build has), `digests` (SHA-256 of program, worker and
 // plug-in, null for the built-in detector, and of the generator's first cases).
@@ -19,10 +19,6 @@ std::string binding_of(const CampaignRequest& request);
 
 // The same, as types.
 struct BoundDetector {
-  struct Contract {
-    std::string adjacency, coordinates;  // by the names of claims.h
-    double margin = 0;
-  };
   struct Configuration {
     std::string name;
     std::vector<std::string> claims;

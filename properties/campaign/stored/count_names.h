@@ -2,7 +2,7 @@
 //
 // "law:NAME/premise", "/close" and "/broken": steps (law.h). "tag:NAME": cases that have the tag.
 // "block:SETS" and "first:SETS": contacts, and first contacts, by the view sets of their two
-// triangles.
+// triangles. "measure:NAME": what a plug-in does, whatever it claims (step_measures.h).
 #pragma once
 
 #include <string>
@@ -18,9 +18,6 @@ namespace assay::properties {
 std::string tag_count(std::string_view tag);
 std::string contact_count(std::string_view sets);
 std::string first_contact_count(std::string_view sets);
-
-// Steps that only a plug-in's contract saves from being a miss.
-inline constexpr const char* left_out_misses_name = "contract:left-out-misses";
 
 // 0 where there is none of this name.
 std::uint64_t count_of(const Counts& counts, std::string_view name);

@@ -5,6 +5,8 @@
 #include <bit>
 #include <charconv>
 
+#include "properties/campaign/stored/step_measures.h"
+
 namespace assay::properties {
 
 void add(Counts& sum, const Counts& more) {
@@ -85,6 +87,9 @@ void StratumTally::add(const TrialRecord& record) {
       default:
         ++outcomes.errors;
     }
+  }
+  for (const auto& [name, count] : record.counts) {
+    if (is_measure(name)) measures[name] += count;
   }
   ++sizes[log2_of(record.triangles)];
   ++contacts[log2_of(record.pairs)];

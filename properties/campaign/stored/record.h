@@ -44,7 +44,7 @@ struct StratumTally {
   std::uint64_t oracle_us = 0, detector_us = 0;
   std::uint64_t with_defect = 0, open = 0;  // trials: in some configuration
   std::uint64_t disturbed = 0;     // trials that somebody killed from outside, and that ran again
-  std::uint64_t discards = 0;      // cases beyond the numbers that the detector's contract takes
+  std::uint64_t discards = 0;      // trials for which the contract takes no case that was drawn
   std::set<std::uint64_t> meshes;  // hashes of the cases: their number is that of distinct cases
   struct Outcomes {
     std::uint64_t holds = 0, defects = 0, undecided = 0, errors = 0;
@@ -53,6 +53,7 @@ struct StratumTally {
     friend bool operator==(const Outcomes&, const Outcomes&) = default;
   };
   std::vector<Outcomes> by_configuration;
+  Counts measures;                        // of a plug-in (step_measures.h)
   std::map<int, std::uint64_t> sizes;     // cases by floor(log2(triangles))
   std::map<int, std::uint64_t> contacts;  // cases by floor(log2(pairs)), -1: none
   void add(const TrialRecord& record);

@@ -19,7 +19,7 @@
 namespace assay::properties {
 
 // Of the text that binds a store to a run (binding.h). A store of another schema is refused.
-inline constexpr const char* store_schema = "assay-store/3";
+inline constexpr const char* store_schema = "assay-store/4";
 
 // A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
 struct StoredFailure {

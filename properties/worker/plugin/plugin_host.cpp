@@ -3,12 +3,12 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <new>
 
 #include "detector/step_result.h"
 #include "properties/worker/plugin/plugin_result.h"
+#include "properties/worker/plugin/plugin_table.h"
 
 namespace assay::properties {
 
@@ -17,68 +17,15 @@ using detector::StepResult;
 
 namespace {
 
-// One line of printable text.
-std::string line_of(const char* text) {
-  std::string line = text ? text : "";
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
-  }
-  return line;
-}
-
-// The problems that follow do not name the library yet.
-Expected<void> check_table(const assay_detector_api* api) {
-  if (!api) {
-    return Problem{ProblemKind::not_a_plugin,
-                   "not a detector plug-in: assay_detector() returns nothing"};
-  }
-  if (api->abi_version != ASSAY_DETECTOR_ABI_VERSION) {
-    return Problem{ProblemKind::other_abi_version,
-                   "built for ABI version " + std::to_string(api->abi_version) +
-                       ", this program has " + std::to_string(ASSAY_DETECTOR_ABI_VERSION)};
-  }
-  const bool complete =
-      api->describe && api->create && api->evaluate && api->commit && api->result && api->destroy;
-  if (!complete) return Problem{ProblemKind::broken_plugin, "a function is missing in its table"};
-  return boost::outcome_v2::success();
-}
-
-// What the description does not say sensibly; empty: nothing.
-std::string fault_of(const assay_description* raw) {
-  if (!raw) return "describe() returns nothing";
-  constexpr std::uint32_t all_bits = (ASSAY_CLAIM_TOTAL << 1) - 1;
-  if (raw->claims & ~all_bits) return "unknown bits in its claims";
-  if (raw->adjacency < 0 || raw->adjacency > ASSAY_ADJACENCY_NO_SHARED_VERTEX) {
-    return "unknown adjacency " + std::to_string(raw->adjacency);
-  }
-  if (raw->coordinates < 0 || raw->coordinates > ASSAY_COORDINATES_FLOAT32) {
-    return "unknown coordinates " + std::to_string(raw->coordinates);
-  }
-  if (!std::isfinite(raw->margin) || raw->margin < 0) return "its margin is no length";
-  return line_of(raw->name).empty() ? "it has no name" : "";
-}
-
-Expected<PluginDescription> read_description(const assay_description* raw) {
-  std::string fault = fault_of(raw);
-  if (!fault.empty()) return Problem{ProblemKind::broken_plugin, std::move(fault)};
-  PluginDescription description;
-  description.name = line_of(raw->name);
-  description.version = line_of(raw->version);
-  const auto has = [&](std::uint32_t bit) { return (raw->claims & bit) != 0; };
-  description.claims = {has(ASSAY_CLAIM_FREE_SOUND),    has(ASSAY_CLAIM_NOT_LATE),
-                        has(ASSAY_CLAIM_FIRST_TIME),    has(ASSAY_CLAIM_FIRST_PAIRS),
-                        has(ASSAY_CLAIM_ALL_PAIRS),     has(ASSAY_CLAIM_NO_SPURIOUS),
-                        has(ASSAY_CLAIM_DETERMINISTIC), has(ASSAY_CLAIM_TOTAL)};
-  description.contract = {static_cast<Adjacency>(raw->adjacency),
-                          static_cast<Coordinates>(raw->coordinates), raw->margin};
-  return description;
-}
-
 // The steps of one case through one handle.
 class PluginRun {
  public:
-  PluginRun(const assay_detector_api& api, assay_handle* handle, std::int32_t triangle_count)
-      : api_(api), handle_(handle, api.destroy), triangle_count_(triangle_count) {}
+  PluginRun(const assay_detector_api& api, assay_handle* handle, std::int32_t triangle_count,
+            bool reports_pairs)
+      : api_(api),
+        handle_(handle, api.destroy),
+        triangle_count_(triangle_count),
+        reports_pairs_(reports_pairs) {}
 
   // The result of a step, or why it has none: out_of_memory, step_failed, broken_result.
   Expected<StepResult> step(const detector::Positions& x_t0, const detector::Positions& x_t1,
@@ -89,7 +36,7 @@ class PluginRun {
     assay_result raw = {};
     const auto asked = called("result", api_.result(handle_.get(), &raw));
     if (!asked) return asked.error();
-    auto result = step_result(raw, triangle_count_);
+    auto result = step_result(raw, triangle_count_, reports_pairs_);
     if (!result) return result;
     const Answer answer = result.value().answer;
     if (commit && (answer == Answer::free || answer == Answer::collision)) {
@@ -111,11 +58,12 @@ class PluginRun {
   const assay_detector_api& api_;
   std::unique_ptr<assay_handle, void (*)(assay_handle*)> handle_;
   std::int32_t triangle_count_;
+  bool reports_pairs_;
 };
 
 }  // namespace
 
-Expected<PluginHost> PluginHost::open(const std::filesystem::path& library) {
+Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std::uint32_t threads) {
   const auto problem = [&](ProblemKind kind, const std::string& what) {
     return Problem{kind, library.string() + ": " + line_of(what.c_str())};
   };
@@ -138,15 +86,16 @@ Expected<PluginHost> PluginHost::open(const std::filesystem::path& library) {
     return problem(ProblemKind::not_a_plugin,
                    "not a detector plug-in: it exports no assay_detector()");
   }
-  const assay_detector_api* api = entry();
-  const auto table = check_table(api);
+  auto table = read_table(entry());
   if (!table) return problem(table.error().kind, table.error().message);
-  auto description = read_description(api->describe());
+  auto description = read_description(table.value());
   if (!description) return problem(description.error().kind, description.error().message);
-  return PluginHost(api, std::move(description.value()));
+  if (table.value().use_threads) table.value().use_threads(threads);
+  return PluginHost(table.value(), std::move(description.value()));
 }
 
 CaseRun PluginHost::run(const corpus::Case& c) const {
+  if (!description_.parts.steps) return {RunEnd::refused, "it takes no steps", {}};
   std::vector<detector::Positions> frames;
   for (const auto& frame : c.frames) {
     frames.push_back(contracted(frame, description_.contract.coordinates));
@@ -157,7 +106,7 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
   }
   assay_handle* handle = nullptr;
   const char* message = nullptr;
-  const std::int32_t code = api_->create(
+  const std::int32_t code = table_.create(
       c.triangles.data(), static_cast<std::uint64_t>(c.triangles.rows()), frames.front().data(),
       static_cast<std::uint64_t>(frames.front().rows()), &handle, &message);
   if (code == ASSAY_OUT_OF_MEMORY) return out_of_memory();
@@ -166,7 +115,8 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
     if (what.empty()) what = "create returned " + std::to_string(code);
     return {RunEnd::refused, std::move(what), {}};
   }
-  PluginRun plugin(*api_, handle, static_cast<std::int32_t>(c.triangles.rows()));
+  PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
+                   description_.contract.reports_pairs);
   CaseRun run;
   for (const auto& step : corpus::steps_of(c)) {
     auto result = plugin.step(frames[static_cast<std::size_t>(step.from)],

@@ -1,5 +1,5 @@
-// Loads a plug-in and runs cases through it. The library's code, its constructors included, runs in
-// this process: only the worker does that.
+// Loads a plug-in and runs cases through it. The library's code, its constructors included, runs
+// in this process: only the worker does that.
 #pragma once
 
 #include <filesystem>
@@ -13,23 +13,23 @@ namespace assay::properties {
 
 class PluginHost {
  public:
-  // not_found; not_a_plugin: not a shared library, or no assay_detector() in it; other_abi_version;
-  // broken_plugin: a table with a gap, or a description that says nothing sensible. Never unloaded
-  // again.
-  static Expected<PluginHost> open(const std::filesystem::path& library);
+  // not_found; not_a_plugin: not a shared library, or no assay_detector() in it;
+  // other_abi_version; broken_plugin: a table with a gap, or a description that says nothing
+  // sensible. Never unloaded again. threads: told to a library that asks how many it may use.
+  static Expected<PluginHost> open(const std::filesystem::path& library, std::uint32_t threads = 1);
 
   const PluginDescription& description() const { return description_; }
 
   // As run_case. A result that breaks the header's rules (an index out of range, an interval that
   // is none) makes its step an error; errors are told in `what`. Coordinates are rounded to what
-  // the contract says.
+  // the contract says; steps that it leaves out are the caller's to leave out.
   CaseRun run(const corpus::Case& c) const;
 
  private:
-  PluginHost(const assay_detector_api* api, PluginDescription description)
-      : api_(api), description_(std::move(description)) {}
+  PluginHost(const assay_detector_api& table, PluginDescription description)
+      : table_(table), description_(std::move(description)) {}
 
-  const assay_detector_api* api_;
+  assay_detector_api table_;  // of this host's version
   PluginDescription description_;
 };
 

@@ -71,10 +71,14 @@ std::string read_result(const assay_result& raw, std::int32_t triangle_count,
 
 }  // namespace
 
-Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count) {
+Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
+                                           bool reports_pairs) {
   if (raw.answer == ASSAY_ERROR) {
     return Problem{ProblemKind::step_failed,
                    raw.message && *raw.message ? raw.message : "an error without a message"};
+  }
+  if (!reports_pairs && raw.pair_count > 0) {
+    return Problem{ProblemKind::broken_result, "gives pairs, and says that it reports none"};
   }
   detector::StepResult result;
   std::string broken = read_result(raw, triangle_count, result);

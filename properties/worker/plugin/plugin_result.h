@@ -10,7 +10,9 @@ namespace assay::properties {
 
 // Pairs a < b, ascending, each once with its least time ([0, 1] where none is stated).
 // broken_result where it breaks the header's rules; step_failed, with the plug-in's own words,
-// where it says that the step has no answer.
-Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count);
+// where it says that the step has no answer. reports_pairs: whether its contract says that it
+// does; else pairs break the rules.
+Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
+                                           bool reports_pairs = true);
 
 }  // namespace assay::properties

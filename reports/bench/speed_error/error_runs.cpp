@@ -99,8 +99,8 @@ class CaseRun {
     const auto diff = properties::compare(
         result, truth, properties::claims_of({.pairs = out.variant.pairs}), {}, timed_.c.triangles);
     out.contact = truth.answer == Answer::collision;
-    out.missed = diff.wrong_answer && out.contact;
-    out.false_alarm = diff.wrong_answer && !out.contact;
+    out.missed = diff.wrong_answer() && out.contact;
+    out.false_alarm = diff.wrong_answer() && !out.contact;
     out.missing = diff.missing.size();
     out.spurious = diff.spurious.size();
     if (out.contact && result.answer == Answer::collision) {

@@ -151,7 +151,7 @@ export interface Waiver {
   met: number;
 }
 
-// What a certificate (assay-certificate/2) says beyond the run.
+// What a certificate (assay-certificate/3) says beyond the run.
 export interface Certificate {
   subject: { name: string; digest: Record<string, string> }[];
   versions: { assay: string; commit: string | null; libraries: string } | null;
@@ -204,7 +204,7 @@ export interface StoredReport {
   runs: StoredRun[];
 }
 
-// What stands in the page of a run: findings are the predicate of assay-certificate/2.
+// What stands in the page of a run: findings are the predicate of assay-certificate/3.
 export interface StoredRun {
   folder: string;
   library: string | null;

@@ -45,7 +45,7 @@ TEST(Evidence, EveryKindSurvivesItsRow) {
   expect_same_row(world, read_back(world).worlds.at(0));
   const Asked asked{{"harness", "speed"}, true};
   expect_same_row(asked, *read_back(asked).asked);
-  const Versions versions{"0.1.0", std::nullopt, "CGAL 5.5.1"};
+  const Versions versions{"0.2.0", std::nullopt, "CGAL 5.5.1"};
   expect_same_row(versions, *read_back(versions).versions);
   const Paths paths{"out", "lib.so"};
   expect_same_row(paths, *read_back(paths).paths);

@@ -165,7 +165,7 @@ TEST(ArithmeticSteps, CuratedCases) {
                                                   << name_of(arithmetic) << ": " << lines;
         for (const auto& step : report.steps) {
           wrong_steps[arithmetic] +=
-              step.diff.wrong_answer || !step.diff.missing.empty() || !step.diff.spurious.empty();
+              step.diff.wrong_answer() || !step.diff.missing.empty() || !step.diff.spurious.empty();
         }
       }
     }

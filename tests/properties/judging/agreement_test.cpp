@@ -47,7 +47,7 @@ TEST(Agreement, EqualHolds) {
 
 TEST(Agreement, EveryDifferenceIsADefect) {
   const auto wrong_answer = diff_of({}, {contact(0, 1, .5)});
-  EXPECT_TRUE(wrong_answer.wrong_answer);
+  EXPECT_TRUE(wrong_answer.wrong_answer());
   EXPECT_EQ(wrong_answer.outcome, Outcome::defect);
   const auto missing = diff_of({contact(0, 1, .5)}, {contact(0, 1, .5), contact(2, 3, .75)});
   EXPECT_EQ(missing.missing.size(), 1u);
@@ -61,7 +61,7 @@ TEST(Agreement, EveryDifferenceIsADefect) {
   EXPECT_EQ(late.outcome, Outcome::defect);
   const auto early = diff_of({contact(0, 1, .5)}, {contact(0, 1, .6)});
   EXPECT_EQ(early.early.size(), 1u);
-  EXPECT_TRUE(early.wrong_first_time);
+  EXPECT_TRUE(early.wrong_first_time());
 }
 
 TEST(Agreement, L6_PairsFirstExcusesLaterPairsAndOtherPairsOfAReportedPlace) {

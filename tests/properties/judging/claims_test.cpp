@@ -61,9 +61,11 @@ StepDiff judged(const detector::StepResult& result, const oracle::StepJudgement&
 }
 
 TEST(Claims, TheBuiltInClaimsAllButAllPairsWhenItIsAskedForTheFirst) {
-  EXPECT_EQ(list_of(claims_of({})), all_claims());
+  auto all = all_claims();
+  std::erase(all, Claim::candidates);  // of a broad phase by itself
+  EXPECT_EQ(list_of(claims_of({})), all);
   const auto first = claims_of({.pairs = detector::Pairs::first});
-  for (const auto claim : all_claims()) EXPECT_EQ(first.has(claim), claim != Claim::all_pairs);
+  for (const auto claim : all) EXPECT_EQ(first.has(claim), claim != Claim::all_pairs);
 }
 
 TEST(Claims, FollowTheArithmetic) {

@@ -63,7 +63,7 @@ Tally run_all(const std::string& name) {
     return tally;
   }
   tally.description = description.value();
-  const auto& [plugin_name, version, claims, contract] = tally.description;
+  const auto& [plugin_name, version, claims, contract, parts] = tally.description;
   for (const auto& [c, truth] : cases()) {
     const auto runs = worker.run(c, twice);
     const auto verdict = judge_run(c, runs[0], truth, claims, contract, &runs[1]);

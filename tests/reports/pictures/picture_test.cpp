@@ -144,7 +144,7 @@ TEST(Scene, APlugInThatIsAlwaysFreeShowsItsFailure) {
   const auto scene = maker.scene_of(curated_case("A1_winding2_allpositive"), "x");
   ASSERT_TRUE(scene);
   ASSERT_TRUE(scene->failure);
-  EXPECT_EQ(scene->failure->kind, "missing");
+  EXPECT_EQ(scene->failure->kind, "answered free");
   EXPECT_EQ(scene->shown_pair(), scene->failure->pair);
   EXPECT_TRUE(scene->steps[0].answered->pairs.empty());
 }

@@ -235,7 +235,7 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_TRUE(contains(refused.out,
                        "of schema assay-certificate/1, this assay verifies "
-                       "assay-certificate/2: verify it with the assay that issued it"))
+                       "assay-certificate/3: verify it with the assay that issued it"))
       << refused.out;
 }
 

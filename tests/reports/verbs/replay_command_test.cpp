@@ -75,7 +75,7 @@ TEST(Replay, OfAPlugInShowsItsDefect) {
   const auto outcome =
       run_assay("replay " + curated("A4_endpoints_only") + " --detector " + plugin("always_free"));
   EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "DEFECT free-sound: missing")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "DEFECT free-sound: answered free")) << outcome.out;
   const auto hang = run_assay("replay tiny:1:broken:1 --detector " + plugin("exit"));
   EXPECT_EQ(hang.exit_code, 1) << hang.out << hang.err;
   EXPECT_TRUE(contains(hang.out, "exited with code 0")) << hang.out;

@@ -34,7 +34,7 @@ TEST_F(Shrink, AFailingCaseBecomesSmall) {
   const auto outcome = run_assay("shrink " + file + " --out " + small + " --time 5 --detector " +
                                  plugin("always_free"));
   EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
-  EXPECT_TRUE(contains(outcome.out, "free-sound: missing")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "free-sound: answered free")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "writes " + small)) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, " -> ")) << outcome.out;
   const auto before = corpus::read_case(file), after = corpus::read_case(small);
@@ -44,7 +44,7 @@ TEST_F(Shrink, AFailingCaseBecomesSmall) {
   ASSERT_EQ(lines.size(), 1u);
   const auto replayed = run_assay(lines[0]);
   EXPECT_EQ(replayed.exit_code, 1) << replayed.out << replayed.err;
-  EXPECT_TRUE(contains(replayed.out, "DEFECT free-sound: missing")) << replayed.out;
+  EXPECT_TRUE(contains(replayed.out, "DEFECT free-sound: answered free")) << replayed.out;
 }
 
 TEST_F(Shrink, WithNextToNoTimeTheCaseItselfIsTheBest) {

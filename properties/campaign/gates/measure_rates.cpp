@@ -1,0 +1,39 @@
+#include "properties/campaign/gates/measure_rates.h"
+
+namespace assay::properties {
+namespace {
+
+TimesOff times_off(const ByHowMuch& values, std::uint64_t steps_off, std::uint64_t all) {
+  return {steps_off, quantile_of(values, all, 0.5), quantile_of(values, all, 0.99),
+          worst_of(values)};
+}
+
+}  // namespace
+
+Rate false_alarm_rate(const StepMeasures& m) {
+  const auto free = static_cast<double>(m.free_steps);
+  const double independent =
+      m.free_steps_squared ? free * free / static_cast<double>(m.free_steps_squared) : 0;
+  return {m.false_alarms, m.free_steps,
+          share_interval(static_cast<double>(m.false_alarms), free, independent)};
+}
+
+Rate miss_rate(const StepMeasures& m) {
+  const auto contacts = static_cast<double>(m.contact_steps);
+  return {m.answered_free, m.contact_steps,
+          share_interval(static_cast<double>(m.answered_free), contacts, contacts)};
+}
+
+double spurious_pairs_a_step(const StepMeasures& m) {
+  return m.steps ? static_cast<double>(m.spurious_pairs) / static_cast<double>(m.steps) : 0;
+}
+
+TimesOff times_late(const StepMeasures& m) {
+  return times_off(m.late, m.late_steps(), m.collisions);
+}
+
+TimesOff times_early(const StepMeasures& m) {
+  return times_off(m.early, m.early_steps(), m.collisions);
+}
+
+}  // namespace assay::properties

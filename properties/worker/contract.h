@@ -1,0 +1,80 @@
+// The contract under which a detector claims what it claims: which steps, coordinates and features
+// it takes, and how its times are read.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+#include "detector/mesh/types.h"
+
+namespace assay::properties {
+
+// Which neighbours a detector tests against each other.
+enum class Adjacency : std::uint8_t {
+  all,               // every pair of triangles
+  not_edge_sharing,  // pairs that share at most one vertex
+  no_shared_vertex,  // pairs that share nothing
+};
+
+// Inputs of a float32 detector are rounded to the nearest float32 before it, and the oracle, see
+// them.
+enum class Coordinates : std::uint8_t { float64, float32 };
+
+// Which steps it takes, by how the mesh lies at t = 0; the others are left out, and counted.
+enum class StartRule : std::uint8_t {
+  any,    // every step
+  free,   // steps that start without a contact
+  apart,  // steps that start with all features at least start_distance apart
+};
+
+// Which features it tests against each other. Contacts of the others are not held against it.
+enum class TestedFeatures : std::uint8_t { both, vertex_face, edge_edge };
+
+inline constexpr double widest_time_tolerance = 1e-3;
+
+// Units of length are the user's; times are shares of the step. The default leaves nothing out.
+struct Contract {
+  Adjacency adjacency = Adjacency::all;
+  Coordinates coordinates = Coordinates::float64;
+  double margin = 0;  // above 0 no-spurious is not judged
+  StartRule start = StartRule::any;
+  double start_distance = 0;  // of StartRule::apart
+  // Every coordinate is 0 or of a magnitude from least_nonzero to largest; both 0: any.
+  double least_nonzero = 0, largest = 0;
+  TestedFeatures features = TestedFeatures::both;
+  double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
+  bool reports_pairs = true;
+  friend bool operator==(const Contract&, const Contract&) = default;
+
+  bool has_range() const { return largest > 0; }
+};
+
+// The words of reports and certificates: "not-edge-sharing", "float32", "free", "vertex-face".
+const char* name_of(Adjacency adjacency);
+const char* name_of(Coordinates coordinates);
+const char* name_of(StartRule start);
+const char* name_of(TestedFeatures features);
+
+// What is wrong with it, without a subject ("its margin is no length"); empty: nothing.
+std::string fault_of(const Contract& contract);
+
+// What it leaves out or changes, a phrase each: "starts free", "coordinates from 1e-06 to 1e+06",
+// "times within 1e-09". None for the contract that leaves nothing out.
+std::vector<std::string> phrases_of(const Contract& contract);
+
+int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);
+
+// Whether the contract's adjacency lets the detector leave this pair out.
+bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
+                detector::TrianglePair pair);
+
+// The positions that detector and oracle are both given; infinite where a coordinate has no
+// float32.
+detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates);
+
+// Whether every coordinate is in the contract's range.
+bool in_range(const detector::PositionsView& x, const Contract& contract);
+
+}  // namespace assay::properties

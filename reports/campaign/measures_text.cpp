@@ -1,0 +1,64 @@
+#include "reports/campaign/measures_text.h"
+
+#include <fmt/format.h>
+
+#include "properties/campaign/gates/measure_rates.h"
+#include "properties/campaign/gates/not_judged.h"
+
+namespace assay::reports {
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+// "12 of 120, 10 % [5.3, 17]"
+std::string rate_text(const properties::Rate& rate) {
+  if (rate.in == 0) return "-";
+  return fmt::format("{} of {}, {} [{:.2g}, {:.2g}]", rate.of, rate.in, percent(rate.share()),
+                     100 * rate.interval.lo, 100 * rate.interval.hi);
+}
+
+// "3: 0 0.01 0.5": steps that are off, then median, 99 of 100, and worst.
+std::string off_text(const properties::TimesOff& off) {
+  if (off.steps == 0) return "none";
+  return fmt::format("{}: {:.2g} {:.2g} {:.2g}", off.steps, off.median, off.p99, off.worst);
+}
+
+constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>24} {:>24} {:>14}";
+
+}  // namespace
+
+std::string measures_head() {
+  return fmt::format(row_format, "free steps answered collision", "answered free", "spurious",
+                     "late: median p99 worst", "early: median p99 worst", "left out");
+}
+
+std::string measures_row(const properties::StepMeasures& m) {
+  const auto misses = miss_rate(m);
+  return fmt::format(
+      row_format, rate_text(false_alarm_rate(m)),
+      misses.in ? fmt::format("{} of {}", misses.of, misses.in) : "-",
+      fmt::format("{:.3g}/step", spurious_pairs_a_step(m)), off_text(times_late(m)),
+      off_text(times_early(m)),
+      m.redrawn + m.steps_left_out ? fmt::format("{} + {}", m.redrawn, m.steps_left_out) : "-");
+}
+
+std::string measures_text(const properties::RunFindings& findings) {
+  if (findings.run.detector.built_in) return "";
+  std::string out = fmt::format(
+      "whatever is claimed (intervals of 95 %, in per cent; times in shares of the step; left out: "
+      "cases + steps)\n{:24} {}\n",
+      "stratum", measures_head());
+  for (const auto& stratum : findings.run.plan.strata)
+    out += fmt::format("{:24} {}\n", stratum.family,
+                       measures_row(properties::measures_in(findings.tally_of(stratum).measures)));
+  const auto all = properties::measures_in(findings.tally.counts);
+  out += fmt::format("{:24} {}\n", "all", measures_row(all));
+  if (all.left_out_misses > 0)
+    out += fmt::format("the contract leaves out what would have been a miss in {} steps\n",
+                       all.left_out_misses);
+  for (const auto& [claim, reason] : properties::not_judged(findings))
+    out += fmt::format("not judged: {}, for {}\n", claim, reason);
+  return out;
+}
+
+}  // namespace assay::reports

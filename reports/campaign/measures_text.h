@@ -1,0 +1,19 @@
+// What a plug-in does whatever it claims, as a table for the terminal.
+#pragma once
+
+#include <string>
+
+#include "properties/campaign/gates/findings.h"
+
+namespace assay::reports {
+
+// A row for each stratum and one for all of them: false alarms with their interval, misses, spurious
+// pairs, how late and how early, what the contract leaves out; then the claims that were not judged.
+// Empty for the built-in detector.
+std::string measures_text(const properties::RunFindings& findings);
+
+// The columns of one row, without its name.
+std::string measures_row(const properties::StepMeasures& measures);
+std::string measures_head();
+
+}  // namespace assay::reports

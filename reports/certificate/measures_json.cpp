@@ -1,0 +1,46 @@
+#include "properties/campaign/gates/measure_rates.h"
+#include "properties/campaign/gates/not_judged.h"
+#include "reports/certificate/sections.h"
+
+namespace assay::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rate_json(const properties::Rate& rate) {
+  return {{"of", rate.of},
+          {"in", rate.in},
+          {"share", rate.share()},
+          {"interval", {rate.interval.lo, rate.interval.hi}}};
+}
+
+Json times_off_json(const properties::TimesOff& off) {
+  return {{"steps", off.steps}, {"median", off.median}, {"p99", off.p99}, {"worst", off.worst}};
+}
+
+}  // namespace
+
+Json not_judged_json(const properties::RunFindings& findings) {
+  Json list = Json::array();
+  for (const auto& [claim, reason] : properties::not_judged(findings))
+    list.push_back({{"claim", claim}, {"reason", reason}});
+  return list;
+}
+
+Json measures_json(const properties::StepMeasures& m) {
+  return {{"steps", m.steps},
+          {"false_alarms", rate_json(false_alarm_rate(m))},
+          {"answered_free", rate_json(miss_rate(m))},
+          {"spurious_pairs", m.spurious_pairs},
+          {"spurious_pairs_a_step", spurious_pairs_a_step(m)},
+          {"collisions", m.collisions},
+          {"without_time", m.without_time},
+          {"late", times_off_json(times_late(m))},
+          {"early", times_off_json(times_early(m))},
+          {"left_out",
+           {{"cases_redrawn", m.redrawn},
+            {"steps", m.steps_left_out},
+            {"would_be_misses", m.left_out_misses}}}};
+}
+
+}  // namespace assay::reports
