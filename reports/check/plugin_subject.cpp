@@ -25,11 +25,12 @@ properties::PluginDescription in_print(properties::PluginDescription description
 class Plugin : public Subject {
  public:
   Plugin(properties::WorkerProcess worker, properties::PluginDescription description,
-         std::string library, const corpus::Case& c)
+         std::string library, const corpus::Case& c, std::size_t steps_left_out)
       : worker_(std::move(worker)),
         description_(in_print(std::move(description))),
         library_(std::move(library)),
-        case_(c) {}
+        case_(c),
+        steps_left_out_(steps_left_out) {}
 
   std::string title() const override {
     return plugin_text(description_.name + " " + description_.version, description_.claims,
@@ -63,6 +64,10 @@ class Plugin : public Subject {
                                  times == 2 ? &runs_[1] : nullptr);
   }
 
+  const properties::PluginDescription* description() const override { return &description_; }
+  std::size_t steps_left_out() const override { return steps_left_out_; }
+  std::optional<double> processor_seconds() const override { return runs_[0].processor_seconds; }
+
   StepResult answer(std::size_t s, const detector::StopFunction&) override {
     return s < runs_[0].steps.size() ? runs_[0].steps[s] : not_reached();
   }
@@ -92,6 +97,7 @@ class Plugin : public Subject {
   properties::PluginDescription description_;
   std::string library_;
   const corpus::Case& case_;
+  const std::size_t steps_left_out_;
   std::vector<properties::CaseRun> runs_;
 };
 
@@ -109,9 +115,10 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& librar
                                description.value().name,
                                joined(phrases_of(description.value().contract), ", ")));
   }
+  const std::size_t left_out = corpus::steps_of(input.c).size() - corpus::steps_of(*seen).size();
   input.c = std::move(*seen);
   return std::unique_ptr<Subject>(std::make_unique<Plugin>(
-      std::move(worker), std::move(description.value()), library, input.c));
+      std::move(worker), std::move(description.value()), library, input.c, left_out));
 }
 
 }  // namespace assay::reports
