@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "corpus/digest.h"
 #include "corpus/scenes/scenes.h"
 #include "properties/judging/case_check.h"
@@ -103,15 +105,15 @@ corpus::Expected<std::vector<corpus::Case>> curated(const std::filesystem::path&
   return cases;
 }
 
-corpus::Expected<corpus::Case> case_of_scene(std::string_view name) {
-  // Small enough to judge every scene in a minute.
+// Small enough to judge every scene in a few seconds, and in as many frames as the scene is itself.
+corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   corpus::SceneOptions options;
   options.size = 600;
-  options.frames = 6;
-  auto made = corpus::make_scene(name, options);
+  options.frames = std::max(6, scene.least_frames);
+  auto made = corpus::make_scene(scene.name, options);
   if (!made) return made.error();
   corpus::Case c;
-  c.id = name;
+  c.id = scene.name;
   c.about = "a scene";
   c.source = "assay scene";
   c.triangles = std::move(made.value().triangles);
@@ -139,7 +141,7 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
     for (const auto& row : judged.rows()) on_row(row);
   }
   for (const auto& scene : corpus::scenes()) {
-    const auto c = case_of_scene(scene.name);
+    const auto c = case_of_scene(scene);
     if (!c) return Refusal(c.error());
     JudgedRows judged(request, std::string(scene.name), on_failure);
     judged.add(c.value());
