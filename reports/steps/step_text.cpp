@@ -24,7 +24,7 @@ bool differs(const properties::StepDiff& diff) {
 }
 
 std::string verdict_text(const properties::StepDiff& diff) {
-  if (diff.outcome == Outcome::holds) return differs(diff) ? "all claims hold" : "agree";
+  if (diff.outcome == Outcome::holds) return differs(diff) ? "no claim is broken" : "agree";
   return diff.outcome == Outcome::undecided ? "undecided" : "DIFFER";
 }
 

@@ -39,6 +39,8 @@ int conclude(const properties::CampaignRequest& request, const properties::RunFi
   fmt::print("{}\n{}\n{}, in {:.0f} s\n", findings_text(findings), gates_text(judgement),
              verdict_text(findings, judgement), seconds);
   const bool is_complete = !findings.has_more_to_do();
+  if (!findings.evidence.slow.empty())
+    fmt::print("slow cases: assay list slow {}\n", shell_word(out));
   if (!findings.failures.empty()) {
     fmt::print("next: assay list failures {}\n", shell_word(out));
   } else if (!is_complete) {

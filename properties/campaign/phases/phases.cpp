@@ -4,6 +4,7 @@
 
 #include "properties/campaign/phases/canary.h"
 #include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/phases/slow_cases.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "properties/worlds/tetrahedron_world.h"
 
@@ -40,6 +41,11 @@ class CampaignRun {
     observer_.on_phase("shrinking");
     shrink();
     observer_.on_failures_shrunk(value_or_throw(store_.kept_failures()));
+    observer_.on_phase("slow cases");
+    keep_slow_cases(request_, store_, shrinking_of_one,
+                    earlier(after(1), shrinking_seconds(request_.plan)),
+                    [&](const std::string& id) { observer_.on_shrinking("slow case " + id); });
+    observer_.on_slow_cases(stored().slow);
     if (request_.power) {
       take_power();
     } else if (request_.plan.fault_cases > 0) {
