@@ -1,5 +1,6 @@
-// The laws of what is carried from step to step, put to the curated cases under view-auto, whose
-// steps may have views or not; and in which steps it used them, where a case states that.
+// The laws of what is carried from step to step, put to the curated cases: from a point, and under
+// view-auto, whose steps may have views or not; and in which steps it used them, where a case
+// states that.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -28,15 +29,21 @@ std::vector<corpus::Case> curated_cases() {
   return cases;
 }
 
-class CuratedLaws : public testing::TestWithParam<detector::Pairs> {};
+struct Played {
+  const char* name;
+  detector::Culling culling;
+  detector::Pairs pairs;
+};
+
+class CuratedLaws : public testing::TestWithParam<Played> {};
 
 TEST_P(CuratedLaws, OfWhatIsCarriedHold) {
   LawTally sum;
   for (const auto& c : curated_cases()) {
     if (c.expected.answer == detector::Answer::error) continue;
     Setting setting;
-    setting.options.culling = detector::Culling::view_auto;
-    setting.options.pairs = GetParam();
+    setting.options.culling = GetParam().culling;
+    setting.options.pairs = GetParam().pairs;
     const JudgedCase judged(c, setting);
     CaseFacts facts = judged.facts();
     for (const auto name : carried_laws) {
@@ -49,11 +56,13 @@ TEST_P(CuratedLaws, OfWhatIsCarriedHold) {
   EXPECT_GT(sum.premise, 500u);
 }
 
-INSTANTIATE_TEST_SUITE_P(ViewAuto, CuratedLaws,
-                         testing::Values(detector::Pairs::all, detector::Pairs::first),
-                         [](const auto& pairs) {
-                           return pairs.param == detector::Pairs::all ? "all" : "first";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Views, CuratedLaws,
+    testing::Values(Played{"Auto", detector::Culling::view_auto, detector::Pairs::all},
+                    Played{"AutoFirst", detector::Culling::view_auto, detector::Pairs::first},
+                    Played{"Point", detector::Culling::view_point, detector::Pairs::all},
+                    Played{"PointFirst", detector::Culling::view_point, detector::Pairs::first}),
+    [](const auto& played) { return std::string(played.param.name); });
 
 // "views_used" of a case: 1 for each step in which view-auto used its views, 0 for the others.
 TEST(CuratedViews, AreUsedInTheStepsThatAreStated) {
