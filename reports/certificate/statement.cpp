@@ -4,6 +4,7 @@
 
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/sections.h"
 #include "reports/terminal/shell_word.h"

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "corpus/digest.h"
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/phases/corpus_failures.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/checks.h"
