@@ -241,6 +241,25 @@ const std::map<std::string, std::function<void()>>& deeds() {
              _exit(0);
            }
        }},
+      // Whether the system lets it: ended by a signal, or by itself.
+      {"more-processes-than-allowed",
+       [] {
+         constexpr int allowed = 512;
+         for (int i = 0; i < allowed; ++i) {
+           const pid_t child = fork();
+           if (child < 0) _exit(3);
+           if (child == 0) {
+             pause();
+             _exit(0);
+           }
+         }
+         raise(SIGUSR1);
+       }},
+      {"root-again",
+       [] {
+         if (setreuid(0, 0) == 0 || setresuid(0, 0, 0) == 0) raise(SIGUSR1);
+         _exit(3);
+       }},
       {"socket",
        [] {
          sockaddr_un name = {AF_UNIX, "/run/systemd/private"};

@@ -167,6 +167,15 @@ TEST_F(Hostile, DeedsHarmNothing) {
   }
 }
 
+// Of the processes of a user who is root the system would count none.
+TEST_F(Hostile, ItStartsNoMoreProcessesThanItMay) {
+  for (const char* mode : {"more-processes-than-allowed", "root-again"}) {
+    const auto run = this->run(mode);
+    EXPECT_EQ(run.end, RunEnd::crashed) << mode;
+    EXPECT_EQ(run.what, "exited with code 3") << mode;
+  }
+}
+
 TEST_F(Hostile, NothingThatItStartedOutlivesIt) {
   const auto processes = [] {
     std::set<std::string> names;
