@@ -163,10 +163,11 @@ struct WorkerProcess::Parts {
     } else if (!decode(message, hello)) {
       return broken_hello("no description");
     }
-    if (!hello.serves) return hello.problem;
-    if (const auto rule = broken_rule(hello.description); plugin_library && !rule.empty()) {
-      return broken_hello(rule);
+    if (plugin_library) {
+      const auto rule = hello.serves ? broken_rule(hello.description) : broken_rule(hello.problem);
+      if (!rule.empty()) return broken_hello(rule);
     }
+    if (!hello.serves) return hello.problem;
     description = std::move(hello.description);
     return std::optional<ChildEnd>();
   }

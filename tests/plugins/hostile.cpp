@@ -93,6 +93,8 @@ const std::map<std::string, Forgery>& forgeries() {
       {"forge-number", changed([](RunReply& r) { ++r.number; })},
       {"forge-place", changed([](RunReply& r) { ++r.place; })},
       {"forge-text", changed([](RunReply& r) { r.run.what = "fine\n\033[2Jcertified"; })},
+      {"forge-control", changed([](RunReply& r) { r.run.what = "\u009b2Jcertified"; })},
+      {"forge-bytes", changed([](RunReply& r) { r.run.what = "\xff"; })},
       {"forge-long-text", changed([](RunReply& r) { r.run.what.assign(1 << 20, 'x'); })},
       {"forge-no-interval", changed([](RunReply& r) {
          r.run.steps[0].first = {nan, nan};
@@ -147,6 +149,16 @@ const std::map<std::string, Forgery>& forgeries() {
     }
   }
   _exit(0);
+}
+
+[[noreturn]] void forge_refusal(ProblemKind kind, const std::string& message) {
+  Channel channel(find_channel());
+  Hello hello;
+  hello.wire_version = wire_version();
+  hello.serves = false;
+  hello.problem = {kind, message};
+  channel.send(encode(hello));
+  for (;;) pause();
 }
 
 [[noreturn]] void forge_length() {
@@ -350,6 +362,10 @@ const assay_detector_api* assay_detector() {
   const auto forgery = forgeries().find(mode);
   if (forgery != forgeries().end()) forge(forgery->second, mode);
   if (mode == "forge-length") forge_length();
+  if (mode == "forge-refusal") forge_refusal(ProblemKind::not_a_plugin, "a\n\033[2Jcertified");
+  if (mode == "forge-long-refusal")
+    forge_refusal(ProblemKind::not_a_plugin, std::string(longest, 'x'));
+  if (mode == "forge-refusal-kind") forge_refusal(ProblemKind::busy, "it is busy");
   if (mode == "forge-name") forge_hello("a\nb", 0);
   if (mode == "forge-margin") forge_hello("x", std::numeric_limits<double>::infinity());
   static const assay_detector_api api = {

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <new>
 
 #include "detector/step_result.h"
+#include "properties/printable.h"
 #include "properties/worker/plugin/plugin_result.h"
 
 namespace assay::properties {
@@ -17,13 +19,14 @@ using detector::StepResult;
 
 namespace {
 
-// One line of printable text.
+// One line of printable text, and no more of it than a reply may hold.
 std::string line_of(const char* text) {
-  std::string line = text ? text : "";
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
-  }
-  return line;
+  constexpr std::size_t longest = 1000;
+  if (!text) return "";
+  std::string line(text, ::strnlen(text, longest));
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return 0 < c && c < ' '; }, ' ');
+  return printable(line);
 }
 
 // The problems that follow do not name the library yet.
@@ -117,7 +120,7 @@ class PluginRun {
 
 Expected<PluginHost> PluginHost::open(const std::filesystem::path& library) {
   const auto problem = [&](ProblemKind kind, const std::string& what) {
-    return Problem{kind, library.string() + ": " + line_of(what.c_str())};
+    return Problem{kind, line_of(library.c_str()) + ": " + line_of(what.c_str())};
   };
   std::error_code ignored;
   if (!std::filesystem::exists(library, ignored))

@@ -92,6 +92,8 @@ TEST_F(Hostile, ForgedRepliesAreCrashes) {
            {"forge-number", "to another request"},
            {"forge-place", "to another request"},
            {"forge-text", "a text that is no line"},
+           {"forge-control", "a text that is no line"},
+           {"forge-bytes", "a text that is no line"},
            {"forge-long-text", "longer than any reply to this case"},
            {"forge-no-interval", "a first time that is no interval in [0, 1]"},
            {"forge-pair-beyond", "a pair that is none of the mesh"},
@@ -114,10 +116,13 @@ TEST_F(Hostile, ForgedRepliesAreCrashes) {
 }
 
 TEST_F(Hostile, ForgedDescriptionsAreNamed) {
-  for (const auto& [mode, rule] :
-       std::map<std::string, std::string>{{"forge-name", "a name that is no line"},
-                                          {"forge-margin", "a margin that is no length"},
-                                          {"forge-length", "no description"}}) {
+  for (const auto& [mode, rule] : std::map<std::string, std::string>{
+           {"forge-name", "a name that is no line"},
+           {"forge-refusal", "a refusal that is no line"},
+           {"forge-long-refusal", "a refusal that is no line"},
+           {"forge-refusal-kind", "a refusal that loading a plug-in does not end with"},
+           {"forge-margin", "a margin that is no length"},
+           {"forge-length", "no description"}}) {
     setenv("ASSAY_HOSTILE", mode.c_str(), 1);
     WorkerProcess worker(ASSAY_WORKER, plugin("hostile"), {.seconds = .2});
     const auto described = worker.describe();
