@@ -299,6 +299,11 @@ const std::map<std::string, std::function<void()>>& deeds() {
          };
          down(0);
        }},
+      {"spin",
+       [] {
+         for (volatile bool forever = true; forever;) {
+         }
+       }},
       {"all-memory",
        [] {
          for (;;) {
