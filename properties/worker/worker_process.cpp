@@ -135,6 +135,13 @@ struct WorkerProcess::Parts {
         if (!decode(message, keeper) || keeper.wire_version != wire_version()) return other_build();
         isolation = keeper.isolation;
         live->plugin = static_cast<pid_t>(keeper.process);
+        if (!covers(isolation, limits.least)) {
+          return Problem{ProblemKind::not_isolated,
+                         fmt::format("{}: not loaded: its isolation would be {}, and was {} when "
+                                     "it was loaded first",
+                                     who(), text_of(isolation), text_of(limits.least))};
+        }
+        limits.least = isolation;
         if (limits.isolation == IsolationMode::required && !isolation.is_whole()) {
           return Problem{
               ProblemKind::not_isolated,

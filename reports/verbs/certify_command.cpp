@@ -89,6 +89,9 @@ class Certification {
     const auto waivers = corpus::sha256_of_file(known_failures);
     keep(properties::InputDigests{corpus_digest(ASSAY_CORPUS_DIR),
                                   waivers ? std::optional(waivers.value()) : std::nullopt});
+    if (request_.plugin)
+      keep(properties::PluginIsolation{properties::checks_shard, name_of(request_.isolation),
+                                       text_of(request_.isolated)});
     keep(properties::asked_of_a_certificate());
   }
 

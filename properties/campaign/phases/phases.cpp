@@ -27,10 +27,7 @@ class CampaignRun {
 
   void run() {
     note_library(store_, request_);
-    if (request_.plugin) {
-      store_.set(to_row(PluginIsolation{text_of(request_.shard), name_of(request_.isolation),
-                                        text_of(request_.isolated)}));
-    }
+    if (request_.plugin) note_isolation();
     observer_.on_begin(store_.trial_count());
     const Canary canary = meet_canary(request_);
     store_.set(to_row(canary));
@@ -53,6 +50,22 @@ class CampaignRun {
   }
 
  private:
+  // Of all trials that the store holds: those of an earlier call too.
+  void note_isolation() {
+    PluginIsolation now{text_of(request_.shard), name_of(request_.isolation),
+                        text_of(request_.isolated)};
+    if (store_.trial_count() > 0) {
+      for (const auto& before : stored().isolation) {
+        now.asked = name_of(weaker(request_.isolation, before.asked));
+        now.got = text_of(common_to(request_.isolated, isolation_of(before.got)));
+      }
+    }
+    store_.set(to_row(now));
+  }
+  static IsolationMode weaker(IsolationMode mode, const std::string& other) {
+    return std::min(mode, isolation_mode_of(other).value_or(IsolationMode::none));
+  }
+
   RunDeadline after(double share) const { return deadline_after(begin_, request_.plan, share); }
 
   static RunDeadline earlier(RunDeadline deadline, double seconds_from_now) {

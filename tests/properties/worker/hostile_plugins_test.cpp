@@ -181,6 +181,21 @@ TEST_F(Hostile, ItStartsNoMoreProcessesThanItMay) {
   }
 }
 
+TEST_F(Hostile, ItIsNotLoadedAgainWithLessIsolation) {
+  setenv("ASSAY_HOSTILE", "", 1);
+  const Isolation whole = {true, true, true};
+  WorkerProcess worker(ASSAY_WORKER, plugin("hostile"),
+                       {.isolation = IsolationMode::none, .least = whole});
+  const auto described = worker.describe();
+  ASSERT_FALSE(described);
+  EXPECT_EQ(described.error().kind, ProblemKind::not_isolated);
+  EXPECT_NE(described.error().message.find("its isolation would be none, and was full"),
+            std::string::npos)
+      << described.error().message;
+  const auto run = worker.run(small_case(31, 0), plugin_alone)[0];
+  EXPECT_EQ(run.end, RunEnd::not_run) << run.what;
+}
+
 TEST_F(Hostile, NothingThatItStartedOutlivesIt) {
   const auto processes = [] {
     std::set<std::string> names;
