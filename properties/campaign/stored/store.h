@@ -1,8 +1,8 @@
 // The trials and failures of one shard, in one file: SQLite, safe under a kill at any moment.
 //
-// Every row carries a hash (campaign/database/rows.h), which is looked at wherever a row is read. A store that is
-// open for writing knows all of its rows besides, those that it found and those that it wrote, so
-// that nobody changes them unseen in the meantime, whatever hash he writes.
+// Every row carries a hash (campaign/database/rows.h), which is looked at wherever it is read. A
+// store that is open for writing knows all of its rows besides, those that it found and those that
+// it wrote, so that nobody changes them unseen in the meantime, whatever hash he writes.
 #pragma once
 
 #include <filesystem>
