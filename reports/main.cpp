@@ -1,5 +1,6 @@
 // The command line: finds the verb, and turns what goes wrong into one line and an exit code.
 #include <fmt/format.h>
+#include <signal.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -60,6 +61,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that is too large for the user's limit is an error of the call that writes it.
+  ::signal(SIGXFSZ, SIG_IGN);
   // CGAL's modular gcd remarks on unlucky primes there; this program prints through stdio.
   std::cout.setstate(std::ios_base::badbit);
   try {

@@ -95,7 +95,7 @@ Expected<TrialsAgain> run_again(const CampaignRequest& request, const std::files
     const ScratchFolder scratch = value_or_throw(ScratchFolder::make());
     Store store = value_or_throw(Store::open(scratch.path() / "again", binding_of(request)));
     const auto end = run_trials(request, store, RunDeadline::max(), progress, &ids);
-    if (end.store_problem) throw StoreProblem(*end.store_problem);
+    if (end.problem) throw StoreProblem(*end.problem);
     if (!end.harness_problem.empty())
       throw StoreProblem(ProblemKind::cannot_start, end.harness_problem);
     std::map<std::string, TrialRecord> now;

@@ -76,7 +76,7 @@ class CampaignRun {
     const bool others = request_.plan.fault_cases > 0 || request_.plan.tetrahedron_seconds > 0;
     const auto end = run_trials(request_, store_, after(others ? trials_share : 1),
                                 [&](const TrialProgress& state) { observer_.on_trial(state); });
-    if (end.store_problem) throw StoreProblem(*end.store_problem);
+    if (end.problem) throw StoreProblem(*end.problem);
     store_.set(
         to_row(HarnessProblem{text_of(request_.shard), end.harness_problem, store_.trial_count()}));
     observer_.on_trials(end);
