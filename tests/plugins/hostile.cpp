@@ -362,6 +362,7 @@ void destroy(assay_handle*) { at("destroy"); }
 }  // namespace
 
 const assay_detector_api* assay_detector() {
+  constexpr std::size_t longest = 10'000;
   at("load");
   const std::string mode = variable("ASSAY_HOSTILE");
   const auto forgery = forgeries().find(mode);
