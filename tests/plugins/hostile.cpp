@@ -336,10 +336,20 @@ const assay_description* describe() {
       "hostile", "1", (1u << 8) - 1, ASSAY_ADJACENCY_ALL, ASSAY_COORDINATES_FLOAT64, 0};
   return &description;
 }
-std::int32_t create(const std::int32_t*, std::uint64_t, const double*, std::uint64_t,
+// Scenes are larger. To judge its answers on these takes the oracle longer than all the rest, so
+// most modes end there when their deed is done.
+constexpr std::uint64_t triangles_of_a_case = 200;
+
+void spare_the_oracle(std::uint64_t triangles) {
+  const std::string mode = variable("ASSAY_HOSTILE");
+  if (triangles > triangles_of_a_case && mode != "forge-lies" && mode != "overwrite") _exit(0);
+}
+
+std::int32_t create(const std::int32_t*, std::uint64_t triangles, const double*, std::uint64_t,
                     assay_handle** handle, const char**) {
   at("create");
   meddle();
+  spare_the_oracle(triangles);
   static assay_handle one;
   *handle = &one;
   return ASSAY_OK;
