@@ -7,6 +7,7 @@
 #include <string>
 
 #include "corpus/cases/case_file.h"
+#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_description.h"
 
@@ -31,5 +32,8 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run);
 // The same of a description: a name and a version in one printable line, a margin that is a
 // length.
 std::string broken_rule(const PluginDescription& description);
+
+// The same of why a plug-in cannot be loaded: a problem of PluginHost::open in one printable line.
+std::string broken_rule(const Problem& refusal);
 
 }  // namespace assay::properties

@@ -30,6 +30,9 @@ struct WorkerLimits {
   std::uint64_t bytes = 0;  // of address space; 0: no limit
   // Of a plug-in. Where it is required and the system does not offer all of it: not_isolated.
   IsolationMode isolation = IsolationMode::best;
+  // What holds at least for its process, whatever was asked for: a plug-in of which it was said how
+  // it is isolated is not loaded again with less. not_isolated.
+  Isolation least = {};
 };
 
 // Starts on demand and again after a crash or a hang. One instance a thread: the worker dies with

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "properties/printable.h"
 #include "properties/worker/worker_process.h"
-#include "reports/terminal/printable.h"
 
 namespace assay::reports {
 
@@ -19,8 +19,8 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
   request.isolated = worker.isolation();
   const auto& plugin = description.value();
   // Its words go into ids, files and pages.
-  const auto name = printable(plugin.name);
-  request.detector = {fmt::format("{} {}", name, printable(plugin.version)),
+  const auto name = properties::printable(plugin.name);
+  request.detector = {fmt::format("{} {}", name, properties::printable(plugin.version)),
                       false,
                       plugin.claims,
                       plugin.contract,

@@ -4,10 +4,10 @@
 
 #include "detector/step_result.h"
 #include "properties/campaign/stored/contract_json.h"
+#include "properties/printable.h"
 #include "reports/check/plugin_text.h"
 #include "reports/check/subject.h"
 #include "reports/terminal/joined.h"
-#include "reports/terminal/printable.h"
 
 namespace assay::reports {
 namespace {
@@ -17,8 +17,8 @@ using properties::Claim;
 
 // Its words go to the terminal and into JSON.
 properties::PluginDescription in_print(properties::PluginDescription description) {
-  description.name = printable(description.name);
-  description.version = printable(description.version);
+  description.name = properties::printable(description.name);
+  description.version = properties::printable(description.version);
   return description;
 }
 

@@ -1,6 +1,7 @@
 // `assay run`: a campaign in one shard, and what it comes to.
 #include <fmt/format.h>
 
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_options.h"

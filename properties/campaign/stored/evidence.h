@@ -79,7 +79,8 @@ struct World {
   std::optional<std::string> counterexample;  // what does not hold
 };
 
-// How a shard's plug-in was kept apart, by the words of isolation.h.
+// How a shard's plug-in was kept apart in all of its trials, or in the corpus ("checks"), by the
+// words of isolation.h.
 struct PluginIsolation {
   std::string shard, asked, got;
 };
