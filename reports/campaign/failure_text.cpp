@@ -71,7 +71,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
     report.text += fmt::format(
         "\nDEFECT {} ({}), met {} times\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n",
         failure.signature, failure.configuration, count == kept.met.end() ? 1 : count->second,
-        failure.what, failure.id, size_of_mesh(failure.mesh),
+        shown_what(failure), failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
         picture_file((out / shown_file).string()), replay_line(out, shown_file, detector.library));

@@ -27,6 +27,7 @@ Finding finding_of(const Failure& failure) {
   Finding finding;
   finding.signature = failure.signature();
   finding.step = failure.step;
+  finding.what = failure.what;
   if (failure.pair) finding.focus = {failure.pair->a, failure.pair->b};
   return finding;
 }

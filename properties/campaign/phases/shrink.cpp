@@ -63,6 +63,11 @@ std::vector<Configuration> configurations_of(const corpus::Case& failing,
   return vouched ? with_clean_start(detector.configurations) : detector.configurations;
 }
 
+// Numbers of triangles and times that a case speaks of are its own.
+void tell_of_itself(corpus::Case& c, const Judge& judge) {
+  if (const auto finding = judge(c)) c.about = about_text(finding->signature, finding->what);
+}
+
 // A failure that was shrunk in part goes before the others of its signature.
 void order_for_shrinking(std::vector<StoredFailure>& failures) {
   std::stable_partition(failures.begin(), failures.end(),
@@ -93,13 +98,15 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
     if (configuration == configurations.end()) continue;
     if (progress) progress(failure.signature);
     const ReduceLimits bounded{std::min(limits.seconds, left.count()), limits.calls};
-    const OnBetter keep = [&](const corpus::Case& better) {
-      failure.smallest = corpus::case_text(better);
-      store.set_smallest(failure);
-    };
     const Law* law = failure.signature.starts_with(law_in_signature)
                          ? law_named(failure.signature.substr(law_in_signature.size()))
                          : nullptr;
+    const OnBetter keep = [&](const corpus::Case& better) {
+      corpus::Case shown = better;
+      if (!law) tell_of_itself(shown, judge_of_detector(request.detector, *configuration, worker));
+      failure.smallest = corpus::case_text(shown);
+      store.set_smallest(failure);
+    };
     const Reduction reduction =
         law ? reduce(failing.value(), judge_of_law(*law, *configuration), bounded, keep)
             : shrink_case(failing.value(), request.detector, *configuration, worker, bounded, keep);

@@ -22,7 +22,7 @@ namespace assay::properties {
 corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
                           const DetectorUnderTest& detector, const Failure& failure) {
   corpus::Case out = c;
-  out.about = fmt::format("{}; {}", failure.signature(), failure.what);
+  out.about = about_text(failure.signature(), failure.what);
   out.source =
       fmt::format("campaign case {}, detector {}, {}", c.id, detector.name, configuration.name);
   std::replace(out.id.begin(), out.id.end(), ':', '-');

@@ -4,11 +4,25 @@
 
 #include <system_error>
 
+#include "corpus/cases/case_file.h"
+#include "corpus/cases/case_file.h"
 #include "corpus/json_text.h"
 #include "properties/campaign/database/file_lock.h"
 #include "properties/campaign/stored/row_of.h"
 
 namespace assay::properties {
+
+std::string about_text(const std::string& signature, const std::string& what) {
+  return signature + "; " + what;
+}
+
+std::string shown_what(const StoredFailure& failure) {
+  if (failure.smallest.empty()) return failure.what;
+  const auto smallest = corpus::parse_case(failure.smallest, "stored failure");
+  const auto head = about_text(failure.signature, "");
+  const bool tells = smallest && smallest.value().about.starts_with(head);
+  return tells ? smallest.value().about.substr(head.size()) : failure.what;
+}
 namespace {
 
 // The schema that a binding names, where it is another than this build's.

@@ -38,6 +38,11 @@ inline constexpr std::string_view law_in_signature = "law ", law_in_configuratio
 // begins so: the name of a campaign has no '/'.
 inline constexpr std::string_view corpus_in_id = "corpus/";
 
+// What the mesh of a failure says of itself: "all-pairs: missing pair, edge-edge; triangles 0 and 1
+// meet at 0.5", and back: what stands behind the signature, of the smallest mesh where there is one.
+std::string about_text(const std::string& signature, const std::string& what);
+std::string shown_what(const StoredFailure& failure);
+
 // That a trial showed something in a configuration: kept of every failure, its mesh of a few.
 struct MetFailure {
   std::string configuration, signature;  // as of StoredFailure

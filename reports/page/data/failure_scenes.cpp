@@ -46,7 +46,7 @@ class FailureList {
   Json other(const properties::StoredFailure& failure) const {
     return {{"id", failure.id},
             {"configuration", failure.configuration},
-            {"what", failure.what},
+            {"what", shown_what(failure)},
             {"replay", replay_of(failure)}};
   }
 

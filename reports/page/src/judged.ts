@@ -1,7 +1,8 @@
 // What the verdict is about: the detector's claims, under which contract, how a plug-in was kept
-// apart, and the campaign.
-import { html, section } from "./dom";
-import type { Run } from "./report";
+// apart, the campaign; and what a plug-in does whatever it claims.
+import { html, section, table } from "./dom";
+import type { Rate, Run, TimesOff } from "./report";
+import { count } from "./words";
 
 // Configurations that claim the same are one line.
 function claimsOf(run: Run): string[] {
@@ -21,21 +22,52 @@ const isolations: Record<string, string> = {
 
 export function judged(run: Run): HTMLElement {
   const { contract } = run.detector;
-  const margin = contract.margin > 0 ? `, margin ${contract.margin}` : "";
   const rows: [string, string[]][] = [
     ["Claims", claimsOf(run)],
-    ["Contract", [`adjacency ${contract.adjacency}, coordinates ${contract.coordinates}${margin}`]],
+    ...(run.not_judged.length === 0
+      ? []
+      : ([["Not judged", run.not_judged.map(({ claim, reason }) => `${claim}: ${reason}`)]] as [string, string[]][])),
+    ["Contract", [contract.leaves_out.length === 0 ? "leaves nothing out" : contract.leaves_out.join(", ")]],
     ...(run.isolation === null ? [] : ([["Isolation", [isolations[run.isolation] ?? run.isolation]]] as [string, string[]][])),
     ["Campaign", [`${run.campaign}, seed ${run.seed}`]],
   ];
   return section(
     "judged",
     "What was judged",
-    html("p", {}, "The verdict speaks of these claims, under this contract, and of no others."),
+    html("p", {}, "The verdict speaks of these claims, under this contract, and of no others. What is not judged holds for nobody."),
     html(
       "dl",
       { class: "judged" },
       ...rows.flatMap(([name, lines]) => [html("dt", {}, name), html("dd", {}, ...lines.map((line) => html("div", {}, line)))]),
     ),
+    ...measures(run),
   );
+}
+
+const rate = ({ of, in: all, interval }: Rate): string =>
+  all === 0 ? "\u2013" : `${count(of)} of ${count(all)} (${percent(interval[0])} to ${percent(interval[1])})`;
+const percent = (x: number): string => `${(100 * x).toPrecision(2)} %`;
+const off = ({ steps, median, p99, worst }: TimesOff): string =>
+  steps === 0 ? "none" : `${count(steps)}: ${[median, p99, worst].map((x) => x.toPrecision(2)).join(", ")}`;
+
+// What a plug-in does, be it claimed or not.
+function measures(run: Run): HTMLElement[] {
+  if (run.measures.length === 0) return [];
+  type Row = Run["measures"][number];
+  return [
+    html("p", {}, "Counted whatever is claimed. Intervals have a confidence of 95 %; times are shares of the step, given as median, 99 of 100, and worst."),
+    table(
+      "What the detector does, whatever it claims",
+      [
+        { head: "stratum", cell: (r: Row) => r.family },
+        { head: "free, answered collision", cell: (r: Row) => rate(r.measures.false_alarms), number: true },
+        { head: "contact, answered free", cell: (r: Row) => `${count(r.measures.answered_free.of)} of ${count(r.measures.answered_free.in)}`, number: true },
+        { head: "spurious pairs a step", cell: (r: Row) => r.measures.spurious_pairs_a_step.toPrecision(2), number: true },
+        { head: "late", cell: (r: Row) => off(r.measures.late), number: true },
+        { head: "early", cell: (r: Row) => off(r.measures.early), number: true },
+        { head: "left out: cases, steps", cell: (r: Row) => `${count(r.measures.left_out.cases_redrawn)}, ${count(r.measures.left_out.steps)}`, number: true },
+      ],
+      run.measures,
+    ),
+  ];
 }

@@ -175,6 +175,42 @@ export interface Contract {
   adjacency: string;
   coordinates: string;
   margin: number;
+  leaves_out: string[]; // in words; empty: nothing
+}
+
+export interface NotJudged {
+  claim: string;
+  reason: string;
+}
+
+// A share of counted steps, with its interval of confidence 95 %.
+export interface Rate {
+  of: number;
+  in: number;
+  share: number;
+  interval: [number, number];
+}
+
+// Times that are off, in shares of the step.
+export interface TimesOff {
+  steps: number;
+  median: number;
+  p99: number;
+  worst: number;
+}
+
+// What a plug-in's steps come to, whatever it claims.
+export interface Measures {
+  steps: number;
+  false_alarms: Rate;
+  answered_free: Rate;
+  spurious_pairs: number;
+  spurious_pairs_a_step: number;
+  collisions: number;
+  without_time: number;
+  late: TimesOff;
+  early: TimesOff;
+  left_out: { cases_redrawn: number; steps: number; would_be_misses: number };
 }
 
 export interface Run {
@@ -192,6 +228,9 @@ export interface Run {
   };
   // "full", "none", "partial: lacks files"; null: of no plug-in.
   isolation: string | null;
+  not_judged: NotJudged[];
+  // By family; of a plug-in.
+  measures: { family: string; measures: Measures }[];
   verdict: string;
   why: string;
   gates: Gate[];
@@ -248,6 +287,7 @@ export interface Findings {
   gates: Gate[];
   detector: { name: string; built_in: boolean; contract: Contract; configurations: Claims[] };
   isolation: string | null;
+  not_judged: NotJudged[];
   versions: Certificate["versions"];
   campaign: { name: string; seed: number; shards: string[]; plan: { policy: { speed_limits: Record<string, number> } } };
   confidence: { family: number; bounds: number; speaks_of: string };
@@ -256,6 +296,7 @@ export interface Findings {
     planned: number;
     trials: number;
     with_defect: number;
+    measures: Measures | null;
     steps: number;
     collisions: number;
     wanted_bound: number | null;

@@ -76,6 +76,8 @@ export function runOf(run: StoredRun): Run {
       claims: f.detector.configurations,
     },
     isolation: f.isolation,
+    not_judged: f.not_judged,
+    measures: f.strata.flatMap(({ family, measures }) => (measures === null ? [] : [{ family, measures }])),
     verdict: run.verdict,
     why: run.why,
     gates: f.gates,
