@@ -10,7 +10,7 @@
 namespace assay::reports {
 
 inline constexpr const char* statement_type = "https://in-toto.io/Statement/v1";
-inline constexpr const char* predicate_type = "urn:assay:certificate:2";
+inline constexpr const char* predicate_type = "urn:assay:certificate:3";
 inline constexpr const char* certificate_schema = "assay-certificate/3";
 
 // Findings and gates as JSON, all of its text UTF-8. plan: with its times, which the stores do not

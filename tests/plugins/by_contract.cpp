@@ -7,6 +7,7 @@
 //   miss=vertex-face, miss=edge-edge         does not test these
 //   late=S, early=S                          its first time, and those of its pairs, off by S
 //   alarm=N                                  answers collision in one of N free steps
+//   alarm-share=P                            the same in a share of them, drawn from the coordinates
 //   burn=S                                   S seconds where the first time is a double above 0
 //   abort-outside                            aborts when a step of the wrong contract is put to it
 //   whenever                                 collision at [0, 1] in every step
@@ -156,6 +157,21 @@ void burn(double seconds) {
   }
 }
 
+// By a hash of the coordinates, in a share of all steps.
+bool is_drawn(const assay_handle& h) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (std::size_t i = 0; i < 3 * h.vertices; ++i) {
+    for (const double x : {h.x_t0[i], h.x_t1[i]}) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &x, sizeof bits);
+      hash = (hash ^ bits) * 1099511628211u;
+      hash ^= hash >> 29;
+    }
+  }
+  constexpr double all = 18446744073709551616.;  // 2^64
+  return static_cast<double>(hash) < number_of("alarm-share") * all;
+}
+
 double clamped(double t) { return std::clamp(t, 0., 1.); }
 
 void abort_outside(const assay_handle& h, double first) {
@@ -192,7 +208,8 @@ std::int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1) {
   h->lo = clamped(first.lo + shift);
   h->hi = clamped(first.hi + shift);
   const auto one_of = static_cast<std::uint64_t>(number_of("alarm"));
-  const bool is_alarm = first.lo > 1 && one_of > 0 && ++h->free_steps % one_of == 0;
+  const bool is_alarm =
+      first.lo > 1 && ((one_of > 0 && ++h->free_steps % one_of == 0) || is_drawn(*h));
   if (is_alarm || has("whenever")) {
     h->collision = true;
     h->lo = 0;

@@ -1,0 +1,111 @@
+// What the owner of a detector is told of it: rates that it never claimed, claims of which nothing
+// is known, and the cases on which it takes longest.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "properties/campaign/gates/read_findings.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class ForeignDetector : public testing::Test {
+ protected:
+  const Scratch scratch;
+  const std::string out = scratch / "out", library = plugin("by_contract");
+
+  // tests/plugins/by_contract.cpp says what the words are.
+  Outcome judge(const std::string& verb, const std::string& words, const std::string& plan,
+                const std::string& more = "") const {
+    return run_assay(verb + " --campaign " + scratch.write("plan.json", plan) + " --out " + out +
+                         " --detector " + library + " " + more,
+                     "ASSAY_BY_CONTRACT=\"" + words + "\" ");
+  }
+  Json predicate() const { return Json::parse(read_text(out + "/certificate.json"))["predicate"]; }
+};
+
+// Claims free-sound, not-late and total.
+constexpr const char* modest = "claims=131 ";
+
+TEST_F(ForeignDetector, TheRateOfItsAlarmsIsToldWhateverItClaims) {
+  const auto made = judge("certify", std::string(modest) + "alarm-share=0.1", plan_text(120));
+  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  std::uint64_t alarms = 0, free_steps = 0;
+  const Json stated = predicate();
+  for (const auto& stratum : stated["strata"]) {
+    const auto& rate = stratum["measures"]["false_alarms"];
+    EXPECT_LE(rate["interval"][0].get<double>(), 0.1) << rate;
+    EXPECT_GE(rate["interval"][1].get<double>(), 0.1) << rate;
+    alarms += rate["of"].get<std::uint64_t>();
+    free_steps += rate["in"].get<std::uint64_t>();
+    EXPECT_TRUE(contains(made.out, std::to_string(rate["of"].get<int>()) + " of " +
+                                       std::to_string(rate["in"].get<int>()) + ", "))
+        << made.out;
+  }
+  EXPECT_GT(free_steps, 100u);
+  EXPECT_GT(alarms, 0u);
+  const auto page = out + "/page.html";
+  ASSERT_EQ(run_assay("report " + out + " --out " + page).exit_code, 0);
+  const auto text = read_text(page);
+  const auto first = stated["strata"][0]["measures"]["false_alarms"]["of"].get<int>();
+  EXPECT_TRUE(contains(text, "\"false_alarms\":{\"of\":" + std::to_string(first)));
+}
+
+TEST_F(ForeignDetector, NoCertificateNamesWhatNobodyJudged) {
+  // It always answers collision at [0, 1], under the widest contract that loads.
+  const auto made =
+      judge("certify", "claims=255 whenever no-pairs margin=1e300 tolerance=1e-3 start=free",
+            plan_text(12));
+  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  std::vector<std::string> not_judged;
+  const Json stated = predicate();
+  for (const auto& one : stated["not_judged"])
+    not_judged.push_back(one["claim"].get<std::string>());
+  EXPECT_EQ(not_judged,
+            (std::vector<std::string>{"first-time", "first-pairs", "all-pairs", "no-spurious"}));
+  const auto verdict = made.out.substr(made.out.rfind("\nverdict: "));
+  const auto judged = verdict.substr(0, verdict.find("; not judged: "));
+  for (const char* claim : {"first-time", "first-pairs", "all-pairs", "no-spurious"}) {
+    EXPECT_FALSE(contains(judged, claim)) << verdict;
+    EXPECT_TRUE(contains(verdict, claim)) << verdict;
+  }
+}
+
+TEST_F(ForeignDetector, ItsSlowCasesAreListedAndShrunk) {
+  const std::string plan =
+      R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": 40, "shrink_share": 0.2,)"
+      R"( "strata": [{"family": "closed-degenerate", "cases": 12}]})";
+  const auto made =
+      judge("run", "claims=131 start=free no-pairs burn=30", plan, "--case-seconds 0.1 --jobs 2");
+  EXPECT_EQ(made.exit_code, 3) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "slow cases: assay list slow ")) << made.out;
+  const auto listed = run_assay("list slow " + out);
+  EXPECT_EQ(listed.exit_code, 0) << listed.err;
+  EXPECT_TRUE(contains(listed.out, " without a verdict, at most 0.1 s")) << listed.out;
+  EXPECT_FALSE(replay_lines(listed.out).empty());
+  const auto findings = properties::read_findings(out);
+  ASSERT_TRUE(findings) << findings.error().message;
+  const auto& slow = findings.value().evidence.slow;
+  ASSERT_FALSE(slow.empty());
+  const auto smallest = corpus::parse_case(slow[0].smallest, "smallest");
+  ASSERT_TRUE(smallest) << made.out;
+  EXPECT_LE(smallest.value().triangles.rows(), 4);
+}
+
+TEST_F(ForeignDetector, AStratumWithoutItsNumberOfCasesIsIncomplete) {
+  const auto made = judge("run", std::string(modest) + "start=apart:1e300", plan_text(4));
+  EXPECT_EQ(made.exit_code, 3) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "for 4 of 4 trials no case was drawn that the contract takes"))
+      << made.out;
+}
+
+TEST_F(ForeignDetector, WhatClaimsNothingThatIsLeftIsRefused) {
+  const auto made = judge("run", "claims=32 margin=1", plan_text(4));
+  expect_refused(made, "it claims nothing that its contract leaves to be judged");
+}
+
+}  // namespace
+}  // namespace assay::tests
