@@ -1,7 +1,7 @@
 // Bullet: the continuous test of a vertex and a face of its deformable bodies.
 //
 // Version: 3.24, Debian libbullet-dev, floats (btScalar is float there). Function: bernsteinCCD of
-// BulletSoftBody/btSoftBodyInternals.h, an internal header that is installed, called as
+// the internal header of its soft bodies, which is installed, called as
 // btSoftColliders::CollideCCD calls it: dt 1, margin SAFE_EPSILON, with velocities that are the
 // differences of the positions, and normals and end positions as
 // btDeformableMultiBodyDynamicsWorld::performGeometricCollisions sets them. Contract: float32,

@@ -55,8 +55,8 @@ class FeaturePairs {
     double lo[3], hi[3];
   };
 
-  const double* start(std::int32_t v) const { return x_t0_ + 3 * v; }
-  const double* end(std::int32_t v) const { return x_t1_ + 3 * v; }
+  const double* start(std::int32_t v) const { return x_t0_ + 3 * std::ptrdiff_t{v}; }
+  const double* end(std::int32_t v) const { return x_t1_ + 3 * std::ptrdiff_t{v}; }
 
   Box box_of(const Triangle& triangle) const {
     Box box;

@@ -10,11 +10,11 @@
 //
 // What else a class may have is found by its name:
 //
-//   void commit();                                      the step evaluated last is accepted
-//   static void use_threads(std::uint32_t count);       once, before everything but describe()
-//   static Result query(std::int32_t kind, Positions x_t0, Positions x_t1);    four points each;
-//                                                       pairs and text of the result are not read
-//   std::vector<Pair> candidates(Positions x_t0, Positions x_t1);              a broad phase
+// - void commit(): the step evaluated last is accepted;
+// - static void use_threads(std::uint32_t count): called once, before everything but describe();
+// - static Result query(std::int32_t kind, Positions x_t0, Positions x_t1): of four points each;
+//   pairs and text of the result are not read;
+// - std::vector<Pair> candidates(Positions x_t0, Positions x_t1): a broad phase.
 //
 // A library may hold a query or a broad phase alone: such a class has no evaluate(), and one
 // with a query alone needs no constructor either.

@@ -1,10 +1,11 @@
-// The table of functions of a class: the C interface on one side, calls of C++ on the other. Included
-// by assay_detector.hpp, which says what a class may have; of no use alone.
+// The table of functions of a class: the C interface on one side, calls of C++ on the other. It is
+// included by assay_detector.hpp, which says what a class may have; of no use alone.
 #ifndef ASSAY_DETECTOR_TABLE_HPP
 #define ASSAY_DETECTOR_TABLE_HPP
 
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <type_traits>
 
@@ -116,7 +117,7 @@ std::int32_t create(const std::int32_t* triangles, std::uint64_t triangle_count,
   const std::int32_t code = guarded(line, [&] {
     const Mesh mesh = {{triangles, static_cast<std::size_t>(triangle_count)},
                        {positions, static_cast<std::size_t>(vertex_count)}};
-    *handle = reinterpret_cast<assay_handle*>(new Handle<D>(mesh));
+    *handle = reinterpret_cast<assay_handle*>(std::make_unique<Handle<D>>(mesh).release());
   });
   if (code != ASSAY_OK) *message = line.c_str();
   return code;

@@ -9,7 +9,6 @@
 
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/phases/trials.h"
-#include "properties/campaign/stored/step_measures.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/cause.h"
@@ -23,7 +22,6 @@ constexpr std::uint64_t peer_cases_a_family = 80;
 
 struct JudgedPeer {
   Counts outcomes;  // "H", "D", ...
-  StepMeasures measures;
   std::vector<StoredFailure> failures;
   Counts met;
   DetectorUnderTest detector;
