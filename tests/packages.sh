@@ -5,6 +5,10 @@ assay_packages="g++ cmake ninja-build ccache libcgal-dev libgmp-dev libmpfr-dev 
   libeigen3-dev libboost-dev libgtest-dev librapidcheck-dev libcli11-dev libfmt-dev
   nlohmann-json3-dev libsqlite3-dev libseccomp-dev libssl-dev zlib1g-dev"
 
+# Detectors of others that tests judge (corpus/peers); the program itself needs none of them.
+# shellcheck disable=SC2034
+assay_peer_packages="libfcl-dev libbullet-dev"
+
 # ensure_packages YES EXTRA...: installs what is missing of assay_packages and EXTRA, or says what
 # it is and stops. YES=1 does not ask.
 ensure_packages() {

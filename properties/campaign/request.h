@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "properties/campaign/phases/trial.h"
 #include "properties/campaign/plan.h"
@@ -23,6 +24,11 @@ struct Shard {
 // "1/4"
 std::string text_of(const Shard& shard);
 
+struct OwnCases {
+  std::vector<corpus::Case> cases;
+  std::string digest;  // SHA-256 over names and bytes of their files
+};
+
 struct CampaignRequest {
   CampaignPlan plan;
   std::uint64_t seed = 1;
@@ -36,6 +42,8 @@ struct CampaignRequest {
   // Where another run of this build has shown its planted faults found, its rows: then no fault is
   // planted here.
   std::optional<PowerProof> power;
+  // Cases of whoever owns the detector, judged beside what is shipped.
+  std::optional<OwnCases> own_cases;
 
   // Of the workers that run its cases.
   WorkerLimits worker_limits() const { return {plan.case_seconds, 0, isolation, isolated}; }

@@ -6,6 +6,7 @@
 
 #include "properties/campaign/stored/power_proof.h"
 #include "properties/worker/worker_process.h"
+#include "reports/campaign/own_cases.h"
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/interruption.h"
 #include "reports/terminal/option_words.h"
@@ -24,6 +25,8 @@ void add_campaign_options(Verb& verb, CampaignWords& words) {
   verb.add("--power", words.power,
            "Folder of a run or certificate of this build: planted faults are proved by it, "
            "not again");
+  verb.add("--corpus", words.own_cases,
+           "Folder of case files of your own (assay-case/1), judged beside what is shipped");
   add_detector(verb, words.detector);
   add_jobs(verb, words.jobs);
 }
@@ -42,6 +45,11 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   request.seed = words.seed;
   request.jobs = words.jobs;
   request.worker = properties::worker_program();
+  if (!words.own_cases.empty()) {
+    auto own = read_own_cases(words.own_cases);
+    if (!own) return own.error();
+    request.own_cases = std::move(own.value());
+  }
   // Before the first code of a plug-in runs.
   if (!words.power.empty()) {
     auto proof = properties::take_power(words.power, words.out, request);

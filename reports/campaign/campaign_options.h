@@ -19,6 +19,7 @@ struct CampaignWords {
   std::optional<double> time_limit;    // seconds of the clock, in place of the campaign's own
   std::optional<double> case_seconds;  // of processor time, in place of the campaign's own
   std::string power;                   // a folder with the proof of planted faults; empty: none
+  std::string own_cases;               // a folder of cases of the detector's owner; empty: none
   DetectorWords detector;
   std::string out;
   int jobs = 1;

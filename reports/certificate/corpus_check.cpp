@@ -8,6 +8,7 @@
 #include "corpus/scenes/scenes.h"
 #include "properties/judging/case_check.h"
 #include "properties/worker/worker_process.h"
+#include "reports/campaign/own_cases.h"
 
 namespace assay::reports {
 namespace {
@@ -62,9 +63,10 @@ class JudgedRows {
  public:
   // hung: in how many cases of the corpus the detector hung, before these and with them.
   JudgedRows(const properties::CampaignRequest& request, const std::string& input,
-             const OnCorpusFailure& on_failure, int& hung)
+             const OnCorpusFailure& on_failure, int& hung, const std::string& before_id = "")
       : request_(request),
         on_failure_(on_failure),
+        before_id_(before_id),
         worker_(request.worker, request.plugin, limits_of(request)),
         hung_(hung) {
     for (const auto& configuration : request.detector.configurations)
@@ -77,7 +79,8 @@ class JudgedRows {
     if (!seen) return;  // it is beyond the contract
     if (hung_ >= most_hung_cases) {
       for (auto& row : rows_)
-        row.open.push_back({c.id, "", fmt::format("not run: it hung in {} cases before", hung_)});
+        row.open.push_back(
+            {before_id_ + c.id, "", fmt::format("not run: it hung in {} cases before", hung_)});
       return;
     }
     const auto& configurations = request_.detector.configurations;
@@ -98,10 +101,10 @@ class JudgedRows {
       const auto& failure = verdict.failure;
       rows_[i].defects += failure ? 1 : 0;
       if (!failure) {
-        rows_[i].open.push_back({c.id, "", "no verdict: " + runs[i].what});
+        rows_[i].open.push_back({before_id_ + c.id, "", "no verdict: " + runs[i].what});
       } else {
-        rows_[i].failed.push_back({c.id, failure->signature(), failure->what});
-        on_failure_({std::string(properties::corpus_in_id) + c.id,
+        rows_[i].failed.push_back({before_id_ + c.id, failure->signature(), failure->what});
+        on_failure_({std::string(properties::corpus_in_id) + before_id_ + c.id,
                      configurations[i].name,
                      failure->signature(),
                      failure->what,
@@ -115,6 +118,7 @@ class JudgedRows {
  private:
   const properties::CampaignRequest& request_;
   const OnCorpusFailure& on_failure_;
+  const std::string before_id_;
   properties::WorkerProcess worker_;
   int& hung_;
   std::vector<CorpusRow> rows_;
@@ -123,13 +127,7 @@ class JudgedRows {
 corpus::Expected<std::vector<corpus::Case>> curated(const std::filesystem::path& folder) {
   const auto files = corpus::case_files(folder);
   if (!files) return files.error();
-  std::vector<corpus::Case> cases;
-  for (const auto& file : files.value()) {
-    auto c = corpus::read_case(file);
-    if (!c) return c.error();
-    cases.push_back(std::move(c.value()));
-  }
-  return cases;
+  return read_cases(files.value());
 }
 
 // Small enough to judge every scene in a few seconds, and in as many frames as the scene is itself.
@@ -178,6 +176,18 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
   return outcome::success();
 }
 
+void check_own_cases(const properties::CampaignRequest& request, const OnCorpusRow& on_row,
+                     const OnCorpusFailure& on_failure) {
+  if (!request.own_cases) return;
+  int hung = 0;
+  JudgedRows judged(request, properties::own_cases_input, on_failure, hung,
+                    properties::own_cases_in_id);
+  for (const auto& c : request.own_cases->cases) {
+    if (c.expected.answer != detector::Answer::error) judged.add(c);
+  }
+  for (const auto& row : judged.rows()) on_row(row);
+}
+
 std::string corpus_heading() {
   return fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", "input", "configuration",
                      "cases", "steps", "collisions", "pairs", "defects");
@@ -193,14 +203,8 @@ std::string corpus_row_text(const CorpusRow& row) {
 }
 
 std::string corpus_digest(const std::filesystem::path& corpus) {
-  std::string lines;
-  if (const auto files = corpus::case_files(corpus)) {
-    for (const auto& file : files.value()) {
-      const auto digest = corpus::sha256_of_file(file);
-      lines += fmt::format("{} {}\n", file.filename().string(), digest ? digest.value() : "");
-    }
-  }
-  return corpus::sha256_of(lines);
+  const auto files = corpus::case_files(corpus);
+  return digest_of_files(files ? files.value() : std::vector<std::filesystem::path>());
 }
 
 }  // namespace assay::reports

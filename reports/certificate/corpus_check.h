@@ -24,6 +24,11 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
                             const std::filesystem::path& corpus, const OnCorpusRow& on_row,
                             const OnCorpusFailure& on_failure);
 
+// The request's own cases, through the worker and held to the oracle whatever detector it is. Their
+// ids begin with own_cases_in_id.
+void check_own_cases(const properties::CampaignRequest& request, const OnCorpusRow& on_row,
+                     const OnCorpusFailure& on_failure);
+
 // A row as the terminal shows it, with a line for each case that fails, and what stands above.
 std::string corpus_heading();
 std::string corpus_row_text(const properties::CorpusRow& row);

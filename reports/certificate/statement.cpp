@@ -88,9 +88,11 @@ Json campaign_json(const RunFindings& findings, const properties::CampaignPlan& 
 Json replay_json(const RunFindings& findings) {
   const auto& paths = findings.evidence.paths;
   if (!paths) return Json::array();
-  return Json::array({fmt::format("assay certify --campaign {} --seed {}{} --out AGAIN",
+  const auto own_cases =
+      paths->own_cases.empty() ? "" : fmt::format(" --corpus {}", shell_word(paths->own_cases));
+  return Json::array({fmt::format("assay certify --campaign {} --seed {}{}{} --out AGAIN",
                                   shell_word(properties::campaign_file(paths->out).string()),
-                                  findings.run.seed, detector_words(paths->detector)),
+                                  findings.run.seed, detector_words(paths->detector), own_cases),
                       fmt::format("assay verify {}",
                                   shell_word(properties::certificate_file(paths->out).string()))});
 }

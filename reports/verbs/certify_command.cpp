@@ -20,6 +20,7 @@
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/campaign/failure_text.h"
+#include "reports/campaign/own_cases.h"
 #include "reports/certificate/corpus_check.h"
 #include "reports/certificate/judged_text.h"
 #include "reports/certificate/other_checks.h"
@@ -85,14 +86,33 @@ class Certification {
     const auto commit = commit_text();
     keep(properties::Versions{ASSAY_VERSION, commit.empty() ? std::nullopt : std::optional(commit),
                               version_text()});
-    keep(properties::Paths{words_.out, words_.detector.library});
-    const auto waivers = corpus::sha256_of_file(known_failures);
-    keep(properties::InputDigests{corpus_digest(ASSAY_CORPUS_DIR),
-                                  waivers ? std::optional(waivers.value()) : std::nullopt});
+    keep(properties::Paths{words_.out, words_.detector.library, words_.own_cases});
+    keep(input_digests());
     if (request_.plugin)
       keep(properties::PluginIsolation{properties::checks_shard, name_of(request_.isolation),
                                        text_of(request_.isolated)});
     keep(properties::asked_of_a_certificate());
+  }
+
+  // Those of the owner, where he gives cases or waivers, are taken together with the shipped ones.
+  properties::InputDigests input_digests() const {
+    std::string cases = corpus_digest(ASSAY_CORPUS_DIR);
+    if (request_.own_cases) cases = corpus::sha256_of(cases + request_.own_cases->digest);
+    std::optional<std::string> waivers;
+    for (const auto& file : waiver_files()) {
+      const auto digest = corpus::sha256_of_file(file);
+      if (!digest) continue;
+      waivers = waivers ? corpus::sha256_of(*waivers + digest.value()) : digest.value();
+    }
+    return {cases, waivers};
+  }
+
+  std::vector<std::filesystem::path> waiver_files() const {
+    std::vector<std::filesystem::path> files = {known_failures};
+    if (request_.own_cases) {
+      if (const auto own = owner_waivers(words_.own_cases)) files.push_back(*own);
+    }
+    return files;
   }
 
   template <class T>
@@ -101,13 +121,20 @@ class Certification {
   }
 
   Expected<void> store_waivers() {
-    const auto waivers = read_waivers(known_failures);
-    if (!waivers) return Refusal(waivers.error());
     const auto today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
     checks_.drop(DroppedKind::waiver);
-    for (const auto& waiver : waivers.value())
-      keep(properties::StoredWaiver{waiver.signature, waiver.reason, waiver.link, waiver.expires,
-                                    is_expired(waiver, today)});
+    std::set<std::string> signatures;
+    for (const auto& file : waiver_files()) {
+      const auto waivers = read_waivers(file);
+      if (!waivers) return Refusal(waivers.error());
+      for (const auto& waiver : waivers.value()) {
+        if (!signatures.insert(waiver.signature).second)
+          return Refusal(
+              fmt::format("{}: \"{}\" is waived already", file.string(), waiver.signature));
+        keep(properties::StoredWaiver{waiver.signature, waiver.reason, waiver.link, waiver.expires,
+                                      is_expired(waiver, today)});
+      }
+    }
     return outcome::success();
   }
 
@@ -119,8 +146,10 @@ class Certification {
       std::fflush(stdout);
       keep(row);
     };
-    return check_corpus(request_, ASSAY_CORPUS_DIR, on_row,
-                        [&](const auto& failure) { corpus_failures_.push_back(failure); });
+    const auto on_failure = [&](const auto& failure) { corpus_failures_.push_back(failure); };
+    auto done = check_corpus(request_, ASSAY_CORPUS_DIR, on_row, on_failure);
+    if (done) check_own_cases(request_, on_row, on_failure);
+    return done;
   }
 
   // Those of an earlier call that the corpus does not show any more.

@@ -54,7 +54,7 @@ int run_merge(const MergeRequest& request) {
                                        {findings.library, properties::IsolationMode::best});
   fmt::print("{}", failures.text);
   if (!failures.written) return refuse(failures.written.error());
-  const auto judgement = judge(findings, properties::asked_of_a_run());
+  const auto judgement = judge(findings, properties::asked_of_a_run(findings));
   fmt::print("\n{}\n{}, so far\n", gates_text(judgement), verdict_text(findings, judgement));
   if (trials < planned) {
     fmt::print("{} trials are absent: merge the shards that hold them too\n", planned - trials);

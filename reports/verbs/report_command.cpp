@@ -41,7 +41,7 @@ properties::Expected<Json> describe_run(const std::string& folder, PlainProgress
     json = differences.empty() ? run_json(findings, judge(findings), statement)
                                : run_json(findings, judge(findings), nullptr, differences.front());
   } else {
-    json = run_json(findings, judge(findings, properties::asked_of_a_run()));
+    json = run_json(findings, judge(findings, properties::asked_of_a_run(findings)));
   }
   json["failures"] = failure_scenes(findings);
   return json;

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include "properties/campaign/gates/read_findings.h"
+#include "properties/campaign/phases/corpus_failures.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
+#include "reports/certificate/corpus_check.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/terminal/complaint.h"
@@ -36,7 +38,7 @@ Expected<void> write_files(const properties::CampaignRequest& request,
 
 int conclude(const properties::CampaignRequest& request, const properties::RunFindings& findings,
              const std::string& out, double seconds) {
-  const auto judgement = judge(findings, properties::asked_of_a_run());
+  const auto judgement = judge(findings, properties::asked_of_a_run(findings));
   fmt::print("{}\n{}\n{}, in {:.0f} s\n", findings_text(findings), gates_text(judgement),
              verdict_text(findings, judgement), seconds);
   const bool is_complete = !findings.has_more_to_do();
@@ -63,6 +65,25 @@ int refuse_and_keep(Refusal refusal) {
   return refuse(refusal);
 }
 
+// The owner's cases go with the first shard.
+Expected<void> run_own_cases(const properties::CampaignRequest& request, properties::Store& store) {
+  if (!request.own_cases || request.shard.index != 1) return outcome::success();
+  std::vector<properties::CorpusRow> rows;
+  std::vector<properties::StoredFailure> failures;
+  fmt::print("{}", corpus_heading());
+  check_own_cases(
+      request,
+      [&](const auto& row) {
+        fmt::print("{}", corpus_row_text(row));
+        rows.push_back(row);
+      },
+      [&](const auto& failure) { failures.push_back(failure); });
+  fmt::print("\n");
+  if (const auto kept = properties::keep_own_cases(store, rows, failures); !kept)
+    return Refusal(kept.error());
+  return outcome::success();
+}
+
 int run_campaign(const RunRequest& command) {
   const auto begin = std::chrono::steady_clock::now();
   const auto& out = command.words.out;
@@ -73,6 +94,8 @@ int run_campaign(const RunRequest& command) {
   const auto file = properties::store_file(out, request.shard);
   auto store = properties::Store::open(file, properties::binding_of(request));
   if (!store) return refuse(Refusal(store.error()));
+  if (const auto done = run_own_cases(request, store.value()); !done)
+    return refuse_and_keep(done.error());
   if (const auto done = run_on_terminal(request, store.value(), out); !done)
     return refuse_and_keep(done.error());
   // The code of a plug-in may have reached the file: the verdict is on what was stored, or none.

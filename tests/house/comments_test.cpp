@@ -193,7 +193,7 @@ TEST(Comments, NoneIsFolded) {
   for (const auto* room : {"detector", "oracle", "corpus", "properties", "reports", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(ASSAY_SOURCE_DIR) / room)) {
       const auto extension = entry.path().extension();
-      if (extension != ".h" && extension != ".cpp") continue;
+      if (extension != ".h" && extension != ".hpp" && extension != ".cpp") continue;
       std::ifstream in(entry.path());
       const Lines lines = lines_of(in);
       ++files;

@@ -21,7 +21,8 @@ std::vector<fs::path> sources(const std::string& room) {
   std::vector<fs::path> out;
   for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
     const auto extension = entry.path().extension();
-    if (extension == ".h" || extension == ".cpp") out.push_back(entry.path());
+    if (extension == ".h" || extension == ".hpp" || extension == ".cpp")
+      out.push_back(entry.path());
   }
   EXPECT_FALSE(out.empty()) << room;
   return out;

@@ -57,7 +57,7 @@ inline std::string room_of_file(const std::string& path) {
 }
 
 inline bool is_source(const std::string& path) {
-  return path.ends_with(".h") || path.ends_with(".cpp");
+  return path.ends_with(".h") || path.ends_with(".hpp") || path.ends_with(".cpp");
 }
 
 inline std::string text_of(const std::string& path) {

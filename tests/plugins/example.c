@@ -10,7 +10,6 @@ struct assay_handle {
   int32_t* pairs;
   int32_t triangles[]; /* a copy: the host's array is gone after create() */
 };
-
 static const assay_description description = {
     .name = "swept boxes",
     .version = "1.0",
@@ -31,7 +30,6 @@ static int32_t create(const int32_t* triangles, uint64_t m, const double* x, uin
   return ASSAY_OK;
 }
 static void destroy(assay_handle* h) { free(h); }
-
 /* The greatest value of +-x_k on the path of triangle t. */
 static double reach(const assay_handle* h, const double* x[2], uint64_t t, int k, double sign) {
   double most = sign * x[0][3 * h->triangles[3 * t] + k];
@@ -64,7 +62,6 @@ static int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1)
   return ASSAY_OK;
 }
 static int32_t commit(assay_handle* h) { return (void)h, ASSAY_OK; } /* carries no state */
-
 static int32_t result(assay_handle* h, assay_result* r) {
   r->answer = h->pair_count ? ASSAY_COLLISION : ASSAY_FREE;
   r->first_hi = 1; /* at some time in [0, 1]: never late */
@@ -72,7 +69,6 @@ static int32_t result(assay_handle* h, assay_result* r) {
   r->pairs = h->pairs;
   return ASSAY_OK;
 }
-
 static const assay_detector_api api = {.abi_version = ASSAY_DETECTOR_ABI_VERSION,
                                        .describe = describe,
                                        .create = create,

@@ -125,6 +125,9 @@ NO_COMMAND = {
     },
     "detector/plugin/README.md": {
         "/* A detector by boxes": "C, the plug-in that is compiled above; a test compares the two",
+        "// A detector by spheres": "C++; a test compiles and runs it, and compares the two",
+        "find_package(assay 0.2": "CMake; tests/consumer/plugin builds plug-ins so",
+        'assay="$ASSAY/build/release/assay"': "a job; a test runs it, and compares the two",
         "assay_builtin_save(handle": "C; tests/consumer compiles a whole program like it",
     },
     "properties/README.md": {

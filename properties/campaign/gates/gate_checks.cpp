@@ -160,12 +160,12 @@ GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   check_trials(f, asked, lines);
   if (f.evidence.canaries.empty()) lines.push_back("no canary was met");
   check_faults(f, lines);
-  if (!asked.certificate) return found;
-  if (f.evidence.corpus.empty()) lines.push_back("the corpus was not run");
   for (const auto& row : f.evidence.corpus) {
     for (const auto& open : row.open)
       lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));
   }
+  if (!asked.certificate) return found;
+  if (f.evidence.corpus.empty()) lines.push_back("the corpus was not run");
   const auto& self_test = f.evidence.self_test;
   const bool was_cut = std::any_of(self_test.begin(), self_test.end(),
                                    [](const auto& row) { return !row.complete; });

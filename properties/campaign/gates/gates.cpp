@@ -36,6 +36,15 @@ const char* name_of(GateState state) {
 
 Asked asked_of_a_run() { return {{"harness", "claims", "complete", "bounds"}, false}; }
 
+Asked asked_of_a_run(const RunFindings& findings) {
+  Asked asked = asked_of_a_run();
+  const auto& rows = findings.evidence.corpus;
+  if (std::any_of(rows.begin(), rows.end(),
+                  [](const CorpusRow& row) { return row.input == own_cases_input; }))
+    asked.gates.emplace_back(rule_of(Gate::corpus).name);
+  return asked;
+}
+
 Asked asked_of_a_certificate() {
   Asked asked{{}, true};
   for (const auto& rule : gate_rules) asked.gates.emplace_back(rule.name);
@@ -61,7 +70,7 @@ Judgement judge(const RunFindings& findings, const Asked& asked) {
 }
 
 Judgement judge(const RunFindings& findings) {
-  return judge(findings, findings.evidence.asked.value_or(asked_of_a_run()));
+  return judge(findings, findings.evidence.asked.value_or(asked_of_a_run(findings)));
 }
 
 }  // namespace assay::properties

@@ -30,7 +30,7 @@ struct GateRule {
 //   for, and no equivalent one. The self-test met no contradiction. Every law's premise held as
 //   often as asked, and was close in a quarter of these steps, where all trials took place. Every
 //   defect of a trial was stored as a failure. Without a canary nothing is judged.
-// - corpus: the shipped cases and scenes hold, and no waiver is expired.
+// - corpus: the shipped cases, scenes and the owner's cases hold, and no waiver is expired.
 // - claims: no claim and no law is broken in any trial, and no world has a counterexample. A
 //   certificate leaves waived failures aside.
 // - complete: all that was planned is there: shards, trials, and planted faults with all of their
@@ -60,8 +60,10 @@ struct GateResult {
   std::vector<std::string> reasons;
 };
 
-// Of `assay run`: harness, claims, complete and bounds. Of `assay certify`: all of them.
+// Of `assay run`: harness, claims, complete and bounds, and corpus where it had cases of its owner.
+// Of `assay certify`: all of them.
 Asked asked_of_a_run();
+Asked asked_of_a_run(const RunFindings& findings);
 Asked asked_of_a_certificate();
 
 struct Judgement {
@@ -76,7 +78,7 @@ struct Judgement {
 };
 
 Judgement judge(const RunFindings& findings, const Asked& asked);
-// By what its stores say was asked, where they do; else as a run.
+// By what its stores say was asked, where they do; else as this run.
 Judgement judge(const RunFindings& findings);
 
 }  // namespace assay::properties

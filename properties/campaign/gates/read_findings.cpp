@@ -74,6 +74,12 @@ class Reader {
     std::sort(evidence_.begin(), evidence_.end(), [](const Evidence& a, const Evidence& b) {
       return std::tie(a.kind, a.name, a.shard) < std::tie(b.kind, b.name, b.shard);
     });
+    // Shards, and what certify finds out by itself, may each hold the row of the owner's cases.
+    const auto is_same = [](const Evidence& a, const Evidence& b) {
+      return std::tie(a.kind, a.name, a.shard, a.facts) ==
+             std::tie(b.kind, b.name, b.shard, b.facts);
+    };
+    evidence_.erase(std::unique(evidence_.begin(), evidence_.end(), is_same), evidence_.end());
     for (const auto& row : evidence_) found_.evidence.take(row);
     if (found_.evidence.power.size() > 1)
       throw StoreProblem(ProblemKind::contradiction,

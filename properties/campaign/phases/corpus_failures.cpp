@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "properties/campaign/database/store_problem.h"
 #include "properties/campaign/phases/phases.h"
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/stored/run_folder.h"
@@ -23,6 +24,18 @@ std::set<std::string> signatures_of_trials(const std::filesystem::path& out) {
   return signatures;
 }
 
+// Of each signature the smallest mesh, by its text; of none that is told already.
+std::map<std::string, const StoredFailure*> smallest_of(const std::vector<StoredFailure>& failures,
+                                                        const std::set<std::string>& told) {
+  std::map<std::string, const StoredFailure*> smallest;
+  for (const auto& failure : failures) {
+    if (told.contains(failure.signature)) continue;
+    const auto*& best = smallest[failure.signature];
+    if (!best || failure.mesh.size() < best->mesh.size()) best = &failure;
+  }
+  return smallest;
+}
+
 }  // namespace
 
 void keep_corpus_failures(const CampaignRequest& request,
@@ -32,17 +45,21 @@ void keep_corpus_failures(const CampaignRequest& request,
   checks.update([&](Store& store) {
     auto told = signatures_of_trials(out);
     for (const auto& stored : store.failures()) told.insert(stored.signature);
-    std::map<std::string, const StoredFailure*> smallest;
-    for (const auto& failure : failures) {
-      if (told.contains(failure.signature)) continue;
-      const auto*& best = smallest[failure.signature];
-      if (!best || failure.mesh.size() < best->mesh.size()) best = &failure;
-    }
-    for (const auto& [signature, failure] : smallest) store.add(*failure);
+    for (const auto& [signature, failure] : smallest_of(failures, told)) store.add(*failure);
     constexpr ReduceLimits shrinking_of_one{60, 1'000'000};
     shrink_failures(request, store, shrinking_of_one,
                     deadline_in(std::chrono::steady_clock::now(), shrinking_seconds(request.plan)),
                     progress);
+  });
+}
+
+Expected<void> keep_own_cases(Store& store, const std::vector<CorpusRow>& rows,
+                              const std::vector<StoredFailure>& failures) {
+  return catch_store_problem([&] {
+    for (const auto& row : rows) store.set(to_row(row));
+    std::set<std::string> told;
+    for (const auto& stored : store.failures()) told.insert(stored.signature);
+    for (const auto& [signature, failure] : smallest_of(failures, told)) store.add(*failure);
   });
 }
 

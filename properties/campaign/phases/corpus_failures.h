@@ -19,4 +19,10 @@ void keep_corpus_failures(const CampaignRequest& request,
                           const std::filesystem::path& out, Checks& checks,
                           const std::function<void(const std::string&)>& progress);
 
+// What the owner's cases showed in a run, into its store: rows, and of each signature that it shows
+// the smallest mesh, which is shrunk with the failures of the trials. Called again it changes
+// nothing, for a store is bound to its cases.
+Expected<void> keep_own_cases(Store& store, const std::vector<CorpusRow>& rows,
+                              const std::vector<StoredFailure>& failures);
+
 }  // namespace assay::properties

@@ -52,6 +52,7 @@ std::string binding_of(const CampaignRequest& request) {
                 request.plugin ? digest_of(*request.plugin) : std::nullopt, generator_digest()}};
   json["schema"] = store_schema;
   json["campaign"] = Json::parse(plan_text(plan));
+  if (request.own_cases) json["own_cases"] = request.own_cases->digest;
   return corpus::json_text(json);
 }
 

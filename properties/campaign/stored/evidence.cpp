@@ -27,7 +27,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SlowCase, id, configuration, undecided, secon
                                    smallest)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Paths, out, detector)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Paths, out, detector, own_cases)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputDigests, corpus, waivers)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StoredWaiver, reason, link, expires, expired)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow::Failed, id, signature, what)

@@ -109,10 +109,11 @@ struct Versions {
 };
 struct Paths {
   std::string out, detector;
+  std::string own_cases{};  // empty: none
 };
 struct InputDigests {
-  std::string corpus;                  // names and bytes of the shipped cases
-  std::optional<std::string> waivers;  // corpus/known.json
+  std::string corpus;                  // names and bytes of the shipped cases, and of the owner's
+  std::optional<std::string> waivers;  // corpus/known.json, and the owner's
 };
 
 // A known failure that a certificate leaves aside until the day on which it expires.
@@ -121,7 +122,11 @@ struct StoredWaiver {
   bool expired = false;  // when the certificate was issued
 };
 
-// An input of the shipped corpus, or a scene, in one configuration.
+// The input of the cases that an owner gives, and what stands before their ids.
+inline constexpr const char* own_cases_input = "own cases";
+inline constexpr const char* own_cases_in_id = "own/";
+
+// An input of the shipped corpus, a scene, or the owner's cases, in one configuration.
 struct CorpusRow {
   struct Failed {
     std::string id, signature, what;

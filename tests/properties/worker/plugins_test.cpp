@@ -103,6 +103,13 @@ TEST(Plugins, TheExampleHoldsAndItsContractLeavesMissesOut) {
   EXPECT_GT(tally.left_out_misses, 100u);
 }
 
+TEST(Plugins, TheExampleInCppHolds) {
+  const auto tally = run_all("example_in_cpp");
+  EXPECT_EQ(tally.outcomes.at(Outcome::holds), cases().size());
+  EXPECT_TRUE(tally.description.claims.free_sound && tally.description.claims.all_pairs);
+  EXPECT_TRUE(tally.description.contract.has_range());
+}
+
 TEST(Plugins, AlwaysFreeIsUnsoundAndNothingElse) {
   auto tally = run_all("always_free");
   ASSERT_GT(steps_with(Answer::collision), 100u);
@@ -248,6 +255,10 @@ TEST(Plugins, ThePageShowsTheExampleThatIsTested) {
   ASSERT_FALSE(example.empty());
   EXPECT_LT(std::count(example.begin(), example.end(), '\n'), 80);
   EXPECT_NE(page.find("```c\n" + example + "```\n"), std::string::npos);
+  const std::string in_cpp = text_of("/tests/plugins/example_in_cpp.cpp");
+  ASSERT_FALSE(in_cpp.empty());
+  EXPECT_LE(std::count(in_cpp.begin(), in_cpp.end(), '\n'), 40);
+  EXPECT_NE(page.find("```cpp\n" + in_cpp + "```\n"), std::string::npos);
 }
 
 }  // namespace

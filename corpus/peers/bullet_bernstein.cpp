@@ -1,0 +1,70 @@
+// Bullet: the continuous test of a vertex and a face of its deformable bodies.
+//
+// Version: 3.24, Debian libbullet-dev, floats (btScalar is float there). Function: bernsteinCCD of
+// the internal header of its soft bodies, which is installed, called as
+// btSoftColliders::CollideCCD calls it: dt 1, margin SAFE_EPSILON, with velocities that are the
+// differences of the positions, and normals and end positions as
+// btDeformableMultiBodyDynamicsWorld::performGeometricCollisions sets them. Contract: float32,
+// vertex-face alone, no contact at the start (roots at 0 are skipped), coordinates of usual sizes,
+// and no time, for the function tells none. Claims: free-sound from the change that brought it in
+// ("Add continuous collision detection for triangle vertex vs. face", pull request 2612 of
+// bulletphysics/bullet3); total and deterministic, for it is a function of its arguments that
+// returns a bool. Nothing in it says how near a float has to come: what it misses by rounding is
+// held against that sentence.
+#include <BulletSoftBody/btSoftBody.h>
+#include <BulletSoftBody/btSoftBodyInternals.h>
+
+#include "corpus/peers/feature_pairs.h"
+
+namespace assay::peers {
+namespace {
+
+struct BulletTests {
+  static std::optional<plugin::Interval> vertex_face(const FourPaths& paths) {
+    const btScalar dt = 1, margin = SAFE_EPSILON;
+    btSoftBody::Node nodes[4];
+    for (int i = 0; i < 4; ++i) {
+      auto& node = nodes[i];
+      node.m_x = vector_of(paths.at[0][i]);
+      node.m_v = vector_of(paths.at[1][i]) - node.m_x;
+      node.m_q = node.m_x + dt * node.m_v;
+    }
+    const auto &a = nodes[1], &b = nodes[2], &c = nodes[3];
+    btSoftBody::Face face;
+    for (int i = 0; i < 3; ++i) face.m_n[i] = &nodes[i + 1];
+    face.m_n0 = (b.m_x - a.m_x).cross(c.m_x - a.m_x);
+    face.m_n1 = (b.m_q - a.m_q).cross(c.m_q - a.m_q);
+    face.m_vn = (b.m_v - a.m_v).cross(c.m_v - a.m_v) * dt * dt;
+    btVector3 barycentric;
+    if (!bernsteinCCD(&face, &nodes[0], dt, margin, barycentric)) return std::nullopt;
+    return plugin::Interval{{0, 1}};
+  }
+  // It has no such test.
+  static std::optional<plugin::Interval> edge_edge(const FourPaths&) { return std::nullopt; }
+
+ private:
+  static btVector3 vector_of(const double* p) {
+    return {static_cast<btScalar>(p[0]), static_cast<btScalar>(p[1]), static_cast<btScalar>(p[2])};
+  }
+};
+
+struct BulletBernstein : FeaturePairs<BulletTests> {
+  using FeaturePairs::FeaturePairs;
+  static plugin::Description describe() {
+    plugin::Description d;
+    d.name = "Bullet, bernsteinCCD";
+    d.version = "3.24";
+    d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
+    d.coordinates = ASSAY_COORDINATES_FLOAT32;
+    d.start = ASSAY_START_FREE;
+    d.least_nonzero = 1e-6;
+    d.largest = 1e6;
+    d.features = ASSAY_FEATURES_VERTEX_FACE;
+    return d;
+  }
+};
+
+}  // namespace
+}  // namespace assay::peers
+
+ASSAY_EXPORT_DETECTOR(assay::peers::BulletBernstein);

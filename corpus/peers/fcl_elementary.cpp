@@ -1,0 +1,75 @@
+// FCL, the Flexible Collision Library: the elementary tests of its continuous traversal of meshes.
+//
+// Version: 0.7.0, Debian libfcl-dev. Functions: fcl::detail::Intersect<double>::intersect_VF and
+// intersect_EE, called as MeshContinuousCollisionTraversalNode::leafTesting calls them. Settings:
+// the defaults (useNewton; a resolution in time of 1e-7 and epsilons of 1e-5 and 1e-7 are fixed in
+// the library). Contract: no contact at the start and coordinates of usual sizes, for its epsilons
+// are lengths; times within ten times its resolution. Claims: free-sound and not-late from its
+// README ("continuous collision detection: detecting whether the two moving models overlap during
+// the movement, and optionally, the time of contact"); total and deterministic, for they are
+// functions of their arguments that return a bool. Its public function for meshes takes rigid
+// motions alone, so the two are called directly; that neighbours share vertices is the adapter's
+// care.
+#include <fcl/narrowphase/detail/traversal/collision/intersect.h>
+
+#include "corpus/peers/feature_pairs.h"
+
+namespace assay::peers {
+namespace {
+
+using Intersect = fcl::detail::Intersect<double>;
+using Point = fcl::Vector3<double>;
+
+struct FclTests {
+  static std::optional<plugin::Interval> vertex_face(const FourPaths& paths) {
+    const Corners p(paths);
+    double time = 2;
+    Point where;
+    const bool found = Intersect::intersect_VF(p(0, 1), p(0, 2), p(0, 3), p(0, 0), p(1, 1), p(1, 2),
+                                               p(1, 3), p(1, 0), &time, &where);
+    return time_of(found, time);
+  }
+  static std::optional<plugin::Interval> edge_edge(const FourPaths& paths) {
+    const Corners p(paths);
+    double time = 2;
+    Point where;
+    const bool found = Intersect::intersect_EE(p(0, 0), p(0, 1), p(0, 2), p(0, 3), p(1, 0), p(1, 1),
+                                               p(1, 2), p(1, 3), &time, &where);
+    return time_of(found, time);
+  }
+
+ private:
+  struct Corners {
+    const FourPaths& paths;
+    explicit Corners(const FourPaths& of) : paths(of) {}
+    Point operator()(int at, int i) const {
+      const double* p = paths.at[at][i];
+      return {p[0], p[1], p[2]};
+    }
+  };
+  static std::optional<plugin::Interval> time_of(bool found, double time) {
+    if (!found) return std::nullopt;
+    return plugin::Interval{{time, time}};
+  }
+};
+
+struct FclElementary : FeaturePairs<FclTests> {
+  using FeaturePairs::FeaturePairs;
+  static plugin::Description describe() {
+    plugin::Description d;
+    d.name = "FCL, Intersect";
+    d.version = "0.7.0";
+    d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_DETERMINISTIC |
+               ASSAY_CLAIM_TOTAL;
+    d.start = ASSAY_START_FREE;
+    d.least_nonzero = 1e-6;
+    d.largest = 1e6;
+    d.time_tolerance = 1e-6;
+    return d;
+  }
+};
+
+}  // namespace
+}  // namespace assay::peers
+
+ASSAY_EXPORT_DETECTOR(assay::peers::FclElementary);

@@ -1,0 +1,16 @@
+# assay_add_plugin(NAME SOURCE...): a detector as a shared library that `assay --detector` loads,
+# NAME.so, with one symbol. Nothing of Assay is linked: of the installed package it needs the headers
+# of the interface alone, so find_package(assay COMPONENTS plugin) is enough and asks for no library.
+function(assay_add_plugin name)
+  if(NOT ARGN)
+    message(FATAL_ERROR "assay_add_plugin(${name}): it has no sources")
+  endif()
+  add_library(${name} MODULE ${ARGN})
+  set_target_properties(${name} PROPERTIES PREFIX ""
+    C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+  if(CXX IN_LIST languages)
+    target_compile_features(${name} PRIVATE cxx_std_17)
+  endif()
+  target_link_libraries(${name} PRIVATE assay::plugin)
+endfunction()

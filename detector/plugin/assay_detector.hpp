@@ -1,0 +1,147 @@
+// The C interface of assay_detector.h for a detector in C++17: one class and one line.
+//
+//   class Mine {
+//    public:
+//     static assay::plugin::Description describe();
+//     explicit Mine(const assay::plugin::Mesh& mesh);
+//     assay::plugin::Result evaluate(assay::plugin::Positions x_t0, assay::plugin::Positions x_t1);
+//   };
+//   ASSAY_EXPORT_DETECTOR(Mine);
+//
+// What else a class may have is found by its name:
+//
+// - void commit(): the step evaluated last is accepted;
+// - static void use_threads(std::uint32_t count): called once, before everything but describe();
+// - static Result query(std::int32_t kind, Positions x_t0, Positions x_t1): of four points each;
+//   pairs and text of the result are not read;
+// - std::vector<Pair> candidates(Positions x_t0, Positions x_t1): a broad phase.
+//
+// A library may hold a query or a broad phase alone: such a class has no evaluate(), and one
+// with a query alone needs no constructor either.
+//
+// Exceptions end here. std::bad_alloc: out of memory, and the step counts as undecided. Refused, of
+// the constructor: the mesh is one that the detector does not take. Any other: of the constructor a
+// failure with its text, of evaluate() a step with the answer ASSAY_ERROR and its text, of all else
+// ASSAY_FAILED, for which the interface has no text. Results are kept until the next evaluate() or
+// candidates() of the same handle. evaluate() that throws leaves no older result behind.
+//
+// Where <Eigen/Core> was included before this header there are maps, too.
+#ifndef ASSAY_DETECTOR_HPP
+#define ASSAY_DETECTOR_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "detector/plugin/assay_detector.h"
+
+static_assert(ASSAY_DETECTOR_ABI_VERSION == 2, "this header is of another version");
+
+namespace assay {
+namespace plugin {
+
+// As assay_description, with a contract that leaves nothing out unless a member says so. The texts
+// must live as long as the library: literals do.
+struct Description {
+  const char* name = "";
+  const char* version = "";
+  std::uint32_t claims = 0;
+  std::int32_t adjacency = ASSAY_ADJACENCY_ALL;
+  std::int32_t coordinates = ASSAY_COORDINATES_FLOAT64;
+  double margin = 0;
+  std::int32_t start = ASSAY_START_ANY;
+  double start_distance = 0;
+  double least_nonzero = 0;
+  double largest = 0;
+  std::int32_t features = ASSAY_FEATURES_BOTH;
+  double time_tolerance = 0;
+  std::int32_t reports = ASSAY_REPORTS_PAIRS;
+};
+
+// Rows of three numbers each, which stay the host's: valid during the call.
+template <class T>
+class Rows {
+ public:
+  Rows(const T* data, std::size_t count) : data_(data), count_(count) {}
+  const T* data() const { return data_; }
+  std::size_t size() const { return count_; }
+  const T* operator[](std::size_t row) const { return data_ + 3 * row; }
+
+ private:
+  const T* data_;
+  std::size_t count_;
+};
+using Positions = Rows<double>;        // a row is a vertex
+using Triangles = Rows<std::int32_t>;  // a row is a triangle: three indices of vertices
+using Pair = std::array<std::int32_t, 2>;
+using Interval = std::array<double, 2>;  // of time: lo, hi
+
+struct Mesh {
+  Triangles triangles;
+  Positions positions;  // of the first frame
+};
+
+// Of a mesh that the detector does not take; its text is told to the user.
+class Refused : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Result {
+  std::int32_t answer = ASSAY_FREE;
+  Interval first = {{0, 0}};
+  std::vector<Pair> pairs;
+  std::vector<Interval> pair_times;  // as many as pairs, or their times are not told
+  std::string text;                  // of an error
+
+  static Result free() { return {}; }
+  // The interval holds the first contact time; without one the time is not known.
+  static Result collision(double first_lo = 0, double first_hi = 1) {
+    return of(ASSAY_COLLISION, {{first_lo, first_hi}});
+  }
+  static Result undecided() { return of(ASSAY_UNDECIDED, {{0, 0}}); }
+  static Result error(std::string what) {
+    Result result = of(ASSAY_ERROR, {{0, 0}});
+    result.text = std::move(what);
+    return result;
+  }
+  void add(std::int32_t a, std::int32_t b) { pairs.push_back({{a, b}}); }
+  void add(std::int32_t a, std::int32_t b, double lo, double hi) {
+    add(a, b);
+    pair_times.push_back({{lo, hi}});
+  }
+
+ private:
+  static Result of(std::int32_t answer, Interval first) {
+    Result result;
+    result.answer = answer;
+    result.first = first;
+    return result;
+  }
+};
+
+#ifdef EIGEN_WORLD_VERSION
+template <class T>
+using RowsMap = Eigen::Map<const Eigen::Matrix<T, Eigen::Dynamic, 3, Eigen::RowMajor>>;
+template <class T>
+RowsMap<T> eigen(const Rows<T>& rows) {
+  return RowsMap<T>(rows.data(), static_cast<Eigen::Index>(rows.size()), 3);
+}
+#endif
+
+}  // namespace plugin
+}  // namespace assay
+
+#include "detector/plugin/assay_detector_table.hpp"
+
+// The symbol of the library, in one source file of it: ASSAY_EXPORT_DETECTOR(Mine);
+#define ASSAY_EXPORT_DETECTOR(...)                                                  \
+  extern "C" ASSAY_DETECTOR_EXPORT const assay_detector_api* assay_detector(void) { \
+    return ::assay::plugin::detail::table<__VA_ARGS__>();                           \
+  }                                                                                 \
+  static_assert(true, "")
+
+#endif

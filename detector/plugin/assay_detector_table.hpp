@@ -1,0 +1,246 @@
+// The table of functions of a class: the C interface on one side, calls of C++ on the other. It is
+// included by assay_detector.hpp, which says what a class may have; of no use alone.
+#ifndef ASSAY_DETECTOR_TABLE_HPP
+#define ASSAY_DETECTOR_TABLE_HPP
+
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+#include "detector/plugin/assay_detector.hpp"
+
+namespace assay {
+namespace plugin {
+namespace detail {
+
+static_assert(sizeof(Pair) == 2 * sizeof(std::int32_t), "pairs are handed out as they stand");
+static_assert(sizeof(Interval) == 2 * sizeof(double), "times are handed out as they stand");
+
+// One line of text that needs no memory of the heap, for there may be none left.
+class Line {
+ public:
+  void clear() { text_[0] = 0; }
+  void set(const char* what) noexcept {
+    std::strncpy(text_, *what ? what : "an exception without a text", sizeof text_ - 1);
+    for (char* c = text_; *c; ++c) *c = *c == '\n' || *c == '\r' ? ' ' : *c;
+  }
+  bool empty() const { return !text_[0]; }
+  const char* c_str() const { return text_; }
+
+ private:
+  char text_[512] = {};
+};
+
+// Runs what may throw; an exception becomes a return code, and its text a line.
+template <class Work>
+std::int32_t guarded(Line& line, const Work& work) noexcept {
+  try {
+    work();
+    return ASSAY_OK;
+  } catch (const std::bad_alloc&) {
+    line.set("out of memory");
+    return ASSAY_OUT_OF_MEMORY;
+  } catch (const Refused& refused) {
+    line.set(refused.what());
+    return ASSAY_REFUSED;
+  } catch (const std::exception& thrown) {
+    line.set(thrown.what());
+  } catch (...) {
+    line.set("an exception that is no std::exception");
+  }
+  return ASSAY_FAILED;
+}
+
+// Whether D has a member of that name, and whether it can be called as the interface does.
+#define ASSAY_PLUGIN_FINDS(NAME, CALL)                                         \
+  template <class D, class = void>                                             \
+  struct names_##NAME : std::false_type {};                                    \
+  template <class D>                                                           \
+  struct names_##NAME<D, std::void_t<decltype(&D::NAME)>> : std::true_type {}; \
+  template <class D, class = void>                                             \
+  struct has_##NAME : std::false_type {};                                      \
+  template <class D>                                                           \
+  struct has_##NAME<D, std::void_t<decltype(CALL)>> : std::true_type {}
+ASSAY_PLUGIN_FINDS(evaluate, Result(std::declval<D&>().evaluate(std::declval<Positions>(),
+                                                                std::declval<Positions>())));
+ASSAY_PLUGIN_FINDS(commit, std::declval<D&>().commit());
+ASSAY_PLUGIN_FINDS(use_threads, D::use_threads(std::uint32_t()));
+ASSAY_PLUGIN_FINDS(query, Result(D::query(std::int32_t(), std::declval<Positions>(),
+                                          std::declval<Positions>())));
+ASSAY_PLUGIN_FINDS(candidates,
+                   std::vector<Pair>(std::declval<D&>().candidates(std::declval<Positions>(),
+                                                                   std::declval<Positions>())));
+#undef ASSAY_PLUGIN_FINDS
+
+template <class D>
+struct Handle {
+  explicit Handle(const Mesh& mesh) : vertices(mesh.positions.size()), detector(mesh) {}
+  static Handle& of(assay_handle* handle) { return *reinterpret_cast<Handle*>(handle); }
+
+  std::size_t vertices;
+  D detector;
+  Result result;
+  std::vector<Pair> candidates;
+  Line line;  // of the exception that ended evaluate() last; empty: none did
+};
+
+template <class D>
+const assay_description* describe() noexcept {
+  static Line line;
+  static assay_description c = {};
+  static const std::int32_t code = guarded(line, [] {
+    const Description d = D::describe();
+    c.name = d.name;
+    c.version = d.version;
+    c.claims = d.claims;
+    c.adjacency = d.adjacency;
+    c.coordinates = d.coordinates;
+    c.margin = d.margin;
+    c.start = d.start;
+    c.start_distance = d.start_distance;
+    c.least_nonzero = d.least_nonzero;
+    c.largest = d.largest;
+    c.features = d.features;
+    c.time_tolerance = d.time_tolerance;
+    c.reports = d.reports;
+  });
+  return code == ASSAY_OK ? &c : nullptr;
+}
+
+template <class D>
+std::int32_t create(const std::int32_t* triangles, std::uint64_t triangle_count,
+                    const double* positions, std::uint64_t vertex_count, assay_handle** handle,
+                    const char** message) noexcept {
+  static thread_local Line line;
+  const std::int32_t code = guarded(line, [&] {
+    const Mesh mesh = {{triangles, static_cast<std::size_t>(triangle_count)},
+                       {positions, static_cast<std::size_t>(vertex_count)}};
+    *handle = reinterpret_cast<assay_handle*>(std::make_unique<Handle<D>>(mesh).release());
+  });
+  if (code != ASSAY_OK) *message = line.c_str();
+  return code;
+}
+
+template <class D>
+std::int32_t evaluate(assay_handle* handle, const double* x_t0, const double* x_t1) noexcept {
+  auto& h = Handle<D>::of(handle);
+  h.line.clear();
+  h.result = Result();
+  const std::int32_t code = guarded(h.line, [&] {
+    h.result = h.detector.evaluate({x_t0, h.vertices}, {x_t1, h.vertices});
+  });
+  // The text of an exception travels with the result.
+  return code == ASSAY_OUT_OF_MEMORY ? code : ASSAY_OK;
+}
+
+template <class D>
+std::int32_t commit(assay_handle* handle) noexcept {
+  if constexpr (has_commit<D>::value) {
+    Line line;
+    return guarded(line, [&] { Handle<D>::of(handle).detector.commit(); });
+  } else {
+    return static_cast<void>(handle), ASSAY_OK;
+  }
+}
+
+template <class D>
+std::int32_t result(assay_handle* handle, assay_result* out) noexcept {
+  const auto& h = Handle<D>::of(handle);
+  if (!h.line.empty()) {
+    out->answer = ASSAY_ERROR;
+    out->message = h.line.c_str();
+    return ASSAY_OK;
+  }
+  out->answer = h.result.answer;
+  out->first_lo = h.result.first[0];
+  out->first_hi = h.result.first[1];
+  out->pair_count = h.result.pairs.size();
+  if (!h.result.pairs.empty()) {
+    out->pairs = h.result.pairs.front().data();
+    if (h.result.pair_times.size() == h.result.pairs.size())
+      out->pair_times = h.result.pair_times.front().data();
+  }
+  if (h.result.answer == ASSAY_ERROR) out->message = h.result.text.c_str();
+  return ASSAY_OK;
+}
+
+template <class D>
+void destroy(assay_handle* handle) noexcept {
+  Line line;
+  guarded(line, [&] { delete &Handle<D>::of(handle); });
+}
+
+template <class D>
+void use_threads(std::uint32_t count) noexcept {
+  Line line;
+  guarded(line, [&] { D::use_threads(count); });
+}
+
+template <class D>
+std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
+                   assay_query_result* out) noexcept {
+  Line line;
+  return guarded(line, [&] {
+    const Result found = D::query(kind, {x_t0, 4}, {x_t1, 4});
+    out->answer = found.answer;
+    out->first_lo = found.first[0];
+    out->first_hi = found.first[1];
+  });
+}
+
+template <class D>
+std::int32_t candidates(assay_handle* handle, const double* x_t0, const double* x_t1,
+                        assay_candidates* out) noexcept {
+  auto& h = Handle<D>::of(handle);
+  Line line;
+  return guarded(line, [&] {
+    h.candidates.clear();
+    h.candidates = h.detector.candidates({x_t0, h.vertices}, {x_t1, h.vertices});
+    out->pair_count = h.candidates.size();
+    if (!h.candidates.empty()) out->pairs = h.candidates.front().data();
+  });
+}
+
+// The table of a class. What it names has to be callable, or it would be left out in silence.
+template <class D>
+const assay_detector_api* table() {
+  static_assert(has_evaluate<D>::value || !names_evaluate<D>::value,
+                "Result evaluate(Positions x_t0, Positions x_t1)");
+  static_assert(has_commit<D>::value || !names_commit<D>::value, "void commit()");
+  static_assert(has_use_threads<D>::value || !names_use_threads<D>::value,
+                "static void use_threads(std::uint32_t count)");
+  static_assert(has_query<D>::value || !names_query<D>::value,
+                "static Result query(std::int32_t kind, Positions x_t0, Positions x_t1)");
+  static_assert(has_candidates<D>::value || !names_candidates<D>::value,
+                "std::vector<Pair> candidates(Positions x_t0, Positions x_t1)");
+  static_assert(has_evaluate<D>::value || has_query<D>::value || has_candidates<D>::value,
+                "a detector has evaluate(), query() or candidates()");
+  static_assert(has_evaluate<D>::value || !has_commit<D>::value, "commit() goes with evaluate()");
+  static const assay_detector_api api = [] {
+    assay_detector_api made = {};
+    made.abi_version = ASSAY_DETECTOR_ABI_VERSION;
+    made.describe = &detail::describe<D>;
+    if constexpr (has_evaluate<D>::value || has_candidates<D>::value) {
+      made.create = &detail::create<D>;
+      made.destroy = &detail::destroy<D>;
+    }
+    if constexpr (has_evaluate<D>::value) {
+      made.evaluate = &detail::evaluate<D>;
+      made.commit = &detail::commit<D>;
+      made.result = &detail::result<D>;
+    }
+    if constexpr (has_use_threads<D>::value) made.use_threads = &detail::use_threads<D>;
+    if constexpr (has_query<D>::value) made.query = &detail::query<D>;
+    if constexpr (has_candidates<D>::value) made.candidates = &detail::candidates<D>;
+    return made;
+  }();
+  return &api;
+}
+
+}  // namespace detail
+}  // namespace plugin
+}  // namespace assay
+
+#endif

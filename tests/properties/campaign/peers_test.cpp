@@ -1,0 +1,199 @@
+// Detectors of others (corpus/peers) in a small campaign: what corpus/peers/README.md expects of
+// each comes, what their contracts leave out does not, and each failure keeps its cause when it is
+// shrunk.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/phases/trials.h"
+#include "properties/generators/families.h"
+#include "properties/judging/case_check.h"
+#include "properties/judging/cause.h"
+#include "tests/properties/campaign/campaign_request.h"
+#include "tests/reports/program.h"
+
+namespace assay::properties {
+namespace {
+
+constexpr std::uint64_t peer_cases_a_family = 80;
+
+struct JudgedPeer {
+  Counts outcomes;  // "H", "D", ...
+  std::vector<StoredFailure> failures;
+  Counts met;
+  DetectorUnderTest detector;
+  std::filesystem::path library;
+
+  // Failures whose signature holds the word, shrunk or not.
+  std::uint64_t met_with(const std::string& word) const {
+    std::uint64_t count = 0;
+    for (const auto& [signature, times] : met)
+      count += signature.find(word) == std::string::npos ? 0 : times;
+    return count;
+  }
+  std::uint64_t met_in_all() const { return met_with(""); }
+};
+
+class Peers : public testing::Test {
+ protected:
+  // Judges the peer, or skips where its library was not there when this was built. A machine that
+  // has to pass all tests has it.
+  void judge(const std::string& name) {
+    peer_.library = std::string(ASSAY_PEER_DIR) + "/" + name + ".so";
+    if (!std::filesystem::exists(peer_.library)) {
+      const char* ci = std::getenv("CI");
+      ASSERT_STRNE(ci ? ci : "", "true") << name << " was not built";
+      GTEST_SKIP() << name << " was not built: its library is not installed";
+    }
+    CampaignRequest request = request_of();
+    auto store = Store::open(scratch_ / name, "peer");
+    ASSERT_TRUE(store) << store.error().message;
+    const auto end = run_trials(request, store.value(), test::in_a_minute(), {});
+    ASSERT_TRUE(end.complete);
+    ASSERT_EQ(end.harness_problem, "");
+    // By calls alone, so that no clock decides how small a mesh becomes.
+    constexpr double hour = 3600;
+    constexpr std::uint64_t calls = 400;
+    shrink_failures(request, store.value(), {hour, calls},
+                    deadline_in(std::chrono::steady_clock::now(), hour), {});
+    store.value().for_each_trial([&](const TrialRecord& r) {
+      ++peer_.outcomes[r.outcomes];
+      ++trials_;
+    });
+    const auto kept = store.value().kept_failures();
+    ASSERT_TRUE(kept) << kept.error().message;
+    peer_.failures = kept.value().list;
+    peer_.met = kept.value().met;
+    expect_the_contract_kept();
+    expect_causes_kept();
+  }
+
+  // What holds of every one of them.
+  void expect_the_contract_kept() {
+    EXPECT_GE(trials_, 8 * peer_cases_a_family * 9 / 10);
+    EXPECT_EQ(peer_.outcomes["U"], 0u) << "no answer within the limit";
+    EXPECT_GT(peer_.outcomes["H"], trials_ / 2);
+    EXPECT_GT(peer_.outcomes["D"], 0u);
+    EXPECT_EQ(peer_.outcomes["D"], peer_.met_in_all());
+    // Steps that start in contact are not put to it.
+    EXPECT_EQ(peer_.met_with(", t at 0"), 0u);
+    for (const std::string kind : {"crashed", "error", "refused", "two runs differ"})
+      EXPECT_EQ(peer_.met_with(kind), 0u) << kind;
+    const auto& contract = peer_.detector.contract;
+    ASSERT_EQ(contract.start, StartRule::free);
+    ASSERT_TRUE(contract.has_range());
+    ASSERT_FALSE(peer_.failures.empty());
+    for (const auto& failure : peer_.failures) {
+      for (const auto& text : {failure.mesh, failure.smallest}) {
+        if (text.empty()) continue;
+        const auto c = corpus::parse_case(text, failure.id).value();
+        for (const auto& frame : c.frames) {
+          EXPECT_TRUE(in_range(frame, contract)) << failure.id;
+          if (contract.coordinates != Coordinates::float32) continue;
+          EXPECT_EQ(frame, contracted(frame, Coordinates::float32)) << failure.id;
+        }
+      }
+    }
+  }
+
+  // The cause of what the detector has wrong in a case, from the oracle's contact alone.
+  std::string cause_in(const std::string& text, const std::string& signature) {
+    const auto c = corpus::parse_case(text, "failure").value();
+    const auto& detector = peer_.detector;
+    const auto truth = judge_case(c, detector.contract);
+    WorkerProcess worker(ASSAY_WORKER, peer_.library, {.seconds = 20});
+    const auto run = worker.run(c, detector.configurations)[0];
+    const auto verdict = judge_trial(c, truth, run, detector.configurations[0], detector);
+    if (!verdict.failure || !verdict.failure->pair) {
+      ADD_FAILURE() << signature << ": does not fail any more";
+      return "";
+    }
+    EXPECT_EQ(verdict.failure->signature(), signature);
+    const std::size_t s = verdict.failure->step;
+    const auto step = corpus::steps_of(c)[s];
+    for (const auto& contact : truth[s].pairs) {
+      if (contact.pair != *verdict.failure->pair) continue;
+      EXPECT_GT(contact.time.hi, 0) << signature;
+      return text_of(cause_of(c.triangles, start_of(c, step), end_of(c, step), contact));
+    }
+    ADD_FAILURE() << signature << ": the oracle has no such contact";
+    return "";
+  }
+
+  void expect_causes_kept() {
+    std::set<std::string> shrunk;
+    for (const auto& failure : peer_.failures) {
+      if (failure.smallest.empty()) continue;
+      const auto before = cause_in(failure.mesh, failure.signature);
+      const auto after = cause_in(failure.smallest, failure.signature);
+      EXPECT_EQ(before, after) << failure.id;
+      EXPECT_FALSE(before.empty());
+      EXPECT_TRUE(failure.signature.ends_with(", " + before)) << failure.signature;
+      EXPECT_TRUE(shrunk.insert(failure.signature).second);
+      const auto whole = corpus::parse_case(failure.mesh, failure.id).value();
+      const auto small = corpus::parse_case(failure.smallest, failure.id).value();
+      EXPECT_LE(small.triangles.rows(), whole.triangles.rows());
+    }
+    EXPECT_EQ(shrunk.size(), peer_.met.size()) << "each kind is shrunk once";
+  }
+
+  JudgedPeer peer_;
+
+ private:
+  CampaignRequest request_of() {
+    CampaignRequest request;
+    request.plan.name = "peers";
+    for (const auto& family : families())
+      request.plan.strata.push_back({std::string(family.name), peer_cases_a_family, 0});
+    request.plan.laws_every = 0;
+    request.jobs = 2;
+    request.worker = ASSAY_WORKER;
+    request.plugin = peer_.library;
+    WorkerProcess worker(request.worker, request.plugin);
+    const auto described = worker.describe();
+    EXPECT_TRUE(described) << described.error().message;
+    if (!described) return request;
+    const auto& d = described.value();
+    peer_.detector = {d.name, false, d.claims, d.contract, {{d.name, {}}}};
+    request.detector = peer_.detector;
+    return request;
+  }
+
+  std::uint64_t trials_ = 0;
+  tests::Scratch scratch_;
+};
+
+TEST_F(Peers, TheCubicMissesMotionWithinAPlane) {
+  ASSERT_NO_FATAL_FAILURE(judge("cubic_double"));
+  if (IsSkipped()) return;
+  EXPECT_GT(peer_.met_with("coplanar throughout"), 0u);
+  EXPECT_GT(peer_.met_with("without area"), 0u);
+  EXPECT_GT(peer_.met_with("edge-edge"), 0u);
+  EXPECT_GT(peer_.met_with("vertex-face"), 0u);
+}
+
+TEST_F(Peers, FclMissesMotionWithinAPlaneAndMore) {
+  ASSERT_NO_FATAL_FAILURE(judge("fcl_elementary"));
+  if (IsSkipped()) return;
+  EXPECT_GT(peer_.met_with("coplanar throughout"), 0u);
+  EXPECT_GT(peer_.met_with("moving, generic"), 0u);
+  EXPECT_GT(peer_.met_with("edge-edge"), 0u);
+}
+
+TEST_F(Peers, BulletIsAskedForVerticesAndFacesInFloatsAlone) {
+  ASSERT_NO_FATAL_FAILURE(judge("bullet_bernstein"));
+  if (IsSkipped()) return;
+  EXPECT_EQ(peer_.detector.contract.features, TestedFeatures::vertex_face);
+  EXPECT_EQ(peer_.detector.contract.coordinates, Coordinates::float32);
+  EXPECT_EQ(peer_.met_with("edge-edge"), 0u);
+  EXPECT_EQ(peer_.met_with("piercing"), 0u);
+  EXPECT_EQ(peer_.met_with("vertex-face"), peer_.met_in_all());
+  // Most of what it misses is nothing special.
+  EXPECT_GT(peer_.met_with("t inside, moving, generic"), peer_.met_in_all() / 2);
+}
+
+}  // namespace
+}  // namespace assay::properties
