@@ -12,6 +12,7 @@ using properties::Outcome;
 
 std::string CheckOutcome::summary() const {
   std::string text = undecided || !ended.empty() ? "no collision found so far" : "no collision";
+  if (!has_answers) text = "candidate pairs";
   if (collision_step) {
     text = fmt::format("collision at t = {} of step {}", time_text(collision_time),
                        *collision_step + 1);

@@ -14,7 +14,8 @@ struct CheckOutcome {
   bool unsound = false;       // a second opinion contradicts the oracle
   bool facts_differ = false;  // of a case file
   bool judged_by_claims = false;
-  std::string ended;  // how a plug-in's run ended, where it did not go through
+  bool has_answers = true;  // false: of a library of candidates alone
+  std::string ended;        // how a plug-in's run ended, where it did not go through
   std::string limit_reached;
   std::size_t left_out_misses = 0;  // steps that only a plug-in's contract saves from being a miss
   std::optional<std::size_t> collision_step;  // the first, from 0

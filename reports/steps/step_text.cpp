@@ -20,7 +20,8 @@ namespace {
 // In ways that no claim is broken by, where the outcome is `holds`.
 bool differs(const properties::StepDiff& diff) {
   return diff.wrong_answer() || diff.wrong_first_time() || !diff.missing.empty() ||
-         !diff.spurious.empty() || !diff.late.empty() || !diff.early.empty();
+         !diff.spurious.empty() || !diff.missing_candidates.empty() || !diff.late.empty() ||
+         !diff.early.empty();
 }
 
 std::string verdict_text(const properties::StepDiff& diff) {
@@ -51,6 +52,7 @@ std::string diff_text(const properties::StepDiff& diff) {
   };
   list("missing", diff.missing);
   list("spurious", diff.spurious);
+  list("no candidate", diff.missing_candidates);
   return out;
 }
 
@@ -59,7 +61,9 @@ std::string diff_text(const properties::StepDiff& diff) {
 std::string step_text(std::size_t number, const detector::StepResult& result,
                       const oracle::StepJudgement* judgement, double oracle_ms,
                       const properties::StepDiff* diff, std::optional<double> create_ms) {
-  std::string out = fmt::format("step {}: {}", number, properties::name_of(result.answer));
+  const bool has_answer = !diff || diff->has_answer || result.answer == Answer::error;
+  std::string out = fmt::format("step {}: {}", number,
+                                has_answer ? properties::name_of(result.answer) : "no answer");
   if (result.answer == Answer::collision) {
     out += fmt::format(" at t = {}, {} pairs in contact", time_text(result.first),
                        result.pairs.size());
@@ -88,6 +92,10 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
                        judgement->feature_candidates, judgement->complete ? "" : " (stopped)");
   }
   out += "\n";
+  if (diff && diff->candidates)
+    out += fmt::format("  candidates: {} pairs, at least {} needed, {} lost\n",
+                       diff->candidates->given, diff->candidates->least,
+                       diff->missing_candidates.size());
   if (diff && (diff->outcome != Outcome::holds || differs(*diff))) out += diff_text(*diff);
   return out;
 }
