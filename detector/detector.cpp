@@ -10,16 +10,6 @@ namespace assay::detector {
 
 namespace {
 
-// A search takes 0.1 ms and more, however small the component. Where components are many and small,
-// as in a soup of triangles, that is more than their steps take: such are not searched for a place,
-// so that the searches take at most 6 us a triangle beside what large components take.
-Effort effort_for(const Component& component, const Topology& mesh) {
-  constexpr std::size_t few_components = 64, triangles_a_search = 16, small = 64;
-  const bool too_many =
-      mesh.components.size() > few_components + mesh.triangles.size() / triangles_a_search;
-  return too_many && component.triangles.size() < small ? Effort::least : Effort::thorough;
-}
-
 // From where all of S at rest is seen best, ghosts included.
 std::vector<ViewAnchor> place_anchors(const Surface& surface,
                                       const std::vector<ApexRule>& apex_rules, Culling culling,
@@ -32,7 +22,7 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
   const Positions x = with_apexes(positions, apexes, false);
   std::vector<ViewAnchor> anchors;
   for (const auto& component : surface.all().components) {
-    const Effort effort = effort_for(component, surface.mesh);
+    const Effort effort = effort_for(component, surface.mesh, Effort::thorough);
     if (pace.after(effort == Effort::least ? 400 : 20'000)) break;
     if (culling == Culling::view_auto) {
       anchors.push_back(

@@ -1,5 +1,7 @@
 // The command line: finds the verb, and turns what goes wrong into one line and an exit code.
 #include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "oracle/out_of_memory.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/exit_code.h"
 #include "reports/terminal/version.h"
@@ -57,16 +60,22 @@ int run(int argc, char** argv) {
   return actions[static_cast<std::size_t>(chosen - all.begin())]();
 }
 
+// What is stored is whole at any moment.
+constexpr const char* no_memory = "not enough memory for this input";
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that is too large for the user's limit is an error of the call that writes it.
+  ::signal(SIGXFSZ, SIG_IGN);
+  oracle::end_without_memory([] { ::_exit(reports::refuse(no_memory)); });
   // CGAL's modular gcd remarks on unlucky primes there; this program prints through stdio.
   std::cout.setstate(std::ios_base::badbit);
   try {
     const int code = run(argc, argv);
     return reports::output_was_written() ? code : reports::exit_usage;
   } catch (const std::bad_alloc&) {
-    return reports::refuse("not enough memory for this input");
+    return reports::refuse(no_memory);
   } catch (const std::system_error& failure) {
     return reports::refuse(failure.what());
   } catch (const std::exception& failure) {

@@ -156,11 +156,11 @@ constexpr std::array<SceneInfo, 14> infos = {{
     {"ball-in-tube", "a ball goes through a tube open at both ends, and back; no contact", 1280, 41,
      false, false},
     {"inverted-sleeve", "a sleeve is turned inside out, over itself, and back; no contact", 1600,
-     81, false, false},
+     81, false, false, 41},
     {"crossing-fans", "a tube's narrow end goes into its wide end and out again; no contact", 1600,
      41, false, false},
     {"winding-spiral", "a ribbon winds up to a narrow spiral and unwinds again; no contact", 784,
-     81, false, false},
+     81, false, false, 41},
 }};
 // In the order of `infos`.
 constexpr std::array<Frames, 14> makers = {

@@ -21,6 +21,8 @@ struct SceneInfo {
   int default_frames;
   bool closed;      // of its own shape: every edge is matched
   bool takes_mesh;  // may be applied to a user's mesh
+  // From here on what is said of contacts holds: with fewer, steps cut corners of the motion.
+  int least_frames = 5;
 };
 
 // All scenes, in the order in which they are listed.

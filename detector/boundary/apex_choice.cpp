@@ -18,7 +18,7 @@ constexpr std::size_t growth_of_most = 8;
 
 // From here on what only grazes a ghost's plane is taken for untouched: on a flat sheet these are
 // all triangles along a side, for each ghost over that side.
-constexpr std::size_t large_mesh = 2'000;
+constexpr std::size_t large_mesh = 256;
 
 // A sweep asks whether to go on after as much work as a few pairs take.
 constexpr std::uint64_t work_between_looks = 512;

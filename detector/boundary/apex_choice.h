@@ -30,8 +30,8 @@ class ApexChoice {
   };
 
   // In units of work (GhostCounts): a step of bvh takes 0.8 to 1.4 us a triangle, 160 to 280 box
-  // tests. What a small mesh takes is not worth a limit: the base is 5 ms.
-  static constexpr std::uint64_t work_per_triangle = 200, base_work = 1'000'000;
+  // tests. The base is 1 ms.
+  static constexpr std::uint64_t work_per_triangle = 200, base_work = 200'000;
 
   // tree: of the mesh, refitted to x. Ghosts and triangles count. The references must outlive this
   // object.

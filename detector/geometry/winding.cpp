@@ -151,7 +151,11 @@ class Crossings {
     // Nothing is crossed there; where the line meets what is left of it, it meets an edge of a
     // neighbour too, which gives the direction up. A point would give up every direction.
     if (all_zero && sure_of_zero_area(t)) return;
-    if (s[0] == 0 || s[1] == 0 || s[2] == 0) {
+    // Not along the plane, and yet in it: the origin is where the line meets the triangle, be it at
+    // an edge. Every direction would meet that edge.
+    if (arithmetic_ == Arithmetic::exact && !all_zero && s[3] == 0) {
+      ray.on_surface = true;
+    } else if (s[0] == 0 || s[1] == 0 || s[2] == 0) {
       ray.met_edge = true;
     } else if (s[3] == 0) {
       ray.on_surface = true;

@@ -11,6 +11,9 @@
 namespace assay::detector {
 namespace {
 
+// In box tests: pieces and their winding numbers, a triangle; what a component takes at least.
+constexpr std::uint64_t work_of_layers = 12, work_of_component = 200;
+
 // Triangles of the components that meet another one of their own at t=0.
 bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& components,
                           std::vector<std::uint8_t>& touched) {
@@ -59,7 +62,7 @@ bool ReleaseRule::released_at_start(const StepWork& work, std::size_t c) const {
   const Component& component = work.component(c);
   const ViewPrimitive& primitive = work.primitives[c];
   return all_positive_at(work.surface.all(), component, work.x_t0, primitive.q0.t0, primitive.q1.t0,
-                         arithmetic_) &&
+                         arithmetic_, &work.pace) &&
          winding_number(work.surface.all(), component.triangles, work.x_t0, primitive.q0.t0,
                         arithmetic_) == 1;
 }
@@ -70,12 +73,13 @@ bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& 
   if (!find_static_contacts(work, components, touched)) return false;
   const GhostSweep still{work.surface, work.tree, work.x_t0, work.x_t0, work.elementary, true};
   for (const auto c : components) {
-    if (!work.boundary.sweep(still, work.ghosts(at(c)), work.stop, touched, work.counts.ghosts))
+    if (work.pace.after(work_of_component) ||
+        !work.boundary.sweep(still, work.ghosts(at(c)), work.stop, touched, work.counts.ghosts))
       return false;
   }
   std::vector<std::uint8_t> seen(work.surface.all().triangles.size(), 0);
   for (const auto c : components) {
-    if (work.stop && work.stop()) return false;
+    if (work.pace.after(work_of_layers * work.component(at(c)).triangles.size())) return false;
     mark_clean_by_layers({work.surface, work.x_t0, touched, arithmetic_}, at(c), seen, work.clean);
   }
   return true;
@@ -86,7 +90,9 @@ bool ReleaseRule::release_without_history(StepWork& work,
                                           const std::vector<std::int32_t>& components) const {
   std::vector<std::int32_t> to_verify;
   for (const auto c : components) {
-    if (!released_at_start(work, at(c))) {
+    const bool released = released_at_start(work, at(c));
+    if (work.pace.after(work_of_component)) return false;
+    if (!released) {
       to_verify.push_back(c);
       continue;
     }
@@ -108,10 +114,11 @@ bool ReleaseRule::release(StepWork& work, const std::vector<std::int32_t>& compo
   } else {
     std::vector<std::uint8_t> touched(work.surface.mesh.triangles.size(), 0), seen(touched);
     if (!add_lasting_contacts(work, touched)) return false;
+    const FloatGrid grid(work.x_t0, work.x_t0);
     for (std::size_t i = 0; i < components.size(); ++i) {
       const auto c = at(components[i]);
-      if (!add_ghost_touches(work, c, in_doubt[i], touched)) return false;
-      if (work.stop && work.stop()) return false;
+      if (!add_ghost_touches(work, grid, c, in_doubt[i], touched)) return false;
+      if (work.pace.after(work_of_layers * in_doubt[i].size())) return false;
       work.counts.release.winding_numbers +=
           release_pieces({work.surface, work.x_t0, touched, arithmetic_}, c, in_doubt[i],
                          witnesses(work, c), seen, work.clean);

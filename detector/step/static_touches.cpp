@@ -6,6 +6,8 @@ namespace assay::detector {
 namespace {
 
 constexpr std::size_t tests_between_stops = 256;
+// In box tests: a triangle's box, and the roots of the holes' trees.
+constexpr std::uint64_t work_to_look = 40;
 
 }  // namespace
 
@@ -24,18 +26,16 @@ bool add_lasting_contacts(StepWork& work, std::vector<std::uint8_t>& touched) {
   return true;
 }
 
-bool add_ghost_touches(StepWork& work, std::size_t c, std::span<const std::int32_t> in_doubt,
-                       std::vector<std::uint8_t>& touched) {
+bool add_ghost_touches(StepWork& work, const FloatGrid& grid, std::size_t c,
+                       std::span<const std::int32_t> in_doubt, std::vector<std::uint8_t>& touched) {
   const Topology& all = work.surface.all();
   if (work.ghosts(c).empty()) return true;
-  const FloatGrid grid(work.x_t0, work.x_t0);
   const auto holes = make_hole_trees(all, work.ghosts(c), grid, work.x_t0, work.x_t0);
   const FacePairTest faces(work.x_t0, work.x_t0, work.elementary, true);
   GhostCounts counts;
-  std::size_t triangles = 0;
   for (const auto t : in_doubt) {
+    const std::uint64_t before = counts.work();
     if (touched[at(t)]) continue;
-    if (triangles++ % tests_between_stops == 0 && work.stop && work.stop()) return false;
     const auto& corners = all.triangles[at(t)];
     const auto corner = [&](std::size_t i) { return grid(work.x_t0, work.x_t0, corners[i]); };
     const MovingBox box = box_of(corner(0), corner(1), corner(2));
@@ -48,6 +48,7 @@ bool add_ghost_touches(StepWork& work, std::size_t c, std::span<const std::int32
       touched[at(t)] = 1;
       break;
     }
+    if (work.pace.after(work_to_look + counts.work() - before)) return false;
   }
   work.counts.release.pairs += counts.pairs;
   work.counts.release.elementary_tests += counts.elementary_tests;

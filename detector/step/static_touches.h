@@ -20,8 +20,9 @@ namespace assay::detector {
 bool add_lasting_contacts(StepWork& work, std::vector<std::uint8_t>& touched);
 
 // Sets touched[t] for those triangles in doubt of component c that a ghost of it meets or pierces
-// at t=0. False when stopped. A descent of the tree of each hole for a triangle.
-bool add_ghost_touches(StepWork& work, std::size_t c, std::span<const std::int32_t> in_doubt,
-                       std::vector<std::uint8_t>& touched);
+// at t=0. False when stopped. A descent of the tree of each hole for a triangle. `grid`: of
+// work.x_t0, made once for all components, for it looks at each vertex of the mesh.
+bool add_ghost_touches(StepWork& work, const FloatGrid& grid, std::size_t c,
+                       std::span<const std::int32_t> in_doubt, std::vector<std::uint8_t>& touched);
 
 }  // namespace assay::detector

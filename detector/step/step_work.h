@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "detector/boundary/boundary_handler.h"
+#include "detector/mesh/paced_stop.h"
 #include "detector/options.h"
 #include "detector/state/step_state.h"
 
@@ -26,6 +27,8 @@ struct StepWork {
   std::vector<std::uint8_t> touched = {};      // by triangle of the mesh: by a ghost, in the step
   std::vector<std::uint8_t> near_ghosts = {};  // the same by moving boxes; for the counts
   StepCounts counts = {};
+  // Of what is done for one component after another: a component alone may be too small to ask.
+  mutable PacedStop pace = PacedStop(stop);
 
   // Whether nothing but K and its closure is tested. Else every pair is.
   bool has_views() const { return !signs.empty(); }

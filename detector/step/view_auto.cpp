@@ -83,12 +83,14 @@ std::uint64_t adjacent_pairs(const Topology& mesh) {
 }
 
 const std::vector<ViewAnchor>& ViewAuto::anchors(const std::vector<ViewAnchor>& first,
-                                                 const PositionsView& x_t0) {
+                                                 const PositionsView& x_t0, PacedStop& pace) {
   if (choice_.is_worn) {
     auto chosen = std::make_shared<std::vector<ViewAnchor>>();
     for (const auto& component : surface_.all().components) {
+      const Effort effort = effort_for(component, surface_.mesh, Effort::quick);
+      pace.after(effort == Effort::least ? 400 : 10'000);
       chosen->push_back(
-          choose_view_anchor(surface_.all(), component, surface_.first_apex, x_t0, Effort::quick));
+          choose_view_anchor(surface_.all(), component, surface_.first_apex, x_t0, effort, &pace));
     }
     choice_.anchors = std::move(chosen);
     chose_ = true;

@@ -36,7 +36,7 @@ class ViewAuto {
   // Where a component is looked at from; `first`: of preprocessing. Chooses again, from the
   // positions where the step starts, what has ceased to pay.
   const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
-                                         const PositionsView& x_t0);
+                                         const PositionsView& x_t0, PacedStop& pace);
 
   // Whether the signs leave out enough pairs, should all triangles be clean, to be worth what else
   // views took when last used, and the ghosts are few enough to be swept. Refits the tree of an

@@ -8,6 +8,17 @@
 namespace assay::detector {
 namespace {
 
+// A search looks at some of the planes, for points at half of them and for lines at an eighth, and
+// at no fewer than these; what it finds is then held against all. On all of them lines alone would
+// take three to ten steps of culling bvh.
+struct Thinning {
+  std::size_t divisor, least;
+  ViewPlanes of(const ViewPlanes& planes) const {
+    return planes.thinned(std::max(planes.size() / divisor, least));
+  }
+};
+constexpr Thinning for_points = {2, 384}, for_lines = {8, 128};
+
 class AnchorChoice {
  public:
   AnchorChoice(const Topology& mesh, const Component& component, Eigen::Index vertex_count,
@@ -16,14 +27,16 @@ class AnchorChoice {
         component_(component),
         x_(x),
         pace_(pace),
-        planes_(mesh, component, x, most_planes) {
+        planes_(mesh, component, x, most_planes),
+        few_(for_points.of(planes_)),
+        fewer_(for_lines.of(planes_)) {
     own_ = static_cast<std::size_t>(
         std::lower_bound(component.vertices.begin(), component.vertices.end(), vertex_count) -
         component.vertices.begin());
   }
 
   ViewAnchor run(ViewKind kind) {
-    const auto points = search_points(planes_, pace_);
+    const auto points = find_points();
     return kind == ViewKind::point ? best_point(points) : best_line(points);
   }
 
@@ -40,7 +53,7 @@ class AnchorChoice {
   }
 
   ViewAnchor run() {
-    const auto points = search_points(planes_, pace_);
+    const auto points = find_points();
     ViewAnchor point = best_point(points);
     const auto score_of_point = score_as_line(point);
     if (score_of_point == perfect()) return point;
@@ -51,16 +64,47 @@ class AnchorChoice {
   }
 
  private:
-  ViewAnchor best_point(const std::vector<ScoredPoint>& points) const {
-    return choose<ScoredPoint>(points, [&](const ScoredPoint& s) {
+  // A place that sees all that was looked at and misses some of the rest is no reason to end: one
+  // that sees all makes steps free (L5), so it is looked for among all planes then.
+  std::vector<ScoredPoint> find_points() const {
+    auto points = search_points(few_, pace_);
+    const bool is_promised = points.front().score == perfect(few_);
+    if (is_promised && planes_.score(points.front().q) != perfect()) {
+      return search_points(planes_, pace_);
+    }
+    return points;
+  }
+
+  // The best of a search, by their scores among all planes.
+  template <class Scored, class Score>
+  std::vector<Scored> held_against_all(const std::vector<Scored>& ranked, Score score,
+                                       std::uint64_t work) const {
+    constexpr std::size_t most_held = 8;
+    std::vector<Scored> held;
+    for (std::size_t i = 0; i < std::min(ranked.size(), most_held); ++i) {
+      held.push_back(ranked[i]);
+      held.back().score = score(ranked[i]);
+      if (held.back().score == perfect() || (pace_ && pace_->after(work))) break;
+    }
+    std::stable_sort(held.begin(), held.end(),
+                     [](const Scored& a, const Scored& b) { return a.score > b.score; });
+    return held;
+  }
+
+  ViewAnchor best_point(const std::vector<ScoredPoint>& points) {
+    const auto held = held_against_all(
+        points, [&](const ScoredPoint& s) { return planes_.score(s.q); }, planes_.size() / 5);
+    return choose<ScoredPoint>(held, [&](const ScoredPoint& s) {
       ViewAnchor anchor{ViewKind::point, {weights(s.q), {}}};
       return std::pair(planes_.score(placed(anchor, 0)), std::move(anchor));
     });
   }
 
-  ViewAnchor best_line(const std::vector<ScoredPoint>& points) const {
-    const auto lines = search_lines(planes_, points, pace_);
-    return choose<ScoredLine>(lines, [&](const ScoredLine& s) {
+  ViewAnchor best_line(const std::vector<ScoredPoint>& points) {
+    const auto lines = search_lines(fewer_, points, pace_);
+    const auto held = held_against_all(
+        lines, [&](const ScoredLine& s) { return planes_.score(s.q0, s.q1); }, planes_.size());
+    return choose<ScoredLine>(held, [&](const ScoredLine& s) {
       ViewAnchor anchor{ViewKind::line, {weights(s.q0), weights(s.q1)}};
       return std::pair(planes_.score(placed(anchor, 0), placed(anchor, 1)), std::move(anchor));
     });
@@ -72,9 +116,10 @@ class AnchorChoice {
     return planes_.score(placed(anchor, 0), placed(anchor, last));
   }
 
-  std::int64_t perfect() const {
+  std::int64_t perfect() const { return perfect(planes_); }
+  static std::int64_t perfect(const ViewPlanes& planes) {
     return (ViewPlanes::for_positive + ViewPlanes::for_margin) *
-           static_cast<std::int64_t>(planes_.size());
+           static_cast<std::int64_t>(planes.size());
   }
 
   AffineWeights weights(const Point& q) const {
@@ -91,28 +136,34 @@ class AnchorChoice {
     return winding_number(mesh_, component_.triangles, x_, combine(anchor.ends[0], x_)) == 1;
   }
 
-  // The best of the first few as they are really placed; of those nearly as good, one inside.
   // A look at each triangle and each vertex.
   bool has_to_end() const { return pace_ && pace_->after(8 * component_.triangles.size()); }
 
+  // The best of the first few as they are really placed; of those nearly as good, one inside.
   template <class Scored, class Make>
-  ViewAnchor choose(const std::vector<Scored>& ranked, Make make) const {
-    constexpr std::size_t most_placed = 8;
+  ViewAnchor choose(const std::vector<Scored>& ranked, Make make) {
+    constexpr std::size_t most_placed = 4;
     std::vector<std::pair<std::int64_t, ViewAnchor>> placed;
     for (std::size_t i = 0; i < ranked.size() && placed.size() < most_placed; ++i) {
       placed.push_back(make(ranked[i]));
       if (placed.back().first == ranked.front().score || has_to_end()) break;
     }
+    const std::size_t first_left = placed.size();
     std::stable_sort(placed.begin(), placed.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
+    // Where no point was found inside, no line is looked for there.
+    if (is_outside_) return placed[0].second;
     const std::int64_t least = placed[0].first - lost_for_inside();
-    if (is_inside(placed[0].second)) return placed[0].second;
-    constexpr std::size_t most_tested = 32;
-    for (std::size_t i = 0; i < std::min(ranked.size(), most_tested); ++i) {
+    for (const auto& [score, anchor] : placed) {
+      if (score < least || has_to_end()) break;
+      if (is_inside(anchor)) return anchor;
+    }
+    for (std::size_t i = first_left; i < ranked.size(); ++i) {
       if (ranked[i].score < least || has_to_end()) break;
       auto [score, anchor] = make(ranked[i]);
       if (score >= least && is_inside(anchor)) return anchor;
     }
+    is_outside_ = true;
     return placed[0].second;
   }
 
@@ -124,7 +175,9 @@ class AnchorChoice {
   const Component& component_;
   const PositionsView& x_;
   PacedStop* pace_;
-  ViewPlanes planes_;
+  ViewPlanes planes_;  // of all triangles, as far as the effort goes
+  ViewPlanes few_, fewer_;
+  bool is_outside_ = false;
   std::size_t own_ = 0;
 };
 
@@ -134,6 +187,13 @@ std::size_t most_planes(Effort effort, const Component& component) {
 }
 
 }  // namespace
+
+Effort effort_for(const Component& component, const Topology& mesh, Effort wanted) {
+  constexpr std::size_t few_components = 64, triangles_a_search = 16, small = 64;
+  const bool too_many =
+      mesh.components.size() > few_components + mesh.triangles.size() / triangles_a_search;
+  return too_many && component.triangles.size() < small ? Effort::least : wanted;
+}
 
 ViewAnchor make_view_anchor(ViewKind kind, const Topology& mesh, const Component& component,
                             Eigen::Index vertex_count, const PositionsView& x, Effort effort,

@@ -62,6 +62,28 @@ ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const P
   }
 }
 
+ViewPlanes ViewPlanes::thinned(std::size_t most) const {
+  ViewPlanes few;
+  few.centre_ = centre_;
+  few.scale_ = scale_;
+  few.is_tiny_ = is_tiny_;
+  const std::size_t points = std::min(points_.size(), most), planes = std::min(size(), most);
+  few.points_.reserve(points);
+  for (std::size_t i = 0; i < points; ++i)
+    few.points_.push_back(points_[i * points_.size() / points]);
+  for (auto* row : {&few.nx_, &few.ny_, &few.nz_, &few.offset_}) row->reserve(planes);
+  few.corners_.reserve(planes);
+  for (std::size_t i = 0; i < planes; ++i) {
+    const std::size_t plane = i * size() / planes;
+    few.nx_.push_back(nx_[plane]);
+    few.ny_.push_back(ny_[plane]);
+    few.nz_.push_back(nz_[plane]);
+    few.offset_.push_back(offset_[plane]);
+    few.corners_.push_back(corners_[plane]);
+  }
+  return few;
+}
+
 Point ViewPlanes::to_unit(const Point& x) const {
   if (!(scale_ > 0)) return {0, 0, 0};
   Point y;

@@ -18,6 +18,10 @@ class ViewPlanes {
   ViewPlanes(const Topology& mesh, const Component& component, const PositionsView& x,
              std::size_t most = most_planes);
 
+  // The same component by at most `most` of these triangles and as many of its points, evenly
+  // chosen.
+  ViewPlanes thinned(std::size_t most) const;
+
   // Points by place in component.vertices, coordinates in [-1,1] (in [-2,2] where the component is
   // of few denormals, between which there is no middle).
   std::span<const Point> points() const { return points_; }
@@ -37,6 +41,8 @@ class ViewPlanes {
   static constexpr double margin = 1.0 / 64;
 
  private:
+  ViewPlanes() = default;
+
   Point centre_{};
   // Half the greatest extent along an axis; enlarged where the component is tiny.
   double scale_ = 0;

@@ -41,14 +41,15 @@ class Rungs {
     }
   }
 
-  // At most block_size triangles. False when stopped.
-  bool run(std::span<const std::int32_t> block, std::vector<ViewSign>& signs) {
+  // At most block_size triangles; `put` takes each with its sign. False when stopped.
+  template <class Put>
+  bool run(std::span<const std::int32_t> block, Put put) {
     std::span<const std::int32_t> left = block;
     if (usable_ && is_point_) {
-      left = rung(kernels_.point, left, signs);
+      left = rung(kernels_.point, left, put);
     } else if (usable_) {
-      left = rung(kernels_.two_cubics, left, signs);
-      left = rung(kernels_.middle_piece, left, signs);
+      left = rung(kernels_.two_cubics, left, put);
+      left = rung(kernels_.middle_piece, left, put);
     }
     counts_.lanes += block.size() - left.size();
     if (pace_ && pace_->after(work_in_lanes * block.size())) return false;
@@ -56,8 +57,7 @@ class Rungs {
       if (pace_ && pace_->after(counts_.exact > exact_seen_ ? work_of_exact : work_of_filter))
         return false;
       exact_seen_ = counts_.exact;
-      signs[static_cast<std::size_t>(t)] =
-          view_sign(moving_triangle(mesh_, t, x_t0_, x_t1_), primitive_, counts_, arithmetic_);
+      put(t, view_sign(moving_triangle(mesh_, t, x_t0_, x_t1_), primitive_, counts_, arithmetic_));
     }
     return true;
   }
@@ -66,8 +66,9 @@ class Rungs {
 
  private:
   // What stays open, in open_, which may hold `triangles`.
+  template <class Put>
   std::span<const std::int32_t> rung(LaneKernel kernel, std::span<const std::int32_t> triangles,
-                                     std::vector<ViewSign>& signs) {
+                                     const Put& put) {
     std::array<std::int8_t, block_size> found;
     kernel(input_, triangles.data(), triangles.size(), found.data());
     std::size_t left = 0;
@@ -75,7 +76,7 @@ class Rungs {
       if (found[i] == lane_open) {
         open_[left++] = triangles[i];
       } else {
-        signs[static_cast<std::size_t>(triangles[i])] = static_cast<ViewSign>(found[i]);
+        put(triangles[i], static_cast<ViewSign>(found[i]));
       }
     }
     return std::span(open_).first(left);
@@ -127,7 +128,10 @@ bool classify(const Topology& mesh, const Component& component, const PositionsV
   Rungs rungs(mesh, component.vertices, x_t0, x_t1, primitive, set, arithmetic, &pace);
   const std::span<const std::int32_t> triangles = component.triangles;
   for (std::size_t begin = 0; begin < triangles.size(); begin += block_size) {
-    if (!rungs.run(triangles.subspan(begin, std::min(block_size, triangles.size() - begin)), signs))
+    const auto block = triangles.subspan(begin, std::min(block_size, triangles.size() - begin));
+    if (!rungs.run(block, [&](std::int32_t t, ViewSign sign) {
+          signs[static_cast<std::size_t>(t)] = sign;
+        }))
       return false;
   }
   counts += rungs.counts();
@@ -135,18 +139,17 @@ bool classify(const Topology& mesh, const Component& component, const PositionsV
 }
 
 bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,
-                     const Point& q0, const Point& q1, Arithmetic arithmetic) {
+                     const Point& q0, const Point& q1, Arithmetic arithmetic, PacedStop* pace) {
   const ViewPrimitive still{{q0, q0}, {q1, q1}};
-  Rungs rungs(mesh, component.vertices, x, x, still, best_instruction_set(), arithmetic);
-  std::vector<ViewSign> signs(mesh.triangles.size());
+  Rungs rungs(mesh, component.vertices, x, x, still, best_instruction_set(), arithmetic, pace);
   const std::span<const std::int32_t> triangles = component.triangles;
   for (std::size_t begin = 0; begin < triangles.size(); begin += block_size) {
     const auto block = triangles.subspan(begin, std::min(block_size, triangles.size() - begin));
-    rungs.run(block, signs);
-    const bool positive = std::all_of(block.begin(), block.end(), [&](std::int32_t t) {
-      return signs[static_cast<std::size_t>(t)] == ViewSign::positive;
-    });
-    if (!positive) return false;
+    // No list by triangle of the mesh: of many small components that would be quadratic.
+    bool positive = true;
+    const bool completed = rungs.run(
+        block, [&](std::int32_t, ViewSign sign) { positive &= sign == ViewSign::positive; });
+    if (!completed || !positive) return false;
   }
   return true;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "detector/mesh/arithmetic.h"
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_counts.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
@@ -29,8 +30,10 @@ bool classify(const Topology& mesh, const Component& component, const PositionsV
               Arithmetic arithmetic = Arithmetic::exact, const StopFunction& stop = {});
 
 // Whether all triangles of the component are positive at one instant. Stops soon after the first
-// that is not. Bounded arithmetic says so only where it is certain.
+// that is not; also false once `pace` says to end. Bounded arithmetic says so only where it is
+// certain.
 bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,
-                     const Point& q0, const Point& q1, Arithmetic arithmetic = Arithmetic::exact);
+                     const Point& q0, const Point& q1, Arithmetic arithmetic = Arithmetic::exact,
+                     PacedStop* pace = nullptr);
 
 }  // namespace assay::detector

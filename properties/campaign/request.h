@@ -39,7 +39,7 @@ struct CampaignRequest {
   std::optional<PowerProof> power;
 
   // Of the workers that run its cases.
-  WorkerLimits worker_limits() const { return {plan.case_seconds, 0, isolation, threads}; }
+  WorkerLimits worker_limits() const { return {plan.case_seconds, 0, isolation, isolated, threads}; }
 };
 
 // When a phase of the run must be over. Only what the user asked for by --time, or a campaign file

@@ -25,6 +25,7 @@ template <Contacts contacts, Ghosts ghosts, ReleasedLayers layers>
 struct ReleaseHalfChecked : ReleaseRule {
   bool release(StepWork& work, const Components& components) const override {
     Flags touched(work.clean.size(), 0), seen(touched);
+    const detector::FloatGrid grid(work.x_t0, work.x_t0);
     if (contacts == Contacts::tested) detector::add_lasting_contacts(work, touched);
     for (const auto component : components) {
       const std::size_t c = at(component);
@@ -32,7 +33,7 @@ struct ReleaseHalfChecked : ReleaseRule {
       for (const auto t : work.own_triangles(c)) {
         if (!work.clean[at(t)]) in_doubt.push_back(t);
       }
-      if (ghosts == Ghosts::tested) detector::add_ghost_touches(work, c, in_doubt, touched);
+      if (ghosts == Ghosts::tested) detector::add_ghost_touches(work, grid, c, in_doubt, touched);
       switch (layers) {
         case ReleasedLayers::of_pieces:
           detector::release_pieces({work.surface, work.x_t0, touched}, c, in_doubt,

@@ -37,6 +37,17 @@ TriangleFlags touched_until(CaseFacts& facts, std::size_t s) {
   return held;
 }
 
+// Both had views, so both had apexes.
+Observation apexes_go_on(CaseFacts& facts, std::size_t s) {
+  const auto& before = facts.known_from(s);
+  if (!before) return not_met();
+  const auto &was = facts.result(*before).apexes, &is = facts.result(s).apexes;
+  if (was.empty() || is.empty()) return not_met();
+  const bool same = std::equal(was.begin(), was.end(), is.begin(), is.end(),
+                               [](const auto& a, const auto& b) { return a.t1 == b.t0; });
+  return holds_if(same, "an apex jumps between two steps");
+}
+
 Observation vv_holds_what_was_touched(CaseFacts& facts, std::size_t s) {
   const auto p = facts.known_from(s);
   if (facts.surface().is_closed() || !p || !facts.has_views(s) || !facts.has_views(*p)) {
@@ -63,6 +74,9 @@ constexpr Law boundary_law_table[] = {
      "A triangle that a ghost touched in a committed step is in Vv of the following ones until it "
      "is clean again.",
      "triangles touched by ghosts, layers", each_step<vv_holds_what_was_touched>},
+    {"L11_ApexesGoOnFromWhereTheyWere", "L11",
+     "The apex of each hole starts where it ended in the step before.", "nothing",
+     each_step<apexes_go_on>},
     {"L11_OrderOfHolesDoesNotMatter", "L11",
      "With the holes in another order (vertices numbered backwards, triangles listed backwards, "
      "apexes where they were) the same triangles are violated and dirty, and all else is the same.",

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "detector/mesh/problem.h"
+#include "properties/printable.h"
 
 namespace assay::properties {
 namespace {
@@ -19,9 +20,7 @@ using detector::TimeEnclosure;
 constexpr std::uint64_t bytes_of_a_result = 4096;
 
 bool is_line(const std::string& text) {
-  return text.size() <= longest_reply_text && std::none_of(text.begin(), text.end(), [](char c) {
-           return static_cast<unsigned char>(c) < ' ' || c == 0x7f;
-         });
+  return text.size() <= longest_reply_text && printable(text) == text;
 }
 
 bool is_interval(const TimeEnclosure& time) {
@@ -164,6 +163,19 @@ std::string broken_rule(const PluginDescription& description) {
   if (description.claims.candidates != parts.candidates)
     return "candidates without a claim, or a claim on none";
   return fault_of(description.contract);
+}
+
+std::string broken_rule(const Problem& refusal) {
+  if (!is_line(refusal.message)) return "a refusal that is no line";
+  switch (refusal.kind) {
+    case ProblemKind::not_found:
+    case ProblemKind::not_a_plugin:
+    case ProblemKind::other_abi_version:
+    case ProblemKind::broken_plugin:
+      return "";
+    default:
+      return "a refusal that loading a plug-in does not end with";
+  }
 }
 
 }  // namespace assay::properties

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "corpus/cases/case_file.h"
+#include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_description.h"
 #include "properties/worker/query_case.h"
@@ -40,5 +41,8 @@ std::uint64_t longest_query_reply(std::size_t queries);
 // The same of a description: a name and a version in one printable line, a margin that is a
 // length, a part that can be judged, a claim on candidates where there are any and nowhere else.
 std::string broken_rule(const PluginDescription& description);
+
+// The same of why a plug-in cannot be loaded: a problem of PluginHost::open in one printable line.
+std::string broken_rule(const Problem& refusal);
 
 }  // namespace assay::properties

@@ -23,7 +23,7 @@ struct TravelsAsBytes : std::bool_constant<std::is_arithmetic_v<T> || std::is_en
 // The greatest value of an enum whose values count from 0: another value is no message. Stated for
 // each enum that travels by itself (wire_fields.h).
 template <class T>
-struct LastOf;
+inline constexpr auto last_of = nullptr;
 
 class WireWriter {
  public:
@@ -98,7 +98,7 @@ class WireReader {
     if constexpr (std::is_same_v<T, bool>) {
       get_up_to(item, std::uint8_t{1});
     } else if constexpr (std::is_enum_v<T>) {
-      get_up_to(item, static_cast<std::underlying_type_t<T>>(LastOf<T>::value));
+      get_up_to(item, static_cast<std::underlying_type_t<T>>(last_of<T>));
     } else if constexpr (TravelsAsBytes<T>::value) {
       get_bytes(&item, sizeof item);
     } else {

@@ -37,61 +37,33 @@ struct TravelsAsBytes<detector::StepTimes> : std::true_type {};
 template <>
 struct TravelsAsBytes<corpus::CaseStep> : std::true_type {};
 template <>
-struct LastOf<detector::Culling> {
-  static constexpr auto value = detector::Culling::none;
-};
+inline constexpr auto last_of<detector::Culling> = detector::Culling::none;
 template <>
-struct LastOf<detector::Start> {
-  static constexpr auto value = detector::Start::unknown;
-};
+inline constexpr auto last_of<detector::Start> = detector::Start::unknown;
 template <>
-struct LastOf<detector::Pairs> {
-  static constexpr auto value = detector::Pairs::first;
-};
+inline constexpr auto last_of<detector::Pairs> = detector::Pairs::first;
 template <>
-struct LastOf<detector::Arithmetic> {
-  static constexpr auto value = detector::Arithmetic::single_precision;
-};
+inline constexpr auto last_of<detector::Arithmetic> = detector::Arithmetic::single_precision;
 template <>
-struct LastOf<detector::Release> {
-  static constexpr auto value = detector::Release::view;
-};
+inline constexpr auto last_of<detector::Release> = detector::Release::view;
 template <>
-struct LastOf<detector::GhostTest> {
-  static constexpr auto value = detector::GhostTest::boxes;
-};
+inline constexpr auto last_of<detector::GhostTest> = detector::GhostTest::boxes;
 template <>
-struct LastOf<detector::InputError> {
-  static constexpr auto value = detector::InputError::stopped;
-};
+inline constexpr auto last_of<detector::InputError> = detector::InputError::stopped;
 template <>
-struct LastOf<detector::Answer> {
-  static constexpr auto value = detector::Answer::error;
-};
+inline constexpr auto last_of<detector::Answer> = detector::Answer::error;
 template <>
-struct LastOf<RunEnd> {
-  static constexpr auto value = RunEnd::not_run;
-};
+inline constexpr auto last_of<RunEnd> = RunEnd::not_run;
 template <>
-struct LastOf<Adjacency> {
-  static constexpr auto value = Adjacency::no_shared_vertex;
-};
+inline constexpr auto last_of<Adjacency> = Adjacency::no_shared_vertex;
 template <>
-struct LastOf<Coordinates> {
-  static constexpr auto value = Coordinates::float32;
-};
+inline constexpr auto last_of<Coordinates> = Coordinates::float32;
 template <>
-struct LastOf<StartRule> {
-  static constexpr auto value = StartRule::apart;
-};
+inline constexpr auto last_of<StartRule> = StartRule::apart;
 template <>
-struct LastOf<TestedFeatures> {
-  static constexpr auto value = TestedFeatures::edge_edge;
-};
+inline constexpr auto last_of<TestedFeatures> = TestedFeatures::edge_edge;
 template <>
-struct LastOf<ProblemKind> {
-  static constexpr auto value = last_problem_kind;
-};
+inline constexpr auto last_of<ProblemKind> = last_problem_kind;
 
 template <class Wire>
 void fields(Wire& wire, detector::Options& options) {

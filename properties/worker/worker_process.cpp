@@ -136,6 +136,13 @@ struct WorkerProcess::Parts {
         if (!decode(message, keeper) || keeper.wire_version != wire_version()) return other_build();
         isolation = keeper.isolation;
         live->plugin = static_cast<pid_t>(keeper.process);
+        if (!covers(isolation, limits.least)) {
+          return Problem{ProblemKind::not_isolated,
+                         fmt::format("{}: not loaded: its isolation would be {}, and was {} when "
+                                     "it was loaded first",
+                                     who(), text_of(isolation), text_of(limits.least))};
+        }
+        limits.least = isolation;
         if (limits.isolation == IsolationMode::required && !isolation.is_whole()) {
           return Problem{
               ProblemKind::not_isolated,
@@ -164,10 +171,11 @@ struct WorkerProcess::Parts {
     } else if (!decode(message, hello)) {
       return broken_hello("no description");
     }
-    if (!hello.serves) return hello.problem;
-    if (const auto rule = broken_rule(hello.description); plugin_library && !rule.empty()) {
-      return broken_hello(rule);
+    if (plugin_library) {
+      const auto rule = hello.serves ? broken_rule(hello.description) : broken_rule(hello.problem);
+      if (!rule.empty()) return broken_hello(rule);
     }
+    if (!hello.serves) return hello.problem;
     description = std::move(hello.description);
     return std::optional<ChildEnd>();
   }

@@ -31,6 +31,9 @@ struct WorkerLimits {
   std::uint64_t bytes = 0;  // of address space; 0: no limit
   // Of a plug-in. Where it is required and the system does not offer all of it: not_isolated.
   IsolationMode isolation = IsolationMode::best;
+  // What holds at least for its process, whatever was asked for: a plug-in of which it was said how
+  // it is isolated is not loaded again with less. not_isolated.
+  Isolation least = {};
   std::uint64_t threads = 1;  // told to a plug-in that asks how many it may use
 };
 

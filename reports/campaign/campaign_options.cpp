@@ -19,6 +19,9 @@ void add_campaign_options(Verb& verb, CampaignWords& words) {
            "Seconds by the clock for the campaign, in place of its own limit; what is left "
            "over then is incomplete")
       .with(positive());
+  verb.add("--case-seconds", words.case_seconds,
+           "Processor time of one case, in place of the campaign's own (10); then it is undecided")
+      .with(positive());
   verb.add("--power", words.power,
            "Folder of a run or certificate of this build: planted faults are proved by it, "
            "not again");
@@ -37,6 +40,7 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   properties::CampaignRequest request;
   request.plan = std::move(plan.value());
   if (words.time_limit) request.plan.seconds = *words.time_limit;
+  if (words.case_seconds) request.plan.case_seconds = *words.case_seconds;
   request.seed = words.seed;
   request.jobs = words.jobs;
   request.worker = properties::worker_program();

@@ -7,6 +7,7 @@
 #include "properties/campaign/phases/phases.h"
 #include "properties/campaign/stored/binding.h"
 #include "reports/campaign/failure_text.h"
+#include "reports/campaign/slow_text.h"
 #include "reports/check/plugin_text.h"
 #include "reports/terminal/exit_code.h"
 #include "reports/terminal/plain_progress.h"
@@ -77,6 +78,13 @@ class CampaignTerminal : public properties::CampaignObserver {
     fmt::print("{}", failures.text);
     std::fflush(stdout);
     written_ = failures.written;
+  }
+
+  void on_slow_cases(const std::vector<properties::SlowCase>& cases) override {
+    progress_.reset();
+    if (!written_) return;
+    written_ = write_slow_cases(
+        cases, out_, {request_.plugin ? request_.plugin->string() : "", request_.isolation});
   }
 
   void on_hunt(const properties::HuntProgress& state) override {

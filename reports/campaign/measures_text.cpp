@@ -4,6 +4,7 @@
 
 #include "properties/campaign/gates/measure_rates.h"
 #include "properties/campaign/gates/not_judged.h"
+#include "reports/terminal/joined.h"
 
 namespace assay::reports {
 namespace {
@@ -44,6 +45,29 @@ std::string measures_row(const properties::StepMeasures& m) {
       m.candidate_steps ? fmt::format("{} / {}, {:.3g}", m.candidates, m.least_candidates,
                                       candidates_over_least(m))
                         : "-");
+}
+
+std::string measures_sentence(const properties::StepMeasures& m) {
+  std::vector<std::string> parts;
+  if (m.false_alarms > 0)
+    parts.push_back(
+        fmt::format("{} of {} free steps answered collision", m.false_alarms, m.free_steps));
+  if (m.answered_free > 0)
+    parts.push_back(fmt::format("{} of {} steps with a contact answered free", m.answered_free,
+                                m.contact_steps));
+  if (m.spurious_pairs > 0) parts.push_back(fmt::format("{} spurious pairs", m.spurious_pairs));
+  if (m.late_steps() > 0)
+    parts.push_back(fmt::format("late in {} steps, by {:.2g} at worst", m.late_steps(),
+                                properties::worst_of(m.late)));
+  if (m.early_steps() > 0)
+    parts.push_back(fmt::format("early in {} steps, by {:.2g} at worst", m.early_steps(),
+                                properties::worst_of(m.early)));
+  if (m.steps_left_out > 0)
+    parts.push_back(fmt::format("{} steps left out by the contract", m.steps_left_out));
+  if (m.left_out_misses > 0)
+    parts.push_back(fmt::format("{} step{} would be a miss if the contract left nothing out",
+                                m.left_out_misses, m.left_out_misses == 1 ? "" : "s"));
+  return parts.empty() ? "" : fmt::format("whatever it claims: {}\n", joined(parts, "; "));
 }
 
 std::string measures_text(const properties::RunFindings& findings) {

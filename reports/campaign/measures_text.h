@@ -12,6 +12,10 @@ namespace assay::reports {
 // Empty for the built-in detector.
 std::string measures_text(const properties::RunFindings& findings);
 
+// The same of a few steps, in words; empty where nothing is worth a word: "1 of 2 free steps answered
+// collision; 28874 spurious pairs; ...".
+std::string measures_sentence(const properties::StepMeasures& measures);
+
 // The columns of one row, without its name.
 std::string measures_row(const properties::StepMeasures& measures);
 std::string measures_head();

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corpus/digest.h"
-#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/query_plan.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"

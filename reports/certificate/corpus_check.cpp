@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "corpus/digest.h"
 #include "corpus/queries/query_csv.h"
 #include "corpus/scenes/scenes.h"
@@ -45,15 +47,29 @@ CorpusRow check_facts(const std::vector<corpus::Case>& cases, Culling culling, i
   return row;
 }
 
+// Of the corpus: its scenes are larger than a campaign's cases, which take a sixth of this at most
+// unless the campaign says otherwise.
+properties::WorkerLimits limits_of(const properties::CampaignRequest& request) {
+  constexpr double times = 6, most_seconds = 60;
+  auto limits = request.worker_limits();
+  limits.seconds = std::min(most_seconds, times * limits.seconds);
+  return limits;
+}
+
+// Who hangs in so many cases of the corpus is not asked for the others: each may take an hour, and
+// nothing is certified any more.
+constexpr int most_hung_cases = 3;
+
 // Cases through the worker, a row for each configuration.
 class JudgedRows {
  public:
+  // hung: in how many cases of the corpus the detector hung, before these and with them.
   JudgedRows(const properties::CampaignRequest& request, const std::string& input,
-             const OnCorpusFailure& on_failure)
+             const OnCorpusFailure& on_failure, int& hung)
       : request_(request),
         on_failure_(on_failure),
-        worker_(request.worker, request.plugin,
-                {case_seconds, 0, request.isolation, request.threads}) {
+        worker_(request.worker, request.plugin, limits_of(request)),
+        hung_(hung) {
     for (const auto& configuration : request.detector.configurations)
       rows_.push_back(row_of(input, configuration.name));
   }
@@ -62,9 +78,21 @@ class JudgedRows {
     const auto seen = properties::contracted(c, request_.detector.contract);
     for (auto& row : rows_) ++(seen ? row.cases : row.left_out);
     if (!seen) return;  // it is beyond the contract
-    const auto truth = properties::judge_case(*seen, request_.detector.contract, request_.jobs);
+    if (hung_ >= most_hung_cases) {
+      for (auto& row : rows_)
+        row.open.push_back({c.id, "", fmt::format("not run: it hung in {} cases before", hung_)});
+      return;
+    }
     const auto& configurations = request_.detector.configurations;
     const auto runs = worker_.run(*seen, configurations);
+    // What has no step is judged without the truth, which takes the most time by far.
+    const bool is_answered =
+        std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.steps.empty(); });
+    std::vector<oracle::StepJudgement> truth;
+    if (is_answered)
+      truth = properties::judge_case(*seen, request_.detector.contract, request_.jobs);
+    hung_ += std::any_of(runs.begin(), runs.end(),
+                         [](const auto& run) { return run.end == properties::RunEnd::hung; });
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       for (const auto& step : truth) count(rows_[i], step);
       const auto verdict =
@@ -88,10 +116,10 @@ class JudgedRows {
   const std::vector<CorpusRow>& rows() const { return rows_; }
 
  private:
-  static constexpr double case_seconds = 60;  // scenes are larger than a campaign's cases
   const properties::CampaignRequest& request_;
   const OnCorpusFailure& on_failure_;
   properties::WorkerProcess worker_;
+  int& hung_;
   std::vector<CorpusRow> rows_;
 };
 
@@ -107,15 +135,15 @@ corpus::Expected<std::vector<corpus::Case>> curated(const std::filesystem::path&
   return cases;
 }
 
-corpus::Expected<corpus::Case> case_of_scene(std::string_view name) {
-  // Small enough to judge every scene in a minute.
+// Small enough to judge every scene in a few seconds, and in as many frames as the scene is itself.
+corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   corpus::SceneOptions options;
   options.size = 600;
-  options.frames = 6;
-  auto made = corpus::make_scene(name, options);
+  options.frames = std::max(6, scene.least_frames);
+  auto made = corpus::make_scene(scene.name, options);
   if (!made) return made.error();
   corpus::Case c;
-  c.id = name;
+  c.id = scene.name;
   c.about = "a scene";
   c.source = "assay scene";
   c.triangles = std::move(made.value().triangles);
@@ -154,12 +182,13 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
   if (request.detector.of_queries) return check_queries(request, corpus, on_row, on_failure);
   const auto cases = curated(corpus);
   if (!cases) return Refusal(cases.error());
+  int hung = 0;
   if (request.detector.built_in) {
     for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
                                Culling::normal_cone, Culling::bvh})
       on_row(check_facts(cases.value(), culling, request.jobs));
   } else {
-    JudgedRows judged(request, "curated cases", on_failure);
+    JudgedRows judged(request, "curated cases", on_failure, hung);
     for (const auto& c : cases.value()) {
       // What has to be refused is no valid input, so nothing is claimed of it.
       if (c.expected.answer != detector::Answer::error) judged.add(c);
@@ -167,9 +196,9 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
     for (const auto& row : judged.rows()) on_row(row);
   }
   for (const auto& scene : corpus::scenes()) {
-    const auto c = case_of_scene(scene.name);
+    const auto c = case_of_scene(scene);
     if (!c) return Refusal(c.error());
-    JudgedRows judged(request, std::string(scene.name), on_failure);
+    JudgedRows judged(request, std::string(scene.name), on_failure, hung);
     judged.add(c.value());
     for (const auto& row : judged.rows()) on_row(row);
   }

@@ -5,12 +5,20 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "properties/campaign/plan.h"
 #include "reports/terminal/joined.h"
 
 namespace assay::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Of a case, where it is not the usual one.
+std::string case_limit_text(const Json& plan) {
+  const double seconds = plan["case_seconds"].get<double>();
+  const bool is_usual = seconds == properties::CampaignPlan().case_seconds;
+  return is_usual ? "" : fmt::format(", at most {} s a case", seconds);
+}
 
 // The claims that were judged, and those that were not.
 std::string claims_text(const Json& p) {
@@ -37,11 +45,12 @@ std::string claims_text(const Json& p) {
 std::string judged_text(const Json& p) {
   const auto phrases = p["detector"]["contract"]["leaves_out"].get<std::vector<std::string>>();
   return fmt::format(
-      "{}; contract {}{}; campaign {}, seed {}", claims_text(p),
+      "{}; contract {}{}; campaign {}, seed {}{}", claims_text(p),
       phrases.empty() ? "leaves nothing out" : joined(phrases, ", "),
       p["isolation"].is_null() ? ""
                                : fmt::format("; isolation {}", p["isolation"].get<std::string>()),
-      p["campaign"]["name"].get<std::string>(), p["campaign"]["seed"].get<std::uint64_t>());
+      p["campaign"]["name"].get<std::string>(), p["campaign"]["seed"].get<std::uint64_t>(),
+      case_limit_text(p["campaign"]["plan"]));
 }
 
 }  // namespace assay::reports

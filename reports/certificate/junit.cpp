@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reports/certificate/summary.h"
+#include "reports/terminal/replaced.h"
 
 namespace assay::reports {
 namespace {
@@ -173,26 +174,15 @@ std::string xml_of(const Suite& suite) {
 }  // namespace
 
 std::string xml_escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
+  static const std::map<char, std::string_view> written = [] {
+    std::map<char, std::string_view> all = {
+        {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+    for (char control = 0; control < ' '; ++control) {
+      if (control != '\n' && control != '\t') all[control] = "?";
     }
-  }
-  return out;
+    return all;
+  }();
+  return replaced(text, written);
 }
 
 std::string junit_text(const Json& predicate) {

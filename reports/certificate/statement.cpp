@@ -4,6 +4,7 @@
 
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/sections.h"
 #include "reports/terminal/shell_word.h"
@@ -39,17 +40,16 @@ Json subject_json(const RunFindings& findings) {
   return Json::array({{{"name", run.detector.name}, {"digest", std::move(digest)}}});
 }
 
-// The weakest of the shards, as each reported it.
+// What held for all of it: in every shard, and where the corpus was run.
 Json isolation_json(const RunFindings& findings) {
   if (findings.run.detector.built_in) return nullptr;
-  std::string weakest;
-  for (const auto& shard : findings.evidence.isolation) {
-    const auto rank = [](const std::string& got) {
-      return got == "full" ? 2 : got == "none" ? 0 : 1;
-    };
-    if (weakest.empty() || rank(shard.got) < rank(weakest)) weakest = shard.got;
+  const auto& told = findings.evidence.isolation;
+  properties::Isolation common;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    const auto got = properties::isolation_of(told[i].got);
+    common = i == 0 ? got : common_to(common, got);
   }
-  return weakest.empty() ? "none" : weakest;
+  return text_of(common);
 }
 
 Json versions_json(const RunFindings& findings) {

@@ -7,6 +7,7 @@
 
 #include "reports/certificate/judged_text.h"
 #include "reports/certificate/junit.h"
+#include "reports/terminal/replaced.h"
 #include "reports/terminal/text_file.h"
 
 namespace assay::reports {
@@ -17,21 +18,10 @@ using Json = nlohmann::ordered_json;
 // As words of a paragraph or within a cell of a table, and as nothing else: what a plug-in says
 // becomes neither HTML nor a link, a picture or code.
 std::string cell(const std::string& text) {
-  constexpr std::string_view marks = "\\|`*[]";
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else {
-      if (marks.find(c) != std::string_view::npos) out += '\\';
-      out += c == '\n' ? ' ' : c;
-    }
-  }
-  return out;
+  static const std::map<char, std::string_view> written = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'\\', "\\\\"}, {'|', "\\|"},
+      {'`', "\\`"},   {'*', "\\*"},  {'[', "\\["},  {']', "\\]"},   {'\n', " "}};
+  return replaced(text, written);
 }
 std::string cell(const Json& word) { return cell(word.get<std::string>()); }
 std::uint64_t count(const Json& number) { return number.get<std::uint64_t>(); }

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "corpus/digest.h"
 #include "corpus/file_bytes.h"
 #include "corpus/json_text.h"
@@ -16,21 +21,37 @@ using Json = nlohmann::ordered_json;
 using corpus::json_text;
 using Lines = std::vector<std::string>;
 
-// A leaf that only one side has, or that differs. Objects and lists without anything are leaves.
+// Where each leaf stands, in the order of the text. Objects and lists without anything are leaves.
+using Leaves = std::vector<std::pair<std::string, const Json*>>;
+
+void add_leaves(const Json& json, const Json::json_pointer& place, Leaves& leaves) {
+  if (!json.is_structured() || json.empty()) {
+    leaves.emplace_back(place.to_string(), &json);
+    return;
+  }
+  for (const auto& [name, value] : json.items()) add_leaves(value, place / name, leaves);
+}
+
+// A leaf that only one side has, or that differs.
 void compare_fields(const Json& stated, const Json& computed, Lines& lines) {
-  const Json one = stated.flatten(), other = computed.flatten();
-  for (const auto& [place, value] : one.items()) {
-    if (!other.contains(place)) {
+  Leaves one, other;
+  add_leaves(stated, Json::json_pointer(), one);
+  add_leaves(computed, Json::json_pointer(), other);
+  const std::map<std::string_view, const Json*> in_one(one.begin(), one.end()),
+      in_other(other.begin(), other.end());
+  for (const auto& [place, value] : one) {
+    const auto found = in_other.find(place);
+    if (found == in_other.end()) {
       lines.push_back(
-          fmt::format("{}: {} is stated, nothing of it is stored", place, json_text(value)));
-    } else if (other[place] != value) {
-      lines.push_back(fmt::format("{}: {} is stated, {} is computed", place, json_text(value),
-                                  json_text(other[place])));
+          fmt::format("{}: {} is stated, nothing of it is stored", place, json_text(*value)));
+    } else if (*found->second != *value) {
+      lines.push_back(fmt::format("{}: {} is stated, {} is computed", place, json_text(*value),
+                                  json_text(*found->second)));
     }
   }
-  for (const auto& [place, value] : other.items()) {
-    if (!one.contains(place))
-      lines.push_back(fmt::format("{}: is not stated, {} is computed", place, json_text(value)));
+  for (const auto& [place, value] : other) {
+    if (!in_one.contains(place))
+      lines.push_back(fmt::format("{}: is not stated, {} is computed", place, json_text(*value)));
   }
 }
 

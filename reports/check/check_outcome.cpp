@@ -3,12 +3,26 @@
 #include <fmt/format.h>
 
 #include "properties/judging/agreement.h"
+#include "reports/campaign/measures_text.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/exit_code.h"
+#include "reports/terminal/joined.h"
 
 namespace assay::reports {
 
 using properties::Outcome;
+
+namespace {
+
+// A verdict speaks only of what was judged.
+std::string claims_text(const std::vector<std::string>& held,
+                        const std::vector<properties::NotJudged>& not_judged) {
+  if (not_judged.empty()) return "; all claims hold\n";
+  if (held.empty()) return "; no claim was judged\n";
+  return fmt::format("; {} hold{}\n", joined(held, ", "), held.size() == 1 ? "s" : "");
+}
+
+}  // namespace
 
 std::string CheckOutcome::summary() const {
   std::string text = undecided || !ended.empty() ? "no collision found so far" : "no collision";
@@ -32,13 +46,11 @@ std::string CheckOutcome::summary() const {
   } else if (!judged_by_claims) {
     text += "; detector and oracle agree\n";
   } else {
-    text += "; all claims hold\n";
+    text += claims_text(held, not_judged);
   }
-  if (left_out_misses > 0) {
-    text += fmt::format("{} step{} would be a miss if the contract did not leave neighbours out\n",
-                        left_out_misses, left_out_misses == 1 ? "" : "s");
-  }
-  return text;
+  for (const auto& [claim, reason] : not_judged)
+    text += fmt::format("not judged: {}, for {}\n", claim, reason);
+  return text + measures_sentence(measures);
 }
 
 const char* CheckOutcome::word() const {

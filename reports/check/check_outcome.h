@@ -5,6 +5,7 @@
 #include <string>
 
 #include "detector/mesh/step_types.h"
+#include "properties/campaign/gates/not_judged.h"
 
 namespace assay::reports {
 
@@ -17,11 +18,15 @@ struct CheckOutcome {
   bool has_answers = true;  // false: of a library of candidates alone
   std::string ended;        // how a plug-in's run ended, where it did not go through
   std::string limit_reached;
-  std::size_t left_out_misses = 0;  // steps that only a plug-in's contract saves from being a miss
+  // Of a plug-in: claims that hold, those of which nothing is known, and what it does whatever it
+  // claims.
+  std::vector<std::string> held;
+  std::vector<properties::NotJudged> not_judged;
+  properties::StepMeasures measures;
   std::optional<std::size_t> collision_step;  // the first, from 0
   detector::TimeEnclosure collision_time;
 
-  // One line or two, each with its end.
+  // Some lines, each with its end.
   std::string summary() const;
   const char* word() const;
   int exit_code(bool fail_on_collision) const;

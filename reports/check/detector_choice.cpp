@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "properties/printable.h"
 #include "properties/worker/worker_process.h"
-#include "reports/terminal/printable.h"
 
 namespace assay::reports {
 
@@ -27,8 +27,8 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
   if (!of_queries && !has_steps)
     return Refusal(fmt::format("{}: it holds no steps, but a query alone", words.library));
   // Its words go into ids, files and pages.
-  const auto name = printable(plugin.name);
-  request.detector = {fmt::format("{} {}", name, printable(plugin.version)),
+  const auto name = properties::printable(plugin.name);
+  request.detector = {fmt::format("{} {}", name, properties::printable(plugin.version)),
                       false,
                       of_queries ? claims_on_queries(plugin) : claims_on_steps(plugin),
                       plugin.contract,

@@ -4,10 +4,10 @@
 
 #include "detector/step_result.h"
 #include "properties/campaign/stored/contract_json.h"
+#include "properties/printable.h"
 #include "reports/check/plugin_text.h"
 #include "reports/check/subject.h"
 #include "reports/terminal/joined.h"
-#include "reports/terminal/printable.h"
 
 namespace assay::reports {
 namespace {
@@ -17,21 +17,23 @@ using properties::Claim;
 
 // Its words go to the terminal and into JSON.
 properties::PluginDescription in_print(properties::PluginDescription description) {
-  description.name = printable(description.name);
-  description.version = printable(description.version);
+  description.name = properties::printable(description.name);
+  description.version = properties::printable(description.version);
   return description;
 }
 
 class Plugin : public Subject {
  public:
   Plugin(properties::WorkerProcess worker, properties::PluginDescription description,
-         std::string library, std::uint64_t threads, const corpus::Case& c)
+         std::string library, std::uint64_t threads, const corpus::Case& c,
+         std::size_t steps_left_out)
       : worker_(std::move(worker)),
         description_(in_print(std::move(description))),
         claims_(claims_on_steps(description_)),
         library_(std::move(library)),
         threads_(threads),
-        case_(c) {}
+        case_(c),
+        steps_left_out_(steps_left_out) {}
 
   std::string title() const override {
     return plugin_text(description_.name + " " + description_.version, claims_,
@@ -64,6 +66,10 @@ class Plugin : public Subject {
     return properties::judge_run(case_, runs_[0], {}, claims_, description_.contract,
                                  times == 2 ? &runs_[1] : nullptr);
   }
+
+  const properties::PluginDescription* description() const override { return &description_; }
+  std::size_t steps_left_out() const override { return steps_left_out_; }
+  std::optional<double> processor_seconds() const override { return runs_[0].processor_seconds; }
 
   StepResult answer(std::size_t s, const detector::StopFunction&) override {
     return s < runs_[0].steps.size() ? runs_[0].steps[s] : not_reached();
@@ -100,6 +106,7 @@ class Plugin : public Subject {
   std::string library_;
   std::uint64_t threads_;
   const corpus::Case& case_;
+  const std::size_t steps_left_out_;
   std::vector<properties::CaseRun> runs_;
 };
 
@@ -121,9 +128,10 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& librar
                                description.value().name,
                                joined(phrases_of(description.value().contract), ", ")));
   }
+  const std::size_t left_out = corpus::steps_of(input.c).size() - corpus::steps_of(*seen).size();
   input.c = std::move(*seen);
   return std::unique_ptr<Subject>(std::make_unique<Plugin>(
-      std::move(worker), std::move(description.value()), library, limits.threads, input.c));
+      std::move(worker), std::move(description.value()), library, limits.threads, input.c, left_out));
 }
 
 }  // namespace assay::reports

@@ -27,6 +27,12 @@ class Subject {
   virtual std::optional<double> create_ms() const { return std::nullopt; }
   // Judged by its claims; otherwise it must agree with the oracle in every bit.
   virtual bool judged_by_claims() const { return true; }
+  // Of a plug-in, what it claims and under which contract; null for the built-in detector.
+  virtual const properties::PluginDescription* description() const { return nullptr; }
+  // Steps of the input that its contract leaves out.
+  virtual std::size_t steps_left_out() const { return 0; }
+  // Processor time of a plug-in's process, for all steps; nothing for the built-in detector.
+  virtual std::optional<double> processor_seconds() const { return std::nullopt; }
 
   // Before the first step; what the run as a whole broke, with no verdict on any step. Not `holds`:
   // there may be no steps to ask for.

@@ -5,11 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "detector/boundary/boundary_handler.h"
 #include "reports/pictures/contact_point.h"
 #include "reports/pictures/view_set.h"
+#include "reports/terminal/replaced.h"
 
 namespace assay::reports {
 namespace {
@@ -22,13 +22,9 @@ using Corners = std::array<std::int32_t, 3>;
 constexpr double width = 360, picture = 300, margin = 24, caption = 44, row = 18;
 
 std::string escaped(const std::string& text) {
-  static const std::map<char, const char*> names = {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}};
-  std::string out;
-  for (const char c : text) {
-    const auto found = names.find(c);
-    out += found == names.end() ? std::string(1, c) : found->second;
-  }
-  return out;
+  static const std::map<char, std::string_view> written = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}};
+  return replaced(text, written);
 }
 
 double middle(const detector::TimeEnclosure& time) { return time.lo + (time.hi - time.lo) / 2; }

@@ -25,11 +25,11 @@ bool differs(const properties::StepDiff& diff) {
 }
 
 std::string verdict_text(const properties::StepDiff& diff) {
-  if (diff.outcome == Outcome::holds) return differs(diff) ? "all claims hold" : "agree";
+  if (diff.outcome == Outcome::holds) return differs(diff) ? "no claim is broken" : "agree";
   return diff.outcome == Outcome::undecided ? "undecided" : "DIFFER";
 }
 
-std::string diff_text(const properties::StepDiff& diff) {
+std::string diff_text(const properties::StepDiff& diff, bool has_stages) {
   std::string out = fmt::format("  diff: {} missing, {} spurious, {} late, {} early{}{}{}\n",
                                 diff.missing.size(), diff.spurious.size(), diff.late.size(),
                                 diff.early.size(), diff.wrong_answer() ? ", wrong answer" : "",
@@ -41,41 +41,34 @@ std::string diff_text(const properties::StepDiff& diff) {
     out += "\n";
   }
   constexpr std::size_t most_listed = 10;
-  const auto list = [&](const char* what, const std::vector<detector::PairContact>& pairs) {
+  const auto list = [&](const char* what, const std::vector<detector::PairContact>& pairs,
+                        bool has_features) {
     for (std::size_t i = 0; i < pairs.size() && i < most_listed; ++i) {
-      out += fmt::format("  {}: triangles {} and {} at t = {} ({})\n", what, pairs[i].pair.a,
-                         pairs[i].pair.b, time_text(pairs[i].time),
-                         properties::name_of(pairs[i].feature.kind));
+      const auto& [pair, time, feature] = pairs[i];
+      out +=
+          fmt::format("  {}: triangles {} and {} at t = {}", what, pair.a, pair.b, time_text(time));
+      out += has_features ? fmt::format(" ({})\n", properties::name_of(feature.kind)) : "\n";
     }
     if (pairs.size() > most_listed)
       out += fmt::format("  ... {} more\n", pairs.size() - most_listed);
   };
-  list("missing", diff.missing);
-  list("spurious", diff.spurious);
-  list("no candidate", diff.missing_candidates);
+  list("missing", diff.missing, true);
+  list("spurious", diff.spurious, has_stages);
+  list("no candidate", diff.missing_candidates, true);
   return out;
 }
 
-}  // namespace
+// How far off the first time is, where it is.
+std::string times_off_text(const properties::StepDiff& diff) {
+  if (!diff.first || !diff.wrong_first_time()) return "";
+  const bool is_late = diff.late_first;
+  return fmt::format("  first time {}, exact {}: {} by {:.3g}\n", time_text(diff.first->detector),
+                     time_text(diff.first->oracle), is_late ? "late" : "early",
+                     is_late ? diff.first->late_by : diff.first->early_by);
+}
 
-std::string step_text(std::size_t number, const detector::StepResult& result,
-                      const oracle::StepJudgement* judgement, double oracle_ms,
-                      const properties::StepDiff* diff, std::optional<double> create_ms) {
-  const bool has_answer = !diff || diff->has_answer || result.answer == Answer::error;
-  std::string out = fmt::format("step {}: {}", number,
-                                has_answer ? properties::name_of(result.answer) : "no answer");
-  if (result.answer == Answer::collision) {
-    out += fmt::format(" at t = {}, {} pairs in contact", time_text(result.first),
-                       result.pairs.size());
-  }
-  if (!diff) {
-    out += "; not judged\n";
-  } else if (result.answer == Answer::undecided && diff->outcome == Outcome::undecided) {
-    out += "\n";
-  } else {
-    out += fmt::format("; {}\n", verdict_text(*diff));
-  }
-  out += fmt::format(
+std::string stages_text(const detector::StepResult& result, std::optional<double> create_ms) {
+  return fmt::format(
       "  sets: V+ {}  V- {}  V0 {}  violated {}  dirty {}\n"
       "  work: {} box tests, {} candidate pairs, {} elementary tests, {} closure rounds\n"
       "  ms:   {}view test {:.1f}, start {:.1f}, broad phase {:.1f}, narrow phase {:.1f}, closure "
@@ -86,17 +79,42 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
       create_ms ? fmt::format("create {:.1f}, ", *create_ms) : "", result.times.view_test,
       result.times.start, result.times.broad_phase, result.times.narrow_phase, result.times.closure,
       result.times.total);
+}
+
+}  // namespace
+
+std::string step_text(std::size_t number, const detector::StepResult& result,
+                      const oracle::StepJudgement* judgement, double oracle_ms,
+                      const properties::StepDiff* diff, const ShownWork& shown) {
+  const bool has_answer = !diff || diff->has_answer || result.answer == Answer::error;
+  std::string out = fmt::format("step {}: {}", number,
+                                has_answer ? properties::name_of(result.answer) : "no answer");
+  if (result.answer == Answer::collision) {
+    out += fmt::format(" at t = {}", time_text(result.first));
+    if (shown.reports_pairs) out += fmt::format(", {} pairs in contact", result.pairs.size());
+  }
+  if (!diff) {
+    out += "; not judged\n";
+  } else if (result.answer == Answer::undecided && diff->outcome == Outcome::undecided) {
+    out += "\n";
+  } else {
+    out += fmt::format("; {}\n", verdict_text(*diff));
+  }
+  if (shown.has_stages) out += stages_text(result, shown.create_ms);
   if (judgement) {
-    out += fmt::format(", oracle {:.1f}\n  oracle: {}, {} pairs of {} feature candidates{}",
-                       oracle_ms, properties::name_of(judgement->answer), judgement->pairs.size(),
+    out += fmt::format("{} {:.1f}\n  oracle: {}, {} pairs of {} feature candidates{}",
+                       shown.has_stages ? ", oracle" : "  ms:   oracle", oracle_ms,
+                       properties::name_of(judgement->answer), judgement->pairs.size(),
                        judgement->feature_candidates, judgement->complete ? "" : " (stopped)");
   }
-  out += "\n";
-  if (diff && diff->candidates)
+  if (shown.has_stages || judgement) out += "\n";
+  if (!diff) return out;
+  if (diff->candidates)
     out += fmt::format("  candidates: {} pairs, at least {} needed, {} lost\n",
                        diff->candidates->given, diff->candidates->least,
                        diff->missing_candidates.size());
-  if (diff && (diff->outcome != Outcome::holds || differs(*diff))) out += diff_text(*diff);
+  out += times_off_text(*diff);
+  if (diff->outcome != Outcome::holds || differs(*diff)) out += diff_text(*diff, shown.has_stages);
   return out;
 }
 

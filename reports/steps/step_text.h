@@ -12,10 +12,17 @@ namespace assay::reports {
 // One double where the enclosure is exact or its ends print alike at 9 digits, else both.
 std::string time_text(const detector::TimeEnclosure& time);
 
-// A line with the answer, then the sizes, counts and times, indented. judgement and diff are null
-// when no oracle was asked. create_ms: of the detector, where it is to be told.
+// What a detector lets be seen of its work.
+struct ShownWork {
+  bool has_stages = true;     // view sets, counts, times and features: the built-in detector's
+  bool reports_pairs = true;  // by its contract
+  std::optional<double> create_ms;  // where it is to be told
+};
+
+// A line with the answer, then the sizes, counts and times, indented, as far as they are shown.
+// judgement and diff are null when no oracle was asked.
 std::string step_text(std::size_t number, const detector::StepResult& result,
                       const oracle::StepJudgement* judgement, double oracle_ms,
-                      const properties::StepDiff* diff, std::optional<double> create_ms = {});
+                      const properties::StepDiff* diff, const ShownWork& shown);
 
 }  // namespace assay::reports

@@ -29,7 +29,7 @@ Expected<void> may_write(const std::string& path, const std::vector<std::string>
   const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
   if (!fs::is_directory(parent, ignored)) return Refusal(path + ": its folder does not exist");
   // Some folders and names take no file whatever their permissions say.
-  const std::string probe = path + ".part";
+  const std::string probe = path + ".probe";
   const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
   if (file < 0) return Refusal(path + ": cannot be written: " + std::strerror(errno));
   close(file);

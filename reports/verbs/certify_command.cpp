@@ -11,6 +11,7 @@
 #include <set>
 
 #include "corpus/digest.h"
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/phases/corpus_failures.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/checks.h"
@@ -88,6 +89,9 @@ class Certification {
     const auto waivers = corpus::sha256_of_file(known_failures);
     keep(properties::InputDigests{corpus_digest(ASSAY_CORPUS_DIR),
                                   waivers ? std::optional(waivers.value()) : std::nullopt});
+    if (request_.plugin)
+      keep(properties::PluginIsolation{properties::checks_shard, name_of(request_.isolation),
+                                       text_of(request_.isolated)});
     keep(properties::asked_of_a_certificate());
   }
 

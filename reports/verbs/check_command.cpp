@@ -10,6 +10,7 @@
 #include "reports/check/check_input.h"
 #include "reports/check/check_outcome.h"
 #include "reports/check/check_report.h"
+#include "reports/check/claims_tally.h"
 #include "reports/check/subject.h"
 #include "reports/check/timed_oracle.h"
 #include "reports/steps/second_opinion_text.h"
@@ -56,7 +57,8 @@ class Check {
         subject_(subject),
         script_(corpus::steps_of(input.c)),
         limits_(limits),
-        oracle_(request.jobs, subject.asked(), limits) {
+        oracle_(request.jobs, subject.asked(), limits),
+        tally_(subject.description()) {
     outcome_.is_judged = !request.no_oracle;
     outcome_.judged_by_claims = subject.judged_by_claims();
     outcome_.has_answers = subject.has_answers();
@@ -74,6 +76,7 @@ class Check {
       if (has_facts() && !outcome_.undecided) check_facts();
     }
     outcome_.limit_reached = limits_.reached();
+    if (!request_.no_oracle) tally_.tell(outcome_, subject_.steps_left_out());
     fmt::print("{}", outcome_.summary());
     if (!request_.json_file.empty()) {
       const auto report = check_report(request_.files, mesh_, subject_, outcome_, std::move(steps));
@@ -109,6 +112,9 @@ class Check {
     if (verdict.disturbances > 0)
       fmt::print("the detector's process was killed from outside {} times, and began anew\n",
                  verdict.disturbances);
+    if (const auto seconds = subject_.processor_seconds())
+      fmt::print("the detector took {:.3g} s of processor time for {} step{}\n", *seconds,
+                 step_count(), step_count() == 1 ? "" : "s");
     if (verdict.outcome == Outcome::holds) return true;
     outcome_.ended = verdict.what;
     for (const auto claim : verdict.broken) {
@@ -122,9 +128,11 @@ class Check {
     return verdict.broken == std::vector<properties::Claim>{properties::Claim::deterministic};
   }
 
-  // Told once, with the first step.
-  std::optional<double> create_ms(std::size_t s) const {
-    return s == 0 ? subject_.create_ms() : std::nullopt;
+  ShownWork shown_work(std::size_t s) const {
+    const auto* plugin = subject_.description();
+    // The time of preprocessing is told once, with the first step.
+    return {!plugin, !plugin || plugin->contract.reports_pairs,
+            s == 0 ? subject_.create_ms() : std::nullopt};
   }
 
   nlohmann::ordered_json run_step(std::size_t s) {
@@ -152,7 +160,7 @@ class Check {
     outcome_.undecided |= subject_.has_answers() && result.answer == Answer::undecided;
     if (request_.no_oracle) {
       progress.finish();
-      fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr, create_ms(s)));
+      fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr, shown_work(s)));
       return step_json(result, nullptr, 0, nullptr);
     }
 
@@ -162,8 +170,8 @@ class Check {
     progress.finish();
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
-    outcome_.left_out_misses += diff.left_out_missed ? 1 : 0;
-    fmt::print("{}", step_text(s + 1, result, &judgement, oracle_ms, &diff, create_ms(s)));
+    tally_.add(diff, result, judgement);
+    fmt::print("{}", step_text(s + 1, result, &judgement, oracle_ms, &diff, shown_work(s)));
     if (diff.outcome == Outcome::defect) print_defect(s, diff);
     std::fflush(stdout);
     auto json = step_json(result, &judgement, oracle_ms, &diff);
@@ -232,6 +240,7 @@ class Check {
   Limits& limits_;
   TimedOracle oracle_;
   std::optional<std::string> refused_;
+  ClaimsTally tally_;
   CheckOutcome outcome_;
 };
 

@@ -1,10 +1,11 @@
-// `assay list`: scenes, laws, planted faults, campaigns, and the failures of a run.
+// `assay list`: scenes, laws, planted faults, campaigns; the failures and the slow cases of a run.
 #include <fmt/format.h>
 
 #include "corpus/scenes/scenes.h"
-#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
+#include "reports/campaign/slow_text.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/verbs/verbs.h"
@@ -13,8 +14,8 @@ namespace assay::reports {
 namespace {
 
 struct ListRequest {
-  std::string what = "scenes";  // scenes, laws, faults, campaigns, failures
-  std::string folder;           // of a run, for failures
+  std::string what = "scenes";  // scenes, laws, faults, campaigns, failures, slow
+  std::string folder;           // of a run, for the last two
 };
 
 int list_scenes() {
@@ -71,8 +72,17 @@ int list_failures(const std::string& folder) {
   return exit_holds;
 }
 
+int list_slow(const std::string& folder) {
+  const auto findings = properties::read_findings(folder);
+  if (!findings) return refuse(findings.error().message);
+  fmt::print("{}", slow_trials_text(findings.value()));
+  return exit_holds;
+}
+
 int run_list(const ListRequest& request) {
   const auto& [what, folder] = request;
+  if (what == "slow")
+    return folder.empty() ? refuse("list slow needs the folder of a run") : list_slow(folder);
   if (what == "failures") {
     return folder.empty() ? refuse("list failures needs the folder of a run")
                           : list_failures(folder);
@@ -86,20 +96,20 @@ int run_list(const ListRequest& request) {
 
 bool is_list(const std::string& word) {
   return word == "scenes" || word == "laws" || word == "faults" || word == "campaigns" ||
-         word == "failures";
+         word == "failures" || word == "slow";
 }
 
 void add_options(Verb& verb, ListRequest& request) {
-  verb.add("what", request.what, "scenes, laws, faults, campaigns, failures")
-      .with(one_of("scenes, laws, faults, campaigns, failures", is_list));
-  verb.add("folder", request.folder, "Of a run, for failures");
+  verb.add("what", request.what, "scenes, laws, faults, campaigns, failures, slow")
+      .with(one_of("scenes, laws, faults, campaigns, failures, slow", is_list));
+  verb.add("folder", request.folder, "Of a run, for failures and slow");
 }
 
 }  // namespace
 
 Action add_list(CLI::App& app) {
-  return make_verb(app, "list", "List scenes, laws, faults, campaigns, or failures", add_options,
-                   run_list);
+  return make_verb(app, "list", "List scenes, laws, faults, campaigns, failures, or slow cases",
+                   add_options, run_list);
 }
 
 }  // namespace assay::reports

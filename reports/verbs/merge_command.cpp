@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/merge.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_text.h"

@@ -12,6 +12,7 @@
 #include "properties/campaign/phases/planned_case.h"
 #include "properties/campaign/request.h"
 #include "properties/judging/case_check.h"
+#include "properties/printable.h"
 #include "properties/queries/query_families.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/query_case.h"
@@ -23,7 +24,6 @@
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/joined.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/printable.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -205,8 +205,9 @@ int run_replay(const ReplayRequest& request) {
     const auto written = export_case(request.export_folder, *seen, subject.detector, truth);
     if (!written) return refuse(written.error());
   }
-  fmt::print("{}: {}{}\n", printable(c.id), properties::size_text(properties::size_of(c)),
-             c.about.empty() ? "" : "; " + printable(c.about));
+  fmt::print("{}: {}{}\n", properties::printable(c.id),
+             properties::size_text(properties::size_of(c)),
+             c.about.empty() ? "" : "; " + properties::printable(c.about));
   if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
   print_steps(*seen, truth);
   int code = exit_holds;

@@ -1,6 +1,7 @@
 // `assay report`: runs as one HTML page that works offline.
 #include <fmt/format.h>
 
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/verify.h"
 #include "reports/page/data/failure_scenes.h"

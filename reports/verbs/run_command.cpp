@@ -1,6 +1,7 @@
 // `assay run`: a campaign in one shard, and what it comes to.
 #include <fmt/format.h>
 
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_options.h"
@@ -39,6 +40,8 @@ int conclude(const properties::CampaignRequest& request, const properties::RunFi
   fmt::print("{}\n{}\n{}, in {:.0f} s\n", findings_text(findings), gates_text(judgement),
              verdict_text(findings, judgement), seconds);
   const bool is_complete = !findings.has_more_to_do();
+  if (!findings.evidence.slow.empty())
+    fmt::print("slow cases: assay list slow {}\n", shell_word(out));
   if (!findings.failures.empty()) {
     fmt::print("next: assay list failures {}\n", shell_word(out));
   } else if (!is_complete) {

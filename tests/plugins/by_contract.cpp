@@ -1,5 +1,5 @@
 // A detector by brute force whose contract and faults are words of the environment variable
-// ASSAY_BY_CONTRACT, such as "start=free miss-at-start": faults that the contract excuses, and others.
+// ASSAY_BY_CONTRACT, such as "start=free miss-at-start": faults that the contract excuses, others.
 //
 //   start=free, start=apart:D, range=LO:HI, features=vertex-face, features=edge-edge, tolerance=T,
 //   margin=D, no-pairs, claims=BITS          its description
@@ -7,6 +7,7 @@
 //   miss=vertex-face, miss=edge-edge         does not test these
 //   late=S, early=S                          its first time, and those of its pairs, off by S
 //   alarm=N                                  answers collision in one of N free steps
+//   burn=S                                   S seconds where the first time is a double above 0
 //   abort-outside                            aborts when a step of the wrong contract is put to it
 //   whenever                                 collision at [0, 1] in every step
 //   with-pairs                               gives pairs, whatever it says
@@ -14,6 +15,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -147,6 +149,13 @@ std::int32_t create(const std::int32_t* triangles, std::uint64_t m, const double
   return ASSAY_OK;
 }
 
+void burn(double seconds) {
+  const auto now = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  const double until = now() + seconds;
+  while (now() < until) {
+  }
+}
+
 double clamped(double t) { return std::clamp(t, 0., 1.); }
 
 void abort_outside(const assay_handle& h, double first) {
@@ -176,6 +185,7 @@ std::int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1) {
     }
   }
   if (has("abort-outside")) abort_outside(*h, first.lo);
+  if (has("burn") && first.lo == first.hi && first.lo > 0 && first.lo <= 1) burn(number_of("burn"));
   h->collision = first.lo <= 1;
   const bool at_start = first.lo == 0 && first.hi == 0;
   if (has(at_start ? "miss-at-start" : "miss-inside")) h->collision = false;

@@ -115,6 +115,8 @@ const std::map<std::string, Forgery>& forgeries() {
       {"forge-number", changed([](RunReply& r) { ++r.number; })},
       {"forge-place", changed([](RunReply& r) { ++r.place; })},
       {"forge-text", changed([](RunReply& r) { r.run.what = "fine\n\033[2Jcertified"; })},
+      {"forge-control", changed([](RunReply& r) { r.run.what = "\u009b2Jcertified"; })},
+      {"forge-bytes", changed([](RunReply& r) { r.run.what = "\xff"; })},
       {"forge-long-text", changed([](RunReply& r) { r.run.what.assign(1 << 20, 'x'); })},
       {"forge-no-interval", changed([](RunReply& r) {
          r.run.steps[0].first = {nan, nan};
@@ -189,6 +191,16 @@ const std::map<std::string, Forgery>& forgeries() {
     }
   }
   _exit(0);
+}
+
+[[noreturn]] void forge_refusal(ProblemKind kind, const std::string& message) {
+  Channel channel(find_channel());
+  Hello hello;
+  hello.wire_version = wire_version();
+  hello.serves = false;
+  hello.problem = {kind, message};
+  channel.send(encode(hello));
+  for (;;) pause();
 }
 
 [[noreturn]] void forge_length() {
@@ -283,6 +295,25 @@ const std::map<std::string, std::function<void()>>& deeds() {
              _exit(0);
            }
        }},
+      // Whether the system lets it: ended by a signal, or by itself.
+      {"more-processes-than-allowed",
+       [] {
+         constexpr int allowed = 512;
+         for (int i = 0; i < allowed; ++i) {
+           const pid_t child = fork();
+           if (child < 0) _exit(3);
+           if (child == 0) {
+             pause();
+             _exit(0);
+           }
+         }
+         raise(SIGUSR1);
+       }},
+      {"root-again",
+       [] {
+         if (setreuid(0, 0) == 0 || setresuid(0, 0, 0) == 0) raise(SIGUSR1);
+         _exit(3);
+       }},
       {"socket",
        [] {
          sockaddr_un name = {AF_UNIX, "/run/systemd/private"};
@@ -309,6 +340,11 @@ const std::map<std::string, std::function<void()>>& deeds() {
            return room[0] + down(n + 1);
          };
          down(0);
+       }},
+      {"spin",
+       [] {
+         for (volatile bool forever = true; forever;) {
+         }
        }},
       {"all-memory",
        [] {
@@ -347,10 +383,20 @@ const assay_description* describe() {
   }();
   return &description;
 }
-std::int32_t create(const std::int32_t*, std::uint64_t, const double*, std::uint64_t,
+// Scenes are larger. To judge its answers on these takes the oracle longer than all the rest, so
+// most modes end there when their deed is done.
+constexpr std::uint64_t triangles_of_a_case = 200;
+
+void spare_the_oracle(std::uint64_t triangles) {
+  const std::string mode = variable("ASSAY_HOSTILE");
+  if (triangles > triangles_of_a_case && mode != "forge-lies" && mode != "overwrite") _exit(0);
+}
+
+std::int32_t create(const std::int32_t*, std::uint64_t triangles, const double*, std::uint64_t,
                     assay_handle** handle, const char**) {
   at("create");
   meddle();
+  spare_the_oracle(triangles);
   static assay_handle one;
   *handle = &one;
   return ASSAY_OK;
@@ -373,12 +419,17 @@ void destroy(assay_handle*) { at("destroy"); }
 }  // namespace
 
 const assay_detector_api* assay_detector() {
+  constexpr std::size_t longest = 10'000;
   at("load");
   const std::string mode = variable("ASSAY_HOSTILE");
   const auto forgery = forgeries().find(mode);
   if (forgery != forgeries().end()) forge(forgery->second, mode);
   if (mode.starts_with("forge-query")) forge({}, mode);
   if (mode == "forge-length") forge_length();
+  if (mode == "forge-refusal") forge_refusal(ProblemKind::not_a_plugin, "a\n\033[2Jcertified");
+  if (mode == "forge-long-refusal")
+    forge_refusal(ProblemKind::not_a_plugin, std::string(longest, 'x'));
+  if (mode == "forge-refusal-kind") forge_refusal(ProblemKind::busy, "it is busy");
   if (mode == "forge-name") forge_hello("a\nb", 0);
   if (mode == "forge-margin") forge_hello("x", std::numeric_limits<double>::infinity());
   static const assay_detector_api api = [] {

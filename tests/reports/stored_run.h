@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "corpus/cases/case_file.h"
-#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/evidence.h"
 #include "properties/campaign/stored/run_folder.h"

@@ -43,8 +43,9 @@ def compile_commands(build, rooms):
     return commands
 
 
-# Folders whose sources use one name for different things.
-NOT_JOINED = (f"{ROOT}/detector/view", f"{ROOT}/oracle/referee")
+# Sources that use a name for something else than another source of their folder.
+NOT_JOINED = tuple(f"{ROOT}/{file}" for file in (
+    "detector/view/view_exact.cpp", "oracle/referee/referee.cpp", "oracle/referee/static_check.cpp"))
 
 
 def by_folder(commands, folder):
@@ -53,7 +54,7 @@ def by_folder(commands, folder):
     for file, command in commands.items():
         # Sources with flags of their own stay by themselves.
         flags = re.sub(r"-o \S+ -c \S+", "", command)
-        if os.path.dirname(file) in NOT_JOINED:
+        if file in NOT_JOINED:
             joined[file] = command
         else:
             groups.setdefault((os.path.dirname(file), flags), []).append(file)

@@ -37,16 +37,20 @@ std::string reason_against(Claim claim, const Contract& contract, const StepMeas
 
 }  // namespace
 
-std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures) {
+std::vector<NotJudged> not_judged(const std::vector<std::string>& claims, const Contract& contract,
+                                  const StepMeasures& measures) {
   std::vector<NotJudged> list;
-  if (detector.built_in || detector.configurations.empty()) return list;
-  const auto& claimed = detector.configurations[0].claims;
   for (const Claim claim : all_claims()) {
-    if (std::find(claimed.begin(), claimed.end(), name_of(claim)) == claimed.end()) continue;
-    auto reason = reason_against(claim, detector.contract, measures);
+    if (std::find(claims.begin(), claims.end(), name_of(claim)) == claims.end()) continue;
+    auto reason = reason_against(claim, contract, measures);
     if (!reason.empty()) list.push_back({name_of(claim), std::move(reason)});
   }
   return list;
+}
+
+std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures) {
+  if (detector.built_in || detector.configurations.empty()) return {};
+  return not_judged(detector.configurations[0].claims, detector.contract, measures);
 }
 
 std::vector<NotJudged> not_judged(const RunFindings& findings) {

@@ -16,6 +16,8 @@ struct NotJudged {
 // Others were never put to the test: no step had a contact; its intervals of the first time were
 // wider than 1e-3 in more than one of a hundred collisions, and so state no time. Empty for the
 // built-in detector, whose contract is the default and whose times are enclosures.
+std::vector<NotJudged> not_judged(const std::vector<std::string>& claims, const Contract& contract,
+                                  const StepMeasures& measures);
 std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures);
 std::vector<NotJudged> not_judged(const RunFindings& findings);
 

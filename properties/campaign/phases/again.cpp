@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <set>
-#include <system_error>
 #include <vector>
 
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "properties/random.h"
+#include "properties/worker/isolation/scratch_folder.h"
 
 namespace assay::properties {
 namespace {
@@ -49,28 +48,6 @@ std::vector<TrialRecord> draw(const std::vector<std::filesystem::path>& files,
   }
   return drawn;
 }
-
-// A folder for the store of what is run again, gone with this object.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::error_code error;
-    auto name = (std::filesystem::temp_directory_path(error) / "assay-again-XXXXXX").string();
-    if (error || !::mkdtemp(name.data()))
-      throw StoreProblem(ProblemKind::cannot_write, "no folder can be made for temporary files");
-    folder_ = name;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  const std::filesystem::path& path() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
-};
 
 // The first thing in which a trial differs; empty: none.
 std::string difference_of_trials(const TrialRecord& stored, const TrialRecord& now,
@@ -115,10 +92,10 @@ Expected<TrialsAgain> run_again(const CampaignRequest& request, const std::files
     std::set<std::string> ids;
     for (const auto& record : drawn) ids.insert(record.id);
 
-    const ScratchFolder scratch;
+    const ScratchFolder scratch = value_or_throw(ScratchFolder::make());
     Store store = value_or_throw(Store::open(scratch.path() / "again", binding_of(request)));
     const auto end = run_trials(request, store, RunDeadline::max(), progress, &ids);
-    if (end.store_problem) throw StoreProblem(*end.store_problem);
+    if (end.problem) throw StoreProblem(*end.problem);
     if (!end.harness_problem.empty())
       throw StoreProblem(ProblemKind::cannot_start, end.harness_problem);
     std::map<std::string, TrialRecord> now;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "properties/campaign/database/store_problem.h"
 #include "properties/faults/fault.h"
 #include "properties/generators/families.h"
 #include "properties/worker/worker_process.h"
@@ -24,6 +25,7 @@ Canary meet_canary(const CampaignRequest& request) {
     const auto made = make_case(
         family, fmt::format("{}:{}.canary:{}:{}", request.plan.name, request.seed, family.name, i));
     const auto run = worker.run(made.c, {&configuration, 1});
+    if (run[0].end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, run[0].what);
     const auto verdict = judge_trial(made.c, judge_case(made.c), run[0], configuration, detector);
     // A worker that dies is no sign that anything was seen.
     if (run[0].end != RunEnd::completed || verdict.outcome != Outcome::defect) continue;

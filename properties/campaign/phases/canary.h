@@ -7,7 +7,8 @@
 
 namespace assay::properties {
 
-// Random cases of all families in turn, 400 at most, until the planted fault shows.
+// Random cases of all families in turn, 400 at most, until the planted fault shows. Throws
+// StoreProblem (cannot_start) where there is no worker.
 Canary meet_canary(const CampaignRequest& request);
 
 }  // namespace assay::properties

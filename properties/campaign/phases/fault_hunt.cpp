@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <mutex>
-#include <thread>
 
+#include "properties/campaign/database/store_problem.h"
 #include "properties/campaign/phases/explicit_view.h"
 #include "properties/generators/families.h"
 #include "properties/judging/fault_run.h"
 #include "properties/reducer/mesh_size.h"
+#include "properties/threads.h"
 
 namespace assay::properties {
 
@@ -75,7 +76,7 @@ class Hunt {
       if (result.fault->curated.empty()) continue;
       const auto c =
           corpus::read_case(hunt_.curated / (std::string(result.fault->curated) + ".json"));
-      if (!c) continue;
+      if (!c) throw StoreProblem(ProblemKind::cannot_read, c.error().message);
       result.proof.curated =
           failure_of_fault(*result.fault, c.value(), judge_case(c.value())).has_value();
     }
@@ -133,9 +134,7 @@ class Hunt {
         }
       }
     };
-    std::vector<std::thread> threads;
-    for (int j = 0; j < hunt_.jobs; ++j) threads.emplace_back(work);
-    for (auto& thread : threads) thread.join();
+    in_threads(hunt_.jobs, work);
     for (std::size_t f = 0; f < found.size(); ++f) {
       if (!found[f] && first[f] < end) found[f] = first[f];
     }
@@ -183,9 +182,7 @@ void shrink_faults(std::vector<FaultResult>& results, const ReduceLimits& limits
       progress(result->proof.fault);
     }
   };
-  std::vector<std::thread> threads;
-  for (int j = 0; j < jobs; ++j) threads.emplace_back(work);
-  for (auto& thread : threads) thread.join();
+  in_threads(jobs, work);
 }
 
 }  // namespace assay::properties

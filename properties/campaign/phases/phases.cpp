@@ -4,6 +4,7 @@
 
 #include "properties/campaign/phases/canary.h"
 #include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/phases/slow_cases.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "properties/worlds/tetrahedron_world.h"
 
@@ -27,10 +28,7 @@ class CampaignRun {
 
   void run() {
     note_library(store_, request_);
-    if (request_.plugin) {
-      store_.set(to_row(PluginIsolation{text_of(request_.shard), name_of(request_.isolation),
-                                        text_of(request_.isolated)}));
-    }
+    if (request_.plugin) note_isolation();
     observer_.on_begin(store_.trial_count());
     const Canary canary = meet_canary(request_);
     store_.set(to_row(canary));
@@ -40,6 +38,11 @@ class CampaignRun {
     observer_.on_phase("shrinking");
     shrink();
     observer_.on_failures_shrunk(value_or_throw(store_.kept_failures()));
+    observer_.on_phase("slow cases");
+    keep_slow_cases(request_, store_, shrinking_of_one,
+                    earlier(after(1), shrinking_seconds(request_.plan)),
+                    [&](const std::string& id) { observer_.on_shrinking("slow case " + id); });
+    observer_.on_slow_cases(stored().slow);
     if (request_.power) {
       take_power();
     } else if (request_.plan.fault_cases > 0) {
@@ -53,6 +56,22 @@ class CampaignRun {
   }
 
  private:
+  // Of all trials that the store holds: those of an earlier call too.
+  void note_isolation() {
+    PluginIsolation now{text_of(request_.shard), name_of(request_.isolation),
+                        text_of(request_.isolated)};
+    if (store_.trial_count() > 0) {
+      for (const auto& before : stored().isolation) {
+        now.asked = name_of(weaker(request_.isolation, before.asked));
+        now.got = text_of(common_to(request_.isolated, isolation_of(before.got)));
+      }
+    }
+    store_.set(to_row(now));
+  }
+  static IsolationMode weaker(IsolationMode mode, const std::string& other) {
+    return std::min(mode, isolation_mode_of(other).value_or(IsolationMode::none));
+  }
+
   RunDeadline after(double share) const { return deadline_after(begin_, request_.plan, share); }
 
   static RunDeadline earlier(RunDeadline deadline, double seconds_from_now) {
@@ -63,7 +82,7 @@ class CampaignRun {
     const bool others = request_.plan.fault_cases > 0 || request_.plan.tetrahedron_seconds > 0;
     const auto end = run_trials(request_, store_, after(others ? trials_share : 1),
                                 [&](const TrialProgress& state) { observer_.on_trial(state); });
-    if (end.store_problem) throw StoreProblem(*end.store_problem);
+    if (end.problem) throw StoreProblem(*end.problem);
     store_.set(
         to_row(HarnessProblem{text_of(request_.shard), end.harness_problem, store_.trial_count()}));
     observer_.on_trials(end);

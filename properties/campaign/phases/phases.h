@@ -19,7 +19,7 @@ class CampaignObserver {
   virtual ~CampaignObserver() = default;
   // First of all: so many trials are in the store already.
   virtual void on_begin(std::uint64_t /*trials*/) {}
-  // "trials", "shrinking", "faults", "tetrahedron": what begins now. The first is told after the
+  // "trials", "shrinking", "slow cases", "faults", "tetrahedron": what begins now. The first is told after the
   // canary.
   virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
@@ -28,6 +28,8 @@ class CampaignObserver {
   virtual void on_shrinking(const std::string& /*signature*/) {}
   // Trials and their failures are all stored now; faults and worlds are still to come.
   virtual void on_failures_shrunk(const KeptFailures&) {}
+  // What was kept of the cases on which the detector takes longest.
+  virtual void on_slow_cases(const std::vector<SlowCase>&) {}
   virtual void on_hunt(const HuntProgress&) {}
   virtual void on_fault_shrunk(const std::string& /*fault*/) {}
   virtual void on_world(const std::string& /*world*/) {}

@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "properties/campaign/database/store_problem.h"
 #include "properties/campaign/phases/case_tally.h"
 #include "properties/campaign/phases/clean_starts.h"
 
@@ -20,7 +21,7 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
     const bool vouched = configuration.options.start == detector::Start::clean;
     if (detector.built_in && vouched && !starts_clean(c)) return std::nullopt;
     const auto run = worker.run(*seen, {&configuration, 1});
-    if (run[0].end == RunEnd::not_run) throw std::runtime_error(run[0].what);
+    if (run[0].end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, run[0].what);
     const auto verdict =
         judge_trial(*seen, judge_case(*seen, detector.contract), run[0], configuration, detector);
     if (!verdict.failure) return std::nullopt;

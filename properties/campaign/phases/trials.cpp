@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <mutex>
-#include <thread>
 
+#include "properties/campaign/database/store_problem.h"
 #include "properties/campaign/phases/case_tally.h"
 #include "properties/campaign/phases/clean_starts.h"
 #include "properties/campaign/phases/planned_case.h"
@@ -14,6 +14,7 @@
 #include "properties/judging/case_check.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"
+#include "properties/threads.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {
@@ -90,9 +91,7 @@ class Trials {
 
   TrialsEnd run() {
     const auto begin = Clock::now();
-    std::vector<std::thread> threads;
-    for (int j = 0; j < request_.jobs; ++j) threads.emplace_back([this] { work(); });
-    for (auto& thread : threads) thread.join();
+    in_threads(request_.jobs, [this] { work(); });
     end_.complete = state_.done == planned_.size();
     end_.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return end_;
@@ -110,7 +109,10 @@ class Trials {
       while (const PlannedTrial* trial = next_trial()) judge(*trial, worker);
     } catch (const StoreProblem& failure) {
       const std::lock_guard lock(mutex_);
-      end_.store_problem = failure.problem();
+      end_.problem = failure.problem();
+    } catch (const std::bad_alloc&) {
+      const std::lock_guard lock(mutex_);
+      end_.problem = Problem{ProblemKind::out_of_memory, "not enough memory for a trial"};
     } catch (const std::exception& failure) {
       const std::lock_guard lock(mutex_);
       end_.harness_problem = failure.what();
@@ -119,7 +121,7 @@ class Trials {
 
   const PlannedTrial* next_trial() {
     const std::lock_guard lock(mutex_);
-    while (next_ < planned_.size() && end_.harness_problem.empty() && !end_.store_problem &&
+    while (next_ < planned_.size() && end_.harness_problem.empty() && !end_.problem &&
            Clock::now() < deadline_) {
       const PlannedTrial& trial = planned_[next_++];
       if (!store_.has_trial(id_of(trial))) return &trial;
@@ -187,7 +189,7 @@ class Trials {
                                   WorkerProcess& worker) {
     auto runs = worker.run(trial.seen, configurations);
     for (const auto& one : runs) {
-      if (one.end == RunEnd::not_run) throw std::runtime_error(one.what);
+      if (one.end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, one.what);
       trial.record.disturbed += one.disturbances;
       if (one.end == RunEnd::hung) continue;
       trial.record.slowest_us = std::max(trial.record.slowest_us,

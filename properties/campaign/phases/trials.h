@@ -22,7 +22,9 @@ struct TrialsEnd {
   double seconds = 0;           // of this call
   std::uint64_t trials = 0;     // judged in this call
   std::string harness_problem;  // what kept the harness itself from going on; empty: nothing
-  std::optional<Problem> store_problem;  // why the store could not be written
+  // What ended it early: a store that could not be written, a worker that could not be had (where
+  // the system gives no process, or the plug-in does not load any more), too little memory.
+  std::optional<Problem> problem;
 };
 
 // Makes and judges what is not in the store yet, families in turn, until all is done or the

@@ -23,6 +23,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PowerSource, campaign, detector, seed, progra
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(World, classes, motions, all, collisions, complete,
                                    counterexample)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PluginIsolation, asked, got)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SlowCase, id, configuration, undecided, seconds, limit, mesh,
+                                   smallest)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Paths, out, detector)
@@ -54,6 +56,7 @@ constexpr const char* problem_kind = "problem";
 constexpr const char* fault_kind = "fault";
 constexpr const char* power_kind = "power";
 constexpr const char* world_kind = "world";
+constexpr const char* slow_kind = "slow";
 constexpr const char* asked_kind = "asked";
 constexpr const char* subject_kind = "subject";
 constexpr const char* digest_kind = "digest";
@@ -126,6 +129,13 @@ Evidence to_row(const World& x) {
   constexpr std::uint64_t farthest = std::numeric_limits<std::int64_t>::max();
   return row(world_kind, x.world, x.shard, x, x.counterexample ? farthest : x.classes);
 }
+Evidence to_row(const SlowCase& x) {
+  // A shrunk mesh is farther than none, and of two shrunk ones the shorter.
+  constexpr std::uint64_t longest = 1'000'000'000;
+  const std::uint64_t progress =
+      x.smallest.empty() ? 1 : longest - std::min<std::uint64_t>(x.smallest.size(), longest - 2);
+  return row(slow_kind, x.id + ", " + x.configuration, x.shard, x, progress);
+}
 Evidence to_row(const Asked& x) { return row(asked_kind, "gates", checks_shard, x); }
 Evidence to_row(const PluginIsolation& x) { return row(subject_kind, isolation_name, x.shard, x); }
 Evidence to_row(const Versions& x) { return row(subject_kind, versions_name, checks_shard, x); }
@@ -154,6 +164,9 @@ void EvidenceFacts::take(const Evidence& r) try {
     worlds.push_back(told<World>(r));
     worlds.back().world = r.name;
     worlds.back().shard = r.shard;
+  } else if (r.kind == slow_kind) {
+    slow.push_back(told<SlowCase>(r));
+    slow.back().shard = r.shard;
   } else if (r.kind == asked_kind) {
     asked = told<Asked>(r);
   } else if (r.kind == subject_kind && r.name == versions_name) {
@@ -204,7 +217,7 @@ void drop(Store& store, DroppedKind kind) {
 
 bool may_differ(const Evidence& row) {
   const bool is_path = row.kind == subject_kind && row.name == paths_name;
-  return row.kind == times_kind || row.kind == world_kind || is_path;
+  return row.kind == times_kind || row.kind == world_kind || row.kind == slow_kind || is_path;
 }
 
 }  // namespace assay::properties

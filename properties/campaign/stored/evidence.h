@@ -79,9 +79,20 @@ struct World {
   std::optional<std::string> counterexample;  // what does not hold
 };
 
-// How a shard's plug-in was kept apart, by the words of isolation.h.
+// How a shard's plug-in was kept apart in all of its trials, or in the corpus ("checks"), by the
+// words of isolation.h.
 struct PluginIsolation {
   std::string shard, asked, got;
+};
+
+// A trial that reached the limit of a case, or came near it.
+struct SlowCase {
+  std::string id, configuration, shard;
+  bool undecided = false;  // it reached the limit
+  double seconds = 0;      // of processor time, where it did not
+  double limit = 0;        // of a case
+  // Case files as text; smallest: one that takes at least twice the limit, empty where none is known.
+  std::string mesh, smallest;
 };
 
 // What a verb asked of a run.
@@ -152,6 +163,7 @@ struct EvidenceFacts {
   std::optional<Versions> versions;
   std::optional<Paths> paths;
   std::vector<PluginIsolation> isolation;
+  std::vector<SlowCase> slow;
   std::optional<InputDigests> inputs;
   std::vector<StoredWaiver> waivers;
   std::vector<CorpusRow> corpus;
@@ -170,6 +182,7 @@ Evidence to_row(const FaultProof& proof);
 Evidence to_row(const PowerSource& source);
 Evidence to_row(const World& world);
 Evidence to_row(const PluginIsolation& isolation);
+Evidence to_row(const SlowCase& slow);
 Evidence to_row(const Asked& asked);
 Evidence to_row(const Versions& versions);
 Evidence to_row(const Paths& paths);

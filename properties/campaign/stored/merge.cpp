@@ -1,20 +1,16 @@
 #include "properties/campaign/stored/merge.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <system_error>
 #include <vector>
 
+#include "properties/campaign/database/file_lock.h"
+#include "properties/campaign/database/rows.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/evidence.h"
-#include "properties/campaign/stored/rows.h"
 #include "properties/campaign/stored/store.h"
 
 namespace assay::properties {
@@ -86,28 +82,12 @@ void renew_hashes(const Database& into, const StoreTable& table) {
   for (const auto& row : joined) put_row(into, table, row);
 }
 
-// One merge at a time in a folder, until it ends or its process does. The folder itself is locked,
-// so that nothing is left of the lock.
-class FolderLock {
- public:
-  explicit FolderLock(const std::filesystem::path& file) {
-    const auto folder = file.has_parent_path() ? file.parent_path() : ".";
-    lock_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ < 0)
-      throw StoreProblem(ProblemKind::cannot_write,
-                         fmt::format("{}: {}", folder.string(), std::strerror(errno)));
-    if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
-    ::close(lock_);
-    throw StoreProblem(ProblemKind::busy,
-                       fmt::format("{}: another merge is writing into it", folder.string()));
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-  ~FolderLock() { ::close(lock_); }
-
- private:
-  int lock_ = -1;
-};
+// One merge at a time in the folder of its file.
+FileLock lock_of_folder(const std::filesystem::path& file) {
+  const auto folder = file.has_parent_path() ? file.parent_path() : ".";
+  return {folder, FileLock::On::folder,
+          fmt::format("{}: another merge is writing into it", folder.string())};
+}
 
 class Merge {
  public:
@@ -193,7 +173,7 @@ struct PartFiles {
 Expected<void> merge_stores(std::span<const std::filesystem::path> stores,
                             const std::filesystem::path& out) {
   return catch_store_problem([&] {
-    const FolderLock lock(out);
+    const FileLock lock = lock_of_folder(out);
     std::vector<std::filesystem::path> files(stores.begin(), stores.end());
     std::error_code ignored;
     if (std::filesystem::exists(out, ignored)) files.push_back(out);

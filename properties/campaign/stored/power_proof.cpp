@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/gates/read_findings.h"
 
 namespace assay::properties {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 
@@ -99,9 +100,29 @@ void Tally::add(const TrialRecord& record) {
   strata[record.family].add(record);
   properties::add(counts, record.counts);
   disturbances += record.disturbed;
+  note_slow(record);
   if (record.slowest_us < near_from_us) return;
   near.push_back(record);
   near.back().counts.clear();
+}
+
+void Tally::note_slow(const TrialRecord& record) {
+  const auto without_counts = [&] {
+    TrialRecord copy = record;
+    copy.counts.clear();
+    return copy;
+  };
+  if (record.has(Outcome::undecided)) {
+    if (undecided.size() < most_undecided) undecided.push_back(without_counts());
+    return;
+  }
+  const auto is_slower = [](const TrialRecord& a, const TrialRecord& b) {
+    return a.slowest_us != b.slowest_us ? a.slowest_us > b.slowest_us : a.id < b.id;
+  };
+  if (slowest.size() == most_slowest && !is_slower(record, slowest.back())) return;
+  slowest.insert(std::upper_bound(slowest.begin(), slowest.end(), record, is_slower),
+                 without_counts());
+  if (slowest.size() > most_slowest) slowest.pop_back();
 }
 
 namespace {

@@ -65,12 +65,19 @@ struct Tally {
   std::map<std::string, StratumTally, std::less<>> strata;  // by family
   Counts counts;
   std::vector<TrialRecord> near;  // in the order in which they were added; without their counts
+  // Undecided in some configuration, as far as a list is read; and the slowest of the others, the
+  // slowest first. Without their counts.
+  std::vector<TrialRecord> undecided, slowest;
+  static constexpr std::size_t most_undecided = 1000, most_slowest = 20;
   std::uint64_t disturbances = 0;
   void add(const TrialRecord& record);
   // Sums over the strata, in trials: all; those of a case that the contract takes; those with a
   // defect, or without a verdict, in some configuration; those that were disturbed.
   std::uint64_t trials() const, judged() const, with_defect() const, open() const,
       disturbed() const;
+
+ private:
+  void note_slow(const TrialRecord& record);
 };
 
 }  // namespace assay::properties

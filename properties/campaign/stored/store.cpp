@@ -1,42 +1,18 @@
 #include "properties/campaign/stored/store.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <system_error>
 
 #include "corpus/json_text.h"
+#include "properties/campaign/database/file_lock.h"
+#include "properties/campaign/stored/row_of.h"
 
 namespace assay::properties {
-// Held until this process ends, however it ends.
-class StoreLock {
- public:
-  explicit StoreLock(const std::filesystem::path& file) {
-    const std::string name = file.string() + ".lock";
-    lock_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock_ < 0) {
-      throw StoreProblem(ProblemKind::cannot_write,
-                         fmt::format("{}: {}", name, std::strerror(errno)));
-    }
-    if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
-    ::close(lock_);
-    throw StoreProblem(ProblemKind::busy,
-                       fmt::format("{}: another run is writing it", file.string()));
-  }
-  StoreLock(const StoreLock&) = delete;
-  StoreLock& operator=(const StoreLock&) = delete;
-  ~StoreLock() { ::close(lock_); }
-
- private:
-  int lock_ = -1;
-};
+namespace {
 
 // The schema that a binding names, where it is another than this build's.
-static std::optional<std::string> other_schema(const std::string& binding) {
+std::optional<std::string> other_schema(const std::string& binding) {
   const auto read = corpus::parse_json(binding, "binding");
   // Of what is no binding at all its reader tells.
   if (!read || !read.value().is_object() || !read.value().contains("schema")) return std::nullopt;
@@ -44,82 +20,33 @@ static std::optional<std::string> other_schema(const std::string& binding) {
   return schema == store_schema ? std::nullopt : std::optional(corpus::json_text(schema));
 }
 
-static StoreProblem refused_schema(const std::filesystem::path& file, const std::string& schema) {
+StoreProblem refused_schema(const std::filesystem::path& file, const std::string& schema) {
   return {ProblemKind::other_schema, fmt::format("{}: is of schema {}, this assay reads {}: run it "
                                                  "again",
                                                  file.string(), schema, store_schema)};
 }
 
+FileLock lock_of_store(const std::filesystem::path& file) {
+  return {file.string() + ".lock", FileLock::On::file,
+          fmt::format("{}: another run is writing it", file.string())};
+}
+
 // Before anything is known of the file: stores of older schemas have no hashes.
-static std::optional<std::string> unchecked_binding(const Database& db) {
+std::optional<std::string> unchecked_binding(const Database& db) {
   if (!Statement(db, "SELECT 1 FROM sqlite_master WHERE name='note'").next()) return std::nullopt;
   Statement query(db, "SELECT value FROM note WHERE key='binding'");
   return query.next() ? std::optional(query.text(0)) : std::nullopt;
 }
 
-namespace {
-
-Row row_of(const TrialRecord& r) {
-  return {r.id,
-          r.family,
-          text_of_number(r.index),
-          r.outcomes,
-          text_of_number(r.triangles),
-          text_of_number(r.steps),
-          text_of_number(r.collisions),
-          text_of_number(r.pairs),
-          text_of_number(r.oracle_us),
-          text_of_number(r.detector_us),
-          counts_text(r.counts),
-          text_of_number(r.mesh),
-          text_of_number(r.disturbed),
-          text_of_number(r.slowest_us)};
-}
-
-Row row_of(const StoredFailure& f) {
-  return {f.id, f.configuration, f.signature, f.what, f.mesh, f.smallest, f.flaky ? "1" : "0"};
-}
-
-Row row_of(const Evidence& e) {
-  return {e.kind, e.name, e.shard, text_of_number(e.progress), e.facts};
-}
-
-TrialRecord trial_of(const Row& row) {
-  const auto number = [&](std::size_t column) { return number_of_text(row[column]); };
-  return {row[0],
-          row[1],
-          number(2),
-          row[3],
-          number(4),
-          number(5),
-          number(6),
-          number(7),
-          number(8),
-          number(9),
-          parse_counts(row[10]),
-          number(11),
-          number(12),
-          number(13)};
-}
-
-StoredFailure failure_of(const Row& row) {
-  return {row[0], row[1], row[2], row[3], row[4], row[5], row[6] != "0"};
-}
-
-Evidence evidence_of(const Row& row) {
-  return {row[0], row[1], row[2], number_of_text(row[3]), row[4]};
-}
-
 }  // namespace
 
 struct Store::Parts {
-  std::optional<StoreLock> lock;  // outlives the database
+  std::optional<FileLock> lock;  // outlives the database
   Database db;
   std::optional<RowTally> known;  // of a store that is written
 
   Parts(const std::filesystem::path& file, Database::Mode mode)
-      : lock(mode == Database::Mode::write ? std::optional<StoreLock>(std::in_place, file)
-                                           : std::nullopt),
+      : lock(mode == Database::Mode::write ? std::optional(lock_of_store(file)) : std::nullopt),
         db(file, mode) {}
 
   // Looks at every row and takes it for known.

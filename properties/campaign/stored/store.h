@@ -1,8 +1,8 @@
 // The trials and failures of one shard, in one file: SQLite, safe under a kill at any moment.
 //
-// Every row carries a hash (rows.h), which is looked at wherever a row is read. A store that is
-// open for writing knows all of its rows besides, those that it found and those that it wrote, so
-// that nobody changes them unseen in the meantime, whatever hash he writes.
+// Every row carries a hash (campaign/database/rows.h), which is looked at wherever it is read. A
+// store that is open for writing knows all of its rows besides, those that it found and those that
+// it wrote, so that nobody changes them unseen in the meantime, whatever hash he writes.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "properties/campaign/database/rows.h"
 #include "properties/campaign/stored/record.h"
-#include "properties/campaign/stored/rows.h"
 
 namespace assay::properties {
 
@@ -58,7 +58,7 @@ struct Evidence {
 };
 
 // What returns Expected is for all rooms. The rest throws StoreProblem and is for campaign/ alone
-// (store_problem.h).
+// (campaign/database/store_problem.h).
 class Store {
  public:
   // Opens or makes the file. `binding` says what the trials are of (plan, seed, shard, detector).

@@ -96,6 +96,8 @@ bool CaseFacts::is_trusted(std::size_t s) {
   if (trusted) return *trusted;
   // What was vouched for wrongly at one start is carried on to the steps after it.
   if (known_from_[s]) return *(trusted = is_trusted(*known_from_[s]));
+  // A step without views tells no apexes: of an unclosed mesh there is no saying then.
+  if (!surface_.is_closed() && !has_views(s)) return *(trusted = false);
   const auto& clean = layers_at_start(s).clean;
   trusted = std::all_of(clean.begin(), clean.end(), [](std::uint8_t c) { return c != 0; });
   return *trusted;

@@ -3,11 +3,15 @@
 
 #include <algorithm>
 
+#include "detector/assembly.h"
+#include "detector/state/state_fields.h"
 #include "properties/laws/law_groups.h"
 #include "properties/laws/metamorphic/halves.h"
 #include "properties/laws/metamorphic/pinned_run.h"
 #include "properties/laws/metamorphic/result_equality.h"
 #include "properties/laws/step_law.h"
+#include "properties/worker/case_player.h"
+#include "properties/worker/given_view.h"
 
 namespace assay::properties {
 namespace {
@@ -52,6 +56,87 @@ void check_reset(CaseFacts& facts, LawTally& tally) {
   note(facts, 0, what.empty() ? holds() : what + " differs", tally);
 }
 
+// Another detector, made from the positions that the case ends with, so that it has chosen other
+// apexes and primitives, and in the middle of something else: a step evaluated and not committed.
+std::optional<detector::Detector> busy_detector(const CaseFacts& facts) {
+  const auto& frames = facts.source().frames;
+  auto made = detector::assemble(facts.source().triangles, frames.back(), facts.options(),
+                                 facts.stages_of()(facts.options()));
+  if (!made) return std::nullopt;
+  made.value().evaluate(frames.back(), frames.front());
+  return std::move(made.value());
+}
+
+// The same with a primitive too few among those that view-auto has chosen since.
+bool is_taken_with_one_too_few(const detector::SavedState& saved, detector::Detector& detector) {
+  detector::StateFields fields = saved.fields();
+  if (!fields.committed || fields.anchors.empty()) return false;
+  auto chosen = fields.anchors;
+  chosen.pop_back();
+  fields.committed->choice.anchors =
+      std::make_shared<const std::vector<detector::ViewAnchor>>(std::move(chosen));
+  return !detector.restore(detector::SavedState(std::move(fields)));
+}
+
+std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::SavedState& saved,
+                    CasePlayer& other) {
+  const auto read = detector::SavedState::read(saved.bytes());
+  auto busy = busy_detector(facts);
+  if (!read || !busy) return "no detector for the state, or no state:";
+  if (is_taken_with_one_too_few(saved, *busy)) return "a state that does not fit is taken, which";
+  if (busy->restore(read.value())) return "the restored state is refused, which";
+  if (!busy->commit()) return "an evaluation outlives what is restored, which";
+  if (busy->state().bytes() != saved.bytes()) return "the restored state";
+  other.detector() = std::move(*busy);
+  StepResult result = other.play(s);
+  // The trees are shaped by other positions.
+  result.counts = facts.result(s).counts;
+  return difference(facts.result(s), result);
+}
+
+void check_restored_state(CaseFacts& facts, LawTally& tally) {
+  const auto make = [&] {
+    return CasePlayer::make(facts.source(), facts.options(), facts.stages_of()(facts.options()));
+  };
+  auto player = make(), other = make();
+  if (!player || !other) return;
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    std::string what = goes_on(facts, s, player.value().detector().state(), other.value());
+    player.value().play(s);
+    const auto expected = player.value().detector().state().bytes();
+    if (what.empty() && other.value().detector().state().bytes() != expected)
+      what = "the state after the step";
+    note(facts, s, what.empty() ? holds() : what + " differs", tally);
+  }
+}
+
+// Positions as they may stand among other numbers of the caller.
+struct WideRows {
+  Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor> rows;
+  explicit WideRows(const detector::Positions& x)
+      : rows(decltype(rows)::Constant(x.rows(), 5, 0.5)) {
+    rows.leftCols<3>() = x;
+  }
+};
+
+void check_row_stride(CaseFacts& facts, LawTally& tally) {
+  const auto& c = facts.source();
+  const WideRows first(c.frames[0]);
+  auto made = detector::assemble(c.triangles, first.rows.leftCols<3>(), facts.options(),
+                                 facts.stages_of()(facts.options()));
+  for (std::size_t s = 0; made && s < facts.steps(); ++s) {
+    const auto given = given_view(corpus::view_of_step(c, s), facts.options().culling);
+    const WideRows x_t0(facts.x_t0(s)), x_t1(facts.x_t1(s));
+    const StepResult result =
+        made.value().evaluate(x_t0.rows.leftCols<3>(), x_t1.rows.leftCols<3>(), given);
+    const bool is_answered =
+        result.answer == detector::Answer::free || result.answer == detector::Answer::collision;
+    if (facts.script(s).commit && is_answered) made.value().commit();
+    const std::string what = difference(facts.result(s), result);
+    note(facts, s, what.empty() ? holds() : what + " differs", tally);
+  }
+}
+
 void check_equal_ends(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);
   if (!run || facts.options().culling != detector::Culling::view_point) return;
@@ -89,6 +174,15 @@ constexpr Law repetition_law_table[] = {
     {"Change_ResetStartsAnew", "change",
      "After a reset the first step gives the same bytes as it did at first.", "nothing",
      check_reset, dear},
+    {"Change_RowStride", "change",
+     "Positions that stand in wider rows give the same bytes as packed ones.", "nothing",
+     check_row_stride, dear},
+    {"Change_RestoredStateGoesOn", "change",
+     "A state that went through bytes into another detector of the mesh, made from other positions "
+     "and in the middle of another step, gives the results and the states that would have come, "
+     "and "
+     "no evaluation outlives it.",
+     "nothing", check_restored_state, dear},
 };
 
 }  // namespace

@@ -47,6 +47,13 @@ constexpr const char* forbidden[] = {
     "kcmp",
     "move_pages",
     "migrate_pages",
+    // Who it is.
+    "setuid",
+    "setreuid",
+    "setresuid",
+    "setuid32",
+    "setreuid32",
+    "setresuid32",
     // The world around it.
     "socket",
     "connect",

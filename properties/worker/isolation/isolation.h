@@ -33,10 +33,17 @@ struct Isolation {
   friend bool operator==(const Isolation&, const Isolation&) = default;
 };
 
+// Whether all that holds in `less` holds in `more`.
+bool covers(const Isolation& more, const Isolation& less);
+
 // "none", "best", "required"; "full", "none", "partial: lacks files, calls".
 const char* name_of(IsolationMode mode);
 std::optional<IsolationMode> isolation_mode_of(std::string_view word);
 std::string text_of(const Isolation& isolation);
+// Of what text_of says; of another text: nothing holds.
+Isolation isolation_of(std::string_view text);
+// What holds in both.
+Isolation common_to(const Isolation& a, const Isolation& b);
 // What does not hold: of "files", "processes" and "calls".
 std::vector<std::string> lacks_of(const Isolation& isolation);
 

@@ -167,6 +167,7 @@ void keep(Channel host, const KeptPlugin& kept, const std::function<int(Channel)
   }
   const int yes = 1;
   ::setsockopt(reports[0], SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
+  if (kept.mode != IsolationMode::none) become_limitable();
   const bool in_new_world = kept.mode != IsolationMode::none && begin_new_world();
   // Another set of rights makes the system forget this; the host may have died by now.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -12,12 +12,12 @@ namespace assay::properties {
 Expected<ScratchFolder> ScratchFolder::make() {
   std::error_code error;
   const auto parent = std::filesystem::temp_directory_path(error);
-  std::string name = (parent / "assay-plugin-XXXXXX").string();
+  std::string name = (parent / "assay-scratch-XXXXXX").string();
   if (error || !::mkdtemp(name.data())) {
     const std::string reason = error ? error.message() : std::strerror(errno);
     return Problem{
         ProblemKind::cannot_write,
-        fmt::format("{}: no folder for a plug-in's temporary files: {}", parent.string(), reason)};
+        fmt::format("{}: no folder can be made for temporary files: {}", parent.string(), reason)};
   }
   return ScratchFolder(name);
 }

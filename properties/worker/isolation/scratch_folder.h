@@ -8,8 +8,8 @@
 
 namespace assay::properties {
 
-// The one place in which a plug-in may write: a new folder among the system's temporary files,
-// which are removed with it. Its path is given in TMPDIR.
+// A new folder among the system's temporary files, which is removed with this object and all that
+// it holds. For a plug-in it is the one place in which it may write, named to it by TMPDIR.
 class ScratchFolder {
  public:
   // cannot_write where the system gives none.

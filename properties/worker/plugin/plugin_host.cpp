@@ -8,6 +8,7 @@
 #include <new>
 
 #include "detector/step_result.h"
+#include "properties/printable.h"
 #include "properties/worker/plugin/plugin_result.h"
 #include "properties/worker/plugin/plugin_table.h"
 
@@ -76,7 +77,7 @@ class PluginRun {
 
 Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std::uint32_t threads) {
   const auto problem = [&](ProblemKind kind, const std::string& what) {
-    return Problem{kind, library.string() + ": " + line_of(what.c_str())};
+    return Problem{kind, line_of(library.c_str()) + ": " + line_of(what.c_str())};
   };
   std::error_code ignored;
   if (!std::filesystem::exists(library, ignored))

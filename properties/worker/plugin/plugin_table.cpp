@@ -1,7 +1,10 @@
 #include "properties/worker/plugin/plugin_table.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
+
+#include "properties/printable.h"
 
 namespace assay::properties {
 
@@ -60,11 +63,12 @@ std::string read_contract(const assay_description& raw, Contract& contract) {
 }  // namespace
 
 std::string line_of(const char* text) {
-  std::string line = text ? text : "";
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
-  }
-  return line;
+  constexpr std::size_t longest = 1000;
+  if (!text) return "";
+  std::string line(text, ::strnlen(text, longest));
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return 0 < c && c < ' '; }, ' ');
+  return printable(line);
 }
 
 Expected<assay_detector_api> read_table(const assay_detector_api* api) {

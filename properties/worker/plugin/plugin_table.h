@@ -8,7 +8,7 @@
 
 namespace assay::properties {
 
-// One line of printable text; empty for none.
+// One line of printable text, and no more of it than a reply may hold; empty for none.
 std::string line_of(const char* text);
 
 // The table as one of this host's version: what an older version does not have is NULL.

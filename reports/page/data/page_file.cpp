@@ -3,26 +3,17 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "reports/terminal/replaced.h"
+
 namespace assay::reports {
 
 std::string script_safe(const nlohmann::ordered_json& data) {
   const std::string text =
       data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
-  std::string out;
-  out.reserve(text.size());
-  for (const char c : text) {
-    // In JSON these stand within strings only, where \u means the same.
-    if (c == '<') {
-      out += "\\u003c";
-    } else if (c == '>') {
-      out += "\\u003e";
-    } else if (c == '&') {
-      out += "\\u0026";
-    } else {
-      out += c;
-    }
-  }
-  return out;
+  // In JSON these stand within strings only, where \u means the same.
+  static const std::map<char, std::string_view> written = {
+      {'<', "\\u003c"}, {'>', "\\u003e"}, {'&', "\\u0026"}};
+  return replaced(text, written);
 }
 
 std::string page_text(std::string_view page, const nlohmann::ordered_json& data) {

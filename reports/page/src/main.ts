@@ -5,6 +5,7 @@ import { html } from "./dom";
 import { failures, type FailuresView } from "./failures";
 import { faults } from "./faults";
 import { history } from "./history";
+import { judged } from "./judged";
 import { gates, overview } from "./overview";
 import type { Report, Run, StoredReport } from "./report";
 import { runOf } from "./run";
@@ -20,7 +21,7 @@ declare global {
 function runView(run: Run): { element: HTMLElement; failures: FailuresView } {
   const failed = failures(run);
   const element = html("div", { class: "run" });
-  const parts = [overview(run), gates(run), failed.element, strata(run), faults(run), worlds(run), ...certificate(run), laws(run), cases(run)];
+  const parts = [overview(run), gates(run), judged(run), failed.element, strata(run), faults(run), worlds(run), ...certificate(run), laws(run), cases(run)];
   for (const part of parts) if (part) element.append(part);
   return { element, failures: failed };
 }

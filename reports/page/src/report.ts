@@ -166,12 +166,32 @@ export interface Certificate {
   replay: string[];
 }
 
+export interface Claims {
+  name: string; // of a configuration
+  claims: string[];
+}
+
+export interface Contract {
+  adjacency: string;
+  coordinates: string;
+  margin: number;
+}
+
 export interface Run {
   folder: string;
   campaign: string;
   seed: number;
   shards: { count: number; present: number[] };
-  detector: { name: string; built_in: boolean; library: string | null; configurations: string[] };
+  detector: {
+    name: string;
+    built_in: boolean;
+    library: string | null;
+    configurations: string[];
+    claims: Claims[];
+    contract: Contract;
+  };
+  // "full", "none", "partial: lacks files"; null: of no plug-in.
+  isolation: string | null;
   verdict: string;
   why: string;
   gates: Gate[];
@@ -226,7 +246,8 @@ export interface StoredFailure {
 
 export interface Findings {
   gates: Gate[];
-  detector: { name: string; built_in: boolean; configurations: { name: string }[] };
+  detector: { name: string; built_in: boolean; contract: Contract; configurations: Claims[] };
+  isolation: string | null;
   versions: Certificate["versions"];
   campaign: { name: string; seed: number; shards: string[]; plan: { policy: { speed_limits: Record<string, number> } } };
   confidence: { family: number; bounds: number; speaks_of: string };

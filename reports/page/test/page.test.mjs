@@ -45,6 +45,16 @@ describe("the page", () => {
     assert.ok((await at.page.locator("#strata svg .dot").count()) >= 2);
   });
 
+  test("says which claims were judged, under which contract, and how the plug-in was kept apart", async () => {
+    const terms = await at.page.locator("#judged dt").allTextContents();
+    assert.deepEqual(terms, ["Claims", "Contract", "Isolation", "Campaign"]);
+    const text = await at.page.locator("#judged").textContent();
+    assert.match(text, /free-sound, not-late, /);
+    assert.match(text, /adjacency all, coordinates float64/);
+    assert.match(text, /(full|partial): /);
+    assert.match(text, /tiny, seed 2/);
+  });
+
   test("shows a failure with its mesh, pair and times", async () => {
     assert.ok((await at.page.locator(".failures .list button").count()) >= 2);
     const differences = await at.page.locator(".detail table tbody tr td:last-child").allTextContents();

@@ -65,6 +65,25 @@ std::string name_of_culling(const testing::TestParamInfo<Culling>& info) {
   return names[static_cast<int>(info.param)];
 }
 
+// Each component is too small to ask by itself; together their view tests take integers, 3 us each.
+TEST(StopInASoup, IsAskedAcrossComponents) {
+  constexpr int count = 400;
+  Triangles triangles(count, 3);
+  Positions x(3 * count, 3);
+  for (int i = 0; i < count; ++i) {
+    triangles.row(i) << 3 * i, 3 * i + 1, 3 * i + 2;
+    x.row(3 * i) << i, 0, 0;
+    x.row(3 * i + 1) << i + .5, 0, .25;
+    x.row(3 * i + 2) << i, .5, .125;
+  }
+  auto detector = std::move(Detector::create(triangles, x, {Culling::view_point}).value());
+  std::uint64_t asked = 0;
+  const StepResult result = detector.evaluate(x, x, {}, [&] { return ++asked, false; });
+  ASSERT_GE(result.counts.view.exact, std::uint64_t{count});
+  EXPECT_GE(asked, result.counts.view.exact * 600 / PacedStop::usual_interval);
+  EXPECT_LE(asked, std::uint64_t{count}) << "and not for each component";
+}
+
 INSTANTIATE_TEST_SUITE_P(Cullings, Stop,
                          testing::Values(Culling::view_point, Culling::view_line,
                                          Culling::normal_cone, Culling::bvh, Culling::none),

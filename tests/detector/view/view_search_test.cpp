@@ -107,6 +107,38 @@ TEST(ViewAnchorKind, IsALineWhereThatAloneSeesAll) {
   EXPECT_EQ(positive_from(chosen), all);
 }
 
+// A step of culling bvh is worth 160 box tests a triangle and more (apex_choice.h), and a detector
+// may take three to be created, of which adjacency and tree are one. On all planes lines alone
+// would take three.
+TEST(ViewAnchorWork, IsLessThanTwoStepsOfBvh) {
+  std::vector<tests::Ring> rings;
+  constexpr int count = 500;
+  for (int k = 0; k < count; ++k) rings.push_back({.08 * k, 2 + std::cos(.08 * k)});
+  Positions x = revolved(rings, -.08, .08 * count);
+  x.col(0).array() += .02 * x.col(2).array().square();
+  const Topology mesh = make_topology(revolved(count), x.rows());
+  const auto work_of = [&](auto choose) {
+    constexpr std::uint64_t interval = 100'000;  // more than is done between two askings
+    std::uint64_t asked = 0;
+    const StopFunction stop = [&] { return ++asked, false; };
+    PacedStop pace(stop, interval);
+    choose(&pace);
+    return (asked + 1) * interval / mesh.triangles.size();
+  };
+  const auto& tube = mesh.components[0];
+  for (const auto kind : {ViewKind::point, ViewKind::line}) {
+    EXPECT_LT(work_of([&](PacedStop* pace) {
+                make_view_anchor(kind, mesh, tube, x.rows(), x, Effort::thorough, pace);
+              }),
+              320u);
+  }
+  const auto work = work_of([&](PacedStop* pace) {
+    choose_view_anchor(mesh, tube, x.rows(), x, Effort::thorough, pace);
+  });
+  EXPECT_LT(work, 320u);
+  EXPECT_GT(work, 20u) << "or it is not counted";
+}
+
 // The corner at +x lies in the planes of four triangles and sees the other four.
 TEST(ViewPlanes, WhatIsInThePlaneOfATriangleSeesNoSignOfIt) {
   const Topology mesh = make_topology(octahedron(), 6);

@@ -16,12 +16,13 @@
 #include "detector/view/view_signs.h"
 
 namespace {
-std::atomic<std::uint64_t> allocations{0};
+std::atomic<std::uint64_t> allocations{0}, allocated_bytes{0};
 }  // namespace
 
 // The array and nothrow forms of the standard library come here.
 void* operator new(std::size_t size) {
   allocations.fetch_add(1, std::memory_order_relaxed);
+  allocated_bytes.fetch_add(size, std::memory_order_relaxed);
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
@@ -110,6 +111,40 @@ TEST(Allocation, OfAFreeStepDoesNotGrowWithTheMesh) {
                 static_cast<long>(made.triangles.rows()), static_cast<unsigned long>(count));
     if (size == 320) of_small = count;
     EXPECT_EQ(count, of_small);
+  }
+}
+
+// Triangles that share nothing, each a component.
+corpus::Sequence soup(int count) {
+  corpus::Sequence made;
+  made.triangles.resize(count, 3);
+  Positions x(3 * count, 3);
+  for (int i = 0; i < count; ++i) {
+    made.triangles.row(i) << 3 * i, 3 * i + 1, 3 * i + 2;
+    x.row(3 * i) << i, 0, 0;
+    x.row(3 * i + 1) << i + .5, 0, .25;
+    x.row(3 * i + 2) << i, .5, .125;
+  }
+  made.frames = {x, x};
+  return made;
+}
+
+// Four times the components take four times the memory, asked for and given back, to verify the
+// start: no list by triangle of the mesh is made for each of them.
+TEST(Allocation, OfAVerifiedStartGrowsWithTheComponentsAlone) {
+  std::uint64_t of_few = 0;
+  for (const int count : {1000, 4000}) {
+    const auto made = soup(count);
+    auto detector = Detector::create(made.triangles, made.frames[0], {Culling::view_point});
+    ASSERT_TRUE(detector);
+    const std::uint64_t before = allocated_bytes;
+    const StepResult result = detector.value().step(made.frames[0], made.frames[1]);
+    const std::uint64_t bytes = allocated_bytes - before;
+    EXPECT_EQ(result.answer, Answer::free);
+    std::printf("%d components: %lu bytes in the first step\n", count,
+                static_cast<unsigned long>(bytes));
+    if (count == 1000) of_few = bytes;
+    EXPECT_LE(bytes, 5 * of_few);
   }
 }
 

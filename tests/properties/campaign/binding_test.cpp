@@ -52,10 +52,10 @@ TEST(Canary, IsRegisteredAndFound) {
   const auto canary = meet_canary(request_of(1));
   EXPECT_TRUE(find_fault(canary.fault)) << canary.fault;
   EXPECT_TRUE(canary.found_after);
-  // Without a worker nothing can be found.
+  // Without a worker nothing is said of it.
   auto blind = request_of(1);
   blind.worker = "/bin/true";
-  EXPECT_FALSE(meet_canary(blind).found_after);
+  EXPECT_THROW(meet_canary(blind), StoreProblem);
 }
 
 TEST(Starved, LawsAreNamed) {

@@ -1,6 +1,6 @@
 // The hash that every row of a store carries, and what a process knows of its rows: no change of a
 // row goes unseen.
-#include "properties/campaign/stored/rows.h"
+#include "properties/campaign/database/rows.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

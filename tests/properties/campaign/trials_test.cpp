@@ -118,14 +118,17 @@ TEST_F(Trials, AreMadeAgainByTheirId) {
   EXPECT_EQ(trial_id(request.plan, 7, "broken", 12), "test:7:broken:12");
 }
 
-TEST_F(Trials, WithoutAWorkerTheHarnessIsToBlame) {
+TEST_F(Trials, WithoutAWorkerNothingIsJudged) {
   auto request = request_of(4, 2);
   request.worker = "/nowhere/assay-worker";
   Store store = open("store");
   const auto end = run_trials(request, store, in_a_minute(), {});
   EXPECT_FALSE(end.complete);
   EXPECT_EQ(end.trials, 0u);
-  EXPECT_NE(end.harness_problem.find("/nowhere/assay-worker"), std::string::npos);
+  EXPECT_EQ(end.harness_problem, "");
+  ASSERT_TRUE(end.problem);
+  EXPECT_EQ(end.problem->kind, ProblemKind::cannot_start);
+  EXPECT_NE(end.problem->message.find("/nowhere/assay-worker"), std::string::npos);
   EXPECT_EQ(store.trial_count(), 0u);
 }
 

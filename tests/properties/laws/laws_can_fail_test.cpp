@@ -151,6 +151,9 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
       {"L10_EachComponentAsIfAlone", {no_pairs}},
       {"L11_ViolatedIsWhatGhostsTouch", {all_violated}},
       {"L11_VvHoldsWhatWasTouchedUntilClean", {no_doubts}},
+      {"L11_ApexesGoOnFromWhereTheyWere", {each_result([](StepResult& r) {
+         for (auto& apex : r.apexes) apex.t1[0] += 1;
+       })}},
       {"L11_OrderOfHolesDoesNotMatter", {all_violated}},
       {"L12_NeverFreeOnAGuess_BrokenEdges", {always_free}},
       {"L12_NeverFreeOnAGuess_Collapsed", {always_free}},
@@ -173,6 +176,8 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
       {"Change_RepeatedCall", {invented}},
       {"Change_EvaluateChangesNothing", {wrong_size}},
       {"Change_ResetStartsAnew", {wrong_size}},
+      {"Change_RowStride", {wrong_size}},
+      {"Change_RestoredStateGoesOn", {no_doubts}},
   };
   return all;
 }

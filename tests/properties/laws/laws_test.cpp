@@ -47,6 +47,7 @@ LAW_TEST(L10_ComponentsAreCleanByThemselves)
 LAW_TEST(L10_EachComponentAsIfAlone)
 LAW_TEST(L11_ViolatedIsWhatGhostsTouch)
 LAW_TEST(L11_VvHoldsWhatWasTouchedUntilClean)
+LAW_TEST(L11_ApexesGoOnFromWhereTheyWere)
 LAW_TEST(L11_OrderOfHolesDoesNotMatter)
 LAW_TEST(L12_NeverFreeOnAGuess_BrokenEdges)
 LAW_TEST(L12_NeverFreeOnAGuess_Collapsed)
@@ -67,6 +68,8 @@ LAW_TEST(Change_EqualEndsAreAPoint)
 LAW_TEST(Change_RepeatedCall)
 LAW_TEST(Change_EvaluateChangesNothing)
 LAW_TEST(Change_ResetStartsAnew)
+LAW_TEST(Change_RowStride)
+LAW_TEST(Change_RestoredStateGoesOn)
 // clang-format on
 
 TEST(Laws, EachHasATestOfItsName) {

@@ -92,6 +92,8 @@ TEST_F(Hostile, ForgedRepliesAreCrashes) {
            {"forge-number", "to another request"},
            {"forge-place", "to another request"},
            {"forge-text", "a text that is no line"},
+           {"forge-control", "a text that is no line"},
+           {"forge-bytes", "a text that is no line"},
            {"forge-long-text", "longer than any reply to this case"},
            {"forge-no-interval", "a first time that is no interval in [0, 1]"},
            {"forge-pair-beyond", "a pair that is none of the mesh"},
@@ -152,10 +154,13 @@ TEST_F(Hostile, ForgedAnswersToQueriesAreCrashesOfTheseQueries) {
 }
 
 TEST_F(Hostile, ForgedDescriptionsAreNamed) {
-  for (const auto& [mode, rule] :
-       std::map<std::string, std::string>{{"forge-name", "a name that is no line"},
-                                          {"forge-margin", "its margin is no length"},
-                                          {"forge-length", "no description"}}) {
+  for (const auto& [mode, rule] : std::map<std::string, std::string>{
+           {"forge-name", "a name that is no line"},
+           {"forge-refusal", "a refusal that is no line"},
+           {"forge-long-refusal", "a refusal that is no line"},
+           {"forge-refusal-kind", "a refusal that loading a plug-in does not end with"},
+           {"forge-margin", "its margin is no length"},
+           {"forge-length", "no description"}}) {
     setenv("ASSAY_HOSTILE", mode.c_str(), 1);
     WorkerProcess worker(ASSAY_WORKER, plugin("hostile"), {.seconds = .2});
     const auto described = worker.describe();
@@ -206,6 +211,30 @@ TEST_F(Hostile, DeedsHarmNothing) {
     EXPECT_NE(run.end, RunEnd::not_run) << mode << ": " << run.what;
     expect_all_is_well(mode);
   }
+}
+
+// Of the processes of a user who is root the system would count none.
+TEST_F(Hostile, ItStartsNoMoreProcessesThanItMay) {
+  for (const char* mode : {"more-processes-than-allowed", "root-again"}) {
+    const auto run = this->run(mode);
+    EXPECT_EQ(run.end, RunEnd::crashed) << mode;
+    EXPECT_EQ(run.what, "exited with code 3") << mode;
+  }
+}
+
+TEST_F(Hostile, ItIsNotLoadedAgainWithLessIsolation) {
+  setenv("ASSAY_HOSTILE", "", 1);
+  const Isolation whole = {true, true, true};
+  WorkerProcess worker(ASSAY_WORKER, plugin("hostile"),
+                       {.isolation = IsolationMode::none, .least = whole});
+  const auto described = worker.describe();
+  ASSERT_FALSE(described);
+  EXPECT_EQ(described.error().kind, ProblemKind::not_isolated);
+  EXPECT_NE(described.error().message.find("its isolation would be none, and was full"),
+            std::string::npos)
+      << described.error().message;
+  const auto run = worker.run(small_case(31, 0), plugin_alone)[0];
+  EXPECT_EQ(run.end, RunEnd::not_run) << run.what;
 }
 
 TEST_F(Hostile, NothingThatItStartedOutlivesIt) {

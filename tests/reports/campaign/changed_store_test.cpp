@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "properties/campaign/stored/rows.h"
+#include "properties/campaign/database/rows.h"
 #include "tests/reports/campaign/started.h"
 #include "tests/reports/run_fixture.h"
 

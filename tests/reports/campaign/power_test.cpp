@@ -1,7 +1,7 @@
 // `--power DIR`: the proof that planted faults are found, taken from another run of this build.
 #include <gtest/gtest.h>
 
-#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/gates/read_findings.h"
 #include "tests/reports/campaign/power_fixture.h"
 
 namespace assay::tests {

@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_text.h"
 #include "reports/certificate/junit.h"

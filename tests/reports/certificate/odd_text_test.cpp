@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "properties/printable.h"
 #include "reports/certificate/verify.h"
-#include "reports/terminal/printable.h"
 #include "tests/reports/certificate/issued_folder.h"
 
 namespace assay::tests {
@@ -27,7 +27,7 @@ TEST(Printable, IsUtf8WithoutControlCharacters) {
       {"\xf4\x90\x80\x80", unknown + unknown + unknown + unknown},  // above U+10FFFF
   };
   for (const auto& [text, expected] : cases)
-    EXPECT_EQ(reports::printable(text), expected.empty() ? text : expected);
+    EXPECT_EQ(properties::printable(text), expected.empty() ? text : expected);
 }
 
 // All the work is done when the certificate is written: no name may end it then.

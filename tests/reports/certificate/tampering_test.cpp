@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/stored/rows.h"
+#include "properties/campaign/database/rows.h"
 #include "properties/random.h"
 #include "tests/reports/certificate/issued_folder.h"
 

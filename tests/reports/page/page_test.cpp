@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/merge.h"
 #include "properties/faults/fault.h"
 #include "reports/page/data/failure_scenes.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "properties/campaign/stored/rows.h"
+#include "properties/campaign/database/rows.h"
 #include "tests/reports/certificate/issued_folder.h"
 #include "tests/reports/run_fixture.h"
 

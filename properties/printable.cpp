@@ -1,8 +1,8 @@
-#include "reports/terminal/printable.h"
+#include "properties/printable.h"
 
 #include <cstdint>
 
-namespace assay::reports {
+namespace assay::properties {
 namespace {
 
 // The bytes of the character at the front; 0 where there is none. RFC 3629, section 4: no longer
@@ -55,4 +55,4 @@ std::string printable(std::string_view text) {
   return out;
 }
 
-}  // namespace assay::reports
+}  // namespace assay::properties

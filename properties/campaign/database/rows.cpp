@@ -1,4 +1,4 @@
-#include "properties/campaign/stored/rows.h"
+#include "properties/campaign/database/rows.h"
 
 #include <fmt/format.h>
 
@@ -25,21 +25,26 @@ const StoreTable& trial_table() {
                                  {"steps", true},
                                  {"collisions", true},
                                  {"pairs", true},
-                                 {"oracle_us", true},
-                                 {"detector_us", true},
+                                 {"oracle_us", true, false},
+                                 {"detector_us", true, false},
                                  {"counts"},
                                  {"mesh", true},
-                                 {"disturbed", true},
-                                 {"slowest_us", true}},
+                                 {"disturbed", true, false},
+                                 {"slowest_us", true, false}},
                                 1};
   return table;
 }
 
 const StoreTable& failure_table() {
-  static const StoreTable table{
-      "failure",
-      {{"id"}, {"configuration"}, {"signature"}, {"what"}, {"mesh"}, {"smallest"}, {"flaky", true}},
-      2};
+  static const StoreTable table{"failure",
+                                {{"id"},
+                                 {"configuration"},
+                                 {"signature"},
+                                 {"what"},
+                                 {"mesh"},
+                                 {"smallest", false, false},
+                                 {"flaky", true}},
+                                2};
   return table;
 }
 
@@ -82,6 +87,14 @@ std::string column_names(const StoreTable& table) {
   std::string names;
   for (const auto& column : table.columns) names += fmt::format("{},", column.name);
   return names + "hash";
+}
+
+Row lasting_columns(const StoreTable& table, const Row& row) {
+  Row lasting;
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    if (table.columns[c].lasts) lasting.push_back(row[c]);
+  }
+  return lasting;
 }
 
 std::string text_of_number(std::uint64_t number) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "properties/campaign/stored/store_problem.h"
+#include "properties/campaign/database/store_problem.h"
 
 struct sqlite3;
 struct sqlite3_stmt;

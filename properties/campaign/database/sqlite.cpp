@@ -1,4 +1,4 @@
-#include "properties/campaign/stored/sqlite.h"
+#include "properties/campaign/database/sqlite.h"
 
 #include <fmt/format.h>
 #include <sqlite3.h>

@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-namespace assay::reports {
+namespace assay::properties {
 
 // UTF-8 without control characters: each of these becomes '?', each byte that is no part of a
 // character U+FFFD. JSON, XML and a terminal then take it as it is.
 std::string printable(std::string_view text);
 
-}  // namespace assay::reports
+}  // namespace assay::properties

@@ -10,13 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/stored/sqlite.h"
+#include "properties/campaign/database/sqlite.h"
 
 namespace assay::properties {
 
 struct StoreColumn {
   const char* name;
   bool is_number = false;  // of 64 bits, as SQLite holds it: with a sign
+  // The same from one run to the next. Times are not, nor what somebody disturbed, nor how far a
+  // case was shrunk in its time.
+  bool lasts = true;
 };
 
 // Every table has one column more, `hash`. Without row numbers: what a merged file holds then
@@ -43,6 +46,9 @@ std::string column_names(const StoreTable& table);
 
 // A row's columns in their order, without the hash. Numbers are decimal.
 using Row = std::vector<std::string>;
+
+// The columns of a row that last.
+Row lasting_columns(const StoreTable& table, const Row& row);
 
 std::string text_of_number(std::uint64_t number);
 // Throws StoreProblem (damaged_store) on a text that is none.

@@ -1,0 +1,254 @@
+#include "properties/campaign/gates/read_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "corpus/digest.h"
+#include "properties/campaign/stored/row_of.h"
+#include "properties/campaign/stored/run_folder.h"
+
+namespace assay::properties {
+namespace {
+
+// A configuration is near its limit from a third of it on.
+constexpr double near_share = 1. / 3;
+
+// A chain: the digest so far and the next row make the next digest. Each column stands behind its
+// length, so that two rows are never one text.
+class RowsDigest {
+ public:
+  void add(const std::vector<std::string>& row) {
+    std::string bytes = digest_;
+    for (const auto& column : row) bytes += fmt::format("{}:{}", column.size(), column);
+    digest_ = corpus::sha256_of(bytes);
+  }
+  const std::string& value() const { return digest_; }
+
+ private:
+  std::string digest_ = corpus::sha256_of("");
+};
+
+bool is_before(const StoredFailure& a, const StoredFailure& b) {
+  const auto key = [](const StoredFailure& f) {
+    return std::tuple(f.signature, f.smallest.empty(), f.smallest.size(), f.id, f.configuration);
+  };
+  return key(a) < key(b);
+}
+
+// Of "I/N"; nothing for other words. Throws StoreProblem where there is no such shard: whoever
+// looks for those that are missing counts up to N.
+std::optional<Shard> shard_of(const std::string& text) {
+  const auto slash = text.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  const Shard shard{number_of_text(text.substr(0, slash)), number_of_text(text.substr(slash + 1))};
+  constexpr std::uint64_t most_shards = 1'000'000;
+  if (shard.index < 1 || shard.index > shard.count || shard.count > most_shards)
+    throw StoreProblem(ProblemKind::damaged_store, fmt::format("no run has a shard {}", text));
+  return shard;
+}
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& folder, KnownRows known) : known_(std::move(known)) {
+    found_.folder = folder;
+  }
+
+  RunFindings read_folder() {
+    refuse_lost_files();
+    auto files = value_or_throw(stored_shards(found_.folder));
+    const auto merged = merged_file(found_.folder), checks = checks_file(found_.folder);
+    if (std::find(files.begin(), files.end(), merged) != files.end()) {
+      refuse_newer_shards(files, merged);
+      files = {merged};
+    }
+    std::error_code ignored;
+    if (std::filesystem::exists(checks, ignored)) files.push_back(checks);
+    std::sort(files.begin(), files.end());
+    return read(files);
+  }
+
+  RunFindings read(const std::vector<std::filesystem::path>& files) {
+    for (const auto& file : files) add(file);
+    std::sort(evidence_.begin(), evidence_.end(), [](const Evidence& a, const Evidence& b) {
+      return std::tie(a.kind, a.name, a.shard) < std::tie(b.kind, b.name, b.shard);
+    });
+    for (const auto& row : evidence_) found_.evidence.take(row);
+    if (found_.evidence.power.size() > 1)
+      throw StoreProblem(ProblemKind::contradiction,
+                         fmt::format("{}: its shards took their proofs of planted faults from "
+                                     "different runs",
+                                     found_.folder.string()));
+    if (found_.evidence.paths) found_.library = found_.evidence.paths->detector;
+    std::sort(found_.failures.begin(), found_.failures.end(), is_before);
+    found_.rows = rows_.value();
+    find_missing();
+    return std::move(found_);
+  }
+
+  RunFindings read_alone(const std::filesystem::path& file) {
+    auto found = read({file});
+    if (found.shards.size() == 1 && found.shard_count > 1) found.alone = found.shards[0];
+    return found;
+  }
+
+ private:
+  // A merged store goes before the shards that it was made of.
+  static void refuse_newer_shards(const std::vector<std::filesystem::path>& files,
+                                  const std::filesystem::path& merged) {
+    const auto whole = Store::read(merged);
+    for (const auto& file : files) {
+      if (file == merged) continue;
+      const auto shard = Store::read(file);
+      if (!whole || !shard) continue;  // told where it is read
+      shard.value().for_each_trial([&](const TrialRecord& r) {
+        if (whole.value().has_trial(r.id)) return;
+        throw StoreProblem(ProblemKind::stale_merge,
+                           fmt::format("{}: holds {}, which {} does not: merge again",
+                                       file.string(), r.id, merged.filename().string()));
+      });
+    }
+  }
+
+  void refuse_lost_files() const {
+    std::error_code ignored;
+    for (const auto& [name, rows] : known_) {
+      if (!std::filesystem::exists(found_.folder / name, ignored))
+        throw StoreProblem(ProblemKind::not_as_stored,
+                           fmt::format("{}: was taken away while this run was at work",
+                                       (found_.folder / name).string()));
+    }
+  }
+
+  // Of the same state of the file that is read afterwards.
+  void check_against_known(const Store& store, const std::filesystem::path& file) const {
+    if (known_.empty()) return;
+    const auto known = known_.find(file.filename().string());
+    if (known == known_.end())
+      throw StoreProblem(ProblemKind::not_as_stored,
+                         fmt::format("{}: was not stored by this run", file.string()));
+    value_or_throw(store.check_against(*known->second));
+  }
+
+  void add(const std::filesystem::path& file) {
+    const Store store = value_or_throw(Store::read(file));
+    check_against_known(store, file);
+    const auto binding = value_or_throw(read_binding(store.binding(), file));
+    if (binding_.empty()) {
+      binding_ = store.binding();
+      found_.run = binding;
+      found_.tally.near_from_us =
+          static_cast<std::uint64_t>(1e6 * near_share * std::min(binding.plan.case_seconds, 1e9));
+    }
+    const auto difference = difference_of(binding_, store.binding());
+    if (!difference.empty())
+      throw StoreProblem(ProblemKind::another_run,
+                         fmt::format("{}: holds stores of different runs: {}",
+                                     found_.folder.string(), difference));
+    const auto digest = corpus::sha256_of_file(file);
+    if (!digest) throw StoreProblem(ProblemKind::cannot_read, digest.error().message);
+    found_.files.push_back({file.filename().string(), digest.value()});
+    if (const auto library = noted_library(store)) found_.library = *library;
+    take_rows(store, file, binding.shard);
+  }
+
+  void take_rows(const Store& store, const std::filesystem::path& file, const std::string& name) {
+    const auto shard = shard_of(name);
+    if (shard) {
+      const bool is_first = found_.shards.empty();
+      const bool is_there =
+          std::any_of(found_.shards.begin(), found_.shards.end(),
+                      [&](const Shard& other) { return other.index == shard->index; });
+      if (is_there || (!is_first && shard->count != found_.shard_count))
+        throw StoreProblem(ProblemKind::wrong_shards,
+                           fmt::format("{}: shard {} does not stand beside the others: it is there "
+                                       "already, or of another number of shards",
+                                       file.string(), name));
+      found_.shards.push_back(*shard);
+      found_.shard_count = shard->count;
+    } else if (name == merged_shard) {
+      found_.shards.push_back({1, 1});
+    }
+    const auto& plan = found_.run.plan;
+    store.for_each_trial([&](const TrialRecord& r) {
+      const auto family =
+          std::find_if(plan.strata.begin(), plan.strata.end(),
+                       [&](const StratumPlan& stratum) { return stratum.family == r.family; });
+      const bool is_planned = family != plan.strata.end() && r.index < family->cases &&
+                              r.id == trial_id(plan, found_.run.seed, r.family, r.index);
+      const bool is_of_shard = shard ? shard->holds(r.index) : name == merged_shard;
+      if (!is_planned || !is_of_shard)
+        throw StoreProblem(ProblemKind::damaged_store,
+                           fmt::format("{}: {} is no trial of this shard", file.string(), r.id));
+      found_.tally.add(r);
+      rows_.add(lasting_columns(trial_table(), row_of(r)));
+    });
+    for (const auto& [signature, met] : store.signatures()) {
+      found_.met[signature] += met;
+      rows_.add({signature, text_of_number(met)});
+    }
+    for (auto& failure : store.failures()) {
+      rows_.add(lasting_columns(failure_table(), row_of(failure)));
+      found_.failures.push_back(std::move(failure));
+    }
+    for (auto& row : store.evidence()) {
+      if (!may_differ(row)) rows_.add(row_of(row));
+      if (!is_taken_already(row, file)) evidence_.push_back(std::move(row));
+    }
+  }
+
+  // Proofs that were taken over stand in every shard's store, the same in each. Throws where two
+  // differ: neither could be believed.
+  bool is_taken_already(const Evidence& row, const std::filesystem::path& file) const {
+    if (row.shard != power_shard) return false;
+    const auto known = std::find_if(evidence_.begin(), evidence_.end(), [&](const auto& other) {
+      return other.shard == power_shard && other.kind == row.kind && other.name == row.name;
+    });
+    if (known == evidence_.end()) return false;
+    if (known->facts != row.facts)
+      throw StoreProblem(ProblemKind::contradiction,
+                         fmt::format("{}: evidence {} {} differs from that of another store",
+                                     file.string(), row.kind, row.name));
+    return true;
+  }
+
+  void find_missing() {
+    for (std::uint64_t i = 1; i <= found_.shard_count; ++i) {
+      const auto is_there = [&](const Shard& shard) { return shard.index == i; };
+      if (std::none_of(found_.shards.begin(), found_.shards.end(), is_there))
+        found_.missing.push_back({i, found_.shard_count});
+    }
+  }
+
+  const KnownRows known_;
+  RunFindings found_;
+  std::string binding_;
+  std::vector<Evidence> evidence_;
+  RowsDigest rows_;
+};
+
+template <class Read>
+Expected<RunFindings> told(const std::filesystem::path& name, const Read& read) {
+  try {
+    return catch_store_problem(read);
+  } catch (const std::exception& failure) {
+    // Numbers inside of a store that somebody changed.
+    return Problem{ProblemKind::damaged_store,
+                   fmt::format("{}: not what a run stores: {}", name.string(), failure.what())};
+  }
+}
+
+}  // namespace
+
+Expected<RunFindings> read_one_store(const std::filesystem::path& file, const RowTally* known) {
+  KnownRows rows;
+  if (known) rows[file.filename().string()] = known;
+  return told(file, [&] { return Reader(file.parent_path(), std::move(rows)).read_alone(file); });
+}
+
+Expected<RunFindings> read_findings(const std::filesystem::path& folder, const KnownRows& known) {
+  return told(folder, [&] { return Reader(folder, known).read_folder(); });
+}
+
+}  // namespace assay::properties

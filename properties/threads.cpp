@@ -1,0 +1,34 @@
+#include "properties/threads.h"
+
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace assay::properties {
+
+void in_threads(int jobs, const std::function<void()>& work) {
+  std::mutex mutex;
+  std::exception_ptr first;
+  const auto guarded = [&] {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!first) first = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    try {
+      for (int j = 1; j < jobs; ++j) others.emplace_back(guarded);
+    } catch (const std::system_error&) {
+      // No more threads than these.
+    }
+    guarded();
+  }
+  if (first) std::rethrow_exception(first);
+}
+
+}  // namespace assay::properties

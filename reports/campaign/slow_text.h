@@ -1,0 +1,22 @@
+// The slow cases of a run: their files, and what is printed of them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "properties/campaign/gates/findings.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/option_words.h"
+
+namespace assay::reports {
+
+// Writes OUT/slow/ID-CONFIGURATION-original.json and -smallest.json for each case that was kept, and
+// a picture of the smaller one.
+Expected<void> write_slow_cases(const std::vector<properties::SlowCase>& cases,
+                                const std::filesystem::path& out, const DetectorWords& detector);
+
+// The trials without a verdict, then the slowest of the others, each with its processor time, the
+// line that replays it and, where one was kept, the smallest mesh and its picture.
+std::string slow_trials_text(const properties::RunFindings& findings);
+
+}  // namespace assay::reports

@@ -1,0 +1,28 @@
+#include "reports/check/claims_tally.h"
+
+#include <algorithm>
+
+namespace assay::reports {
+
+void ClaimsTally::add(const properties::StepDiff& diff, const detector::StepResult& result,
+                      const oracle::StepJudgement& judgement) {
+  if (!plugin_) return;
+  properties::count_measures({&diff, 1}, {&result, 1}, {&judgement, 1}, counts_);
+  properties::count_left_out(0, 0, diff.left_out_missed ? 1 : 0, counts_);
+}
+
+void ClaimsTally::tell(CheckOutcome& outcome, std::size_t steps_left_out) const {
+  if (!plugin_) return;
+  outcome.measures = properties::measures_in(counts_);
+  outcome.measures.steps_left_out = steps_left_out;
+  std::vector<std::string> claims;
+  for (const auto claim : list_of(plugin_->claims)) claims.emplace_back(name_of(claim));
+  outcome.not_judged = properties::not_judged(claims, plugin_->contract, outcome.measures);
+  for (const auto& claim : claims) {
+    const bool is_judged = std::none_of(outcome.not_judged.begin(), outcome.not_judged.end(),
+                                        [&](const auto& one) { return one.claim == claim; });
+    if (is_judged) outcome.held.push_back(claim);
+  }
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,85 @@
+// The laws of what is carried from step to step, put to the curated cases: from a point, and under
+// view-auto, whose steps may have views or not; and in which steps it used them, where a case
+// states that.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "properties/laws/law.h"
+#include "tests/properties/laws/judged_case.h"
+
+namespace assay::properties::test {
+namespace {
+
+constexpr std::string_view carried_laws[] = {"L8_CarriedCleanIsClean",
+                                             "L8_WhatIsNotCleanStaysDirty",
+                                             "L8_CleanAndUntouchedStaysClean",
+                                             "L9_DirtyIsTheOraclesAccount",
+                                             "L9_NewStartIsTheOraclesLayers",
+                                             "L11_ViolatedIsWhatGhostsTouch",
+                                             "L11_ApexesGoOnFromWhereTheyWere",
+                                             "Change_RepeatedCall",
+                                             "Change_RowStride",
+                                             "Change_RestoredStateGoesOn"};
+
+std::vector<corpus::Case> curated_cases() {
+  const auto files = corpus::case_files(std::filesystem::path(ASSAY_SOURCE_DIR) / "corpus/curated");
+  std::vector<corpus::Case> cases;
+  for (const auto& file : files.value()) cases.push_back(corpus::read_case(file).value());
+  return cases;
+}
+
+struct Played {
+  const char* name;
+  detector::Culling culling;
+  detector::Pairs pairs;
+};
+
+class CuratedLaws : public testing::TestWithParam<Played> {};
+
+TEST_P(CuratedLaws, OfWhatIsCarriedHold) {
+  LawTally sum;
+  for (const auto& c : curated_cases()) {
+    if (c.expected.answer == detector::Answer::error) continue;
+    Setting setting;
+    setting.options.culling = GetParam().culling;
+    setting.options.pairs = GetParam().pairs;
+    const JudgedCase judged(c, setting);
+    CaseFacts facts = judged.facts();
+    for (const auto name : carried_laws) {
+      LawTally tally;
+      law_named(name)->check(facts, tally);
+      EXPECT_EQ(tally.broken, 0u) << name << ": " << tally.first_broken;
+      sum += tally;
+    }
+  }
+  EXPECT_GT(sum.premise, 500u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Views, CuratedLaws,
+    testing::Values(Played{"Auto", detector::Culling::view_auto, detector::Pairs::all},
+                    Played{"AutoFirst", detector::Culling::view_auto, detector::Pairs::first},
+                    Played{"Point", detector::Culling::view_point, detector::Pairs::all},
+                    Played{"PointFirst", detector::Culling::view_point, detector::Pairs::first}),
+    [](const auto& played) { return std::string(played.param.name); });
+
+// "views_used" of a case: 1 for each step in which view-auto used its views, 0 for the others.
+TEST(CuratedViews, AreUsedInTheStepsThatAreStated) {
+  int stated = 0;
+  for (const auto& c : curated_cases()) {
+    const auto pending = nlohmann::json::parse(c.pending);
+    if (!pending.contains("views_used")) continue;
+    ++stated;
+    auto player = CasePlayer::make(c, {});
+    ASSERT_TRUE(player) << c.id;
+    std::vector<int> used;
+    for (std::size_t s = 0; s < player.value().steps(); ++s)
+      used.push_back(player.value().play(s).signs.empty() ? 0 : 1);
+    EXPECT_EQ(used, pending["views_used"].get<std::vector<int>>()) << c.id;
+  }
+  EXPECT_GE(stated, 4);
+}
+
+}  // namespace
+}  // namespace assay::properties::test

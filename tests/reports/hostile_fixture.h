@@ -1,0 +1,207 @@
+// A plug-in that tries everything (tests/plugins/hostile.cpp), put to the verbs that judge.
+#pragma once
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+
+// What it does, and the exit code that a campaign of it ends with: 1 where it answers, crashes or
+// is caught, 2 where it cannot even be loaded, 3 where it hangs. How long starting hundreds of
+// processes takes decides whether that one hangs.
+struct HostileMode {
+  const char* name;
+  std::vector<int> exit_codes = {1};
+};
+
+// Those that end at once.
+inline const std::vector<HostileMode>& quick_modes() {
+  static const std::vector<HostileMode> modes = {{"forge-no-steps"},
+                                                 {"forge-more-steps"},
+                                                 {"forge-not-run"},
+                                                 {"forge-hung"},
+                                                 {"forge-crashed"},
+                                                 {"forge-refused-with-steps"},
+                                                 {"forge-end"},
+                                                 {"forge-answer"},
+                                                 {"forge-number"},
+                                                 {"forge-place"},
+                                                 {"forge-text"},
+                                                 {"forge-control"},
+                                                 {"forge-bytes"},
+                                                 {"forge-long-text"},
+                                                 {"forge-no-interval"},
+                                                 {"forge-pair-beyond"},
+                                                 {"forge-pair-of-one"},
+                                                 {"forge-pair-twice"},
+                                                 {"forge-pair-time"},
+                                                 {"forge-free-with-pairs"},
+                                                 {"forge-views"},
+                                                 {"forge-counts"},
+                                                 {"forge-bool"},
+                                                 {"forge-count-of-steps"},
+                                                 {"forge-garbage"},
+                                                 {"forge-nothing"},
+                                                 {"forge-lies"},
+                                                 {"forge-length", {2}},
+                                                 {"forge-name", {2}},
+                                                 {"forge-margin", {2}},
+                                                 {"forge-refusal", {2}},
+                                                 {"forge-refusal-kind", {2}},
+                                                 {"overwrite"},
+                                                 {"truncate"},
+                                                 {"unlink"},
+                                                 {"rename"},
+                                                 {"link"},
+                                                 {"make-beside"},
+                                                 {"write-own-program"},
+                                                 {"daemon"},
+                                                 {"kill-bystander"},
+                                                 {"kill-parents"},
+                                                 {"stop-bystander"},
+                                                 {"queue-bystander"},
+                                                 {"trace-bystander"},
+                                                 {"write-bystander"},
+                                                 {"memory-of-bystander"},
+                                                 {"memory-of-parent"},
+                                                 {"descriptors"},
+                                                 {"close-descriptors"},
+                                                 {"descriptors-of-parent"},
+                                                 {"many-processes", {1, 3}},
+                                                 {"socket"},
+                                                 {"terminal"},
+                                                 {"new-user"},
+                                                 {"kill-itself"},
+                                                 {"deep-stack"},
+                                                 {"exit-at-load", {2}},
+                                                 {"exit-at-describe", {2}},
+                                                 {"exit-at-create"},
+                                                 {"exit-at-evaluate"},
+                                                 {"exit-at-commit"},
+                                                 {"exit-at-result"},
+                                                 {"exit-at-destroy"}};
+  return modes;
+}
+
+// Those that hang until a limit ends them.
+inline const std::vector<HostileMode>& hanging_modes() {
+  static const std::vector<HostileMode> modes = {
+      {"spin", {3}},           {"hang-at-create", {3}}, {"hang-at-evaluate", {3}},
+      {"hang-at-commit", {3}}, {"hang-at-result", {3}}, {"hang-at-destroy", {3}}};
+  return modes;
+}
+
+class HostilePlugin : public testing::Test {
+ protected:
+  // In the environment of the program: what hostile.cpp does.
+  static void does(const std::string& mode) { setenv("ASSAY_HOSTILE", mode.c_str(), 1); }
+
+  static void SetUpTestSuite() {
+    other_ = std::make_unique<Scratch>();
+    const auto made = run_assay("run --campaign " + other_->write("plan.json", plan_text(4)) +
+                                " --out " + *other_ / "out");
+    ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  }
+  static void TearDownTestSuite() { other_.reset(); }
+
+  HostilePlugin() : bystander_(fork()), before_(files_of_the_other()) {
+    if (bystander_ == 0) {
+      for (;;) pause();
+    }
+    setenv("ASSAY_VICTIM", (*other_ / "out/shard-1-of-1.sqlite").c_str(), 1);
+    setenv("ASSAY_BYSTANDER", std::to_string(bystander_).c_str(), 1);
+  }
+  ~HostilePlugin() override {
+    kill(bystander_, SIGKILL);
+    waitpid(bystander_, nullptr, 0);
+  }
+
+  Outcome judge(const std::string& verb, const std::string& mode, const std::string& more = "",
+                const std::string& prefix = "") {
+    does(mode);
+    out = scratch / (verb + "-" + std::to_string(runs_++));
+    return run_assay(verb + " --jobs 2 --campaign " + plan + " --detector " + hostile + " --out " +
+                         out + " " + more,
+                     prefix);
+  }
+
+  // Under a limit that is an option of prlimit. The exit code, which is never one of a verdict that
+  // holds, of a crash or of a doubt of the program about itself.
+  int expect_no_excuse(const std::string& verb, const std::string& mode, const std::string& limit,
+                       const std::string& prefix = "") {
+    const auto ended = judge(verb, mode, "", prefix + "prlimit " + limit + " ");
+    EXPECT_TRUE(ended.exit_code == 1 || ended.exit_code == 2 || ended.exit_code == 3)
+        << verb << " " << mode << " " << limit << ": " << ended.exit_code << "\n"
+        << ended.out << ended.err;
+    if (ended.exit_code == 2) {
+      EXPECT_EQ(ended.err.rfind("assay: ", 0), 0u) << limit << ": " << ended.err;
+      EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+    }
+    expect_unharmed(mode);
+    return ended.exit_code;
+  }
+
+  // Another run's files, and a process, are as they were.
+  void expect_unharmed(const std::string& mode) const {
+    EXPECT_EQ(files_of_the_other(), before_) << mode;
+    const auto status = read_text("/proc/" + std::to_string(bystander_) + "/stat");
+    EXPECT_TRUE(contains(status, ") S ")) << mode << ": " << status;
+  }
+
+  // What is left of a run or a certificate that was judged.
+  void expect_no_verdict_bought(const std::string& verb, const HostileMode& mode,
+                                const Outcome& ended) const {
+    const auto is_expected =
+        std::count(mode.exit_codes.begin(), mode.exit_codes.end(), ended.exit_code) > 0;
+    EXPECT_TRUE(is_expected) << verb << " " << mode.name << ": " << ended.exit_code << "\n"
+                             << ended.out << ended.err;
+    expect_unharmed(mode.name);
+    if (ended.exit_code == 2) {
+      expect_refused(ended, "");
+      return;
+    }
+    EXPECT_TRUE(contains(ended.out, "\nisolation: ")) << ended.out;
+    const auto summary = read_text(out + "/summary.md");
+    EXPECT_TRUE(contains(summary, "isolation ")) << mode.name << "\n" << summary;
+    EXPECT_FALSE(contains(summary, "## Assay: certified")) << mode.name;
+    EXPECT_FALSE(contains(summary, "## Assay: holds")) << mode.name;
+    if (verb != "certify") return;
+    const auto certificate = out + "/certificate.json";
+    const auto verdict =
+        nlohmann::json::parse(read_text(certificate))["predicate"]["verdict"].get<std::string>();
+    EXPECT_EQ(verdict, ended.exit_code == 1 ? "defect" : "incomplete") << mode.name;
+    EXPECT_EQ(run_assay("verify " + certificate).exit_code, ended.exit_code) << mode.name;
+  }
+
+  const Scratch scratch;
+  const std::string plan =
+      scratch.write("plan.json", R"({"schema": "assay-campaign/1", "name": "tiny",)"
+                                 R"( "seconds": 60, "case_seconds": 0.1, "shrink_share": 0.001,)"
+                                 R"( "strata": [{"family": "closed-generic", "cases": 3}]})");
+  const std::string hostile = plugin("hostile");
+  const std::string without_landlock = std::string(ASSAY_PLUGIN_DIR) + "/without_landlock ";
+  std::string out;
+
+ private:
+  static std::map<std::string, std::string> files_of_the_other() {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(*other_ / "")) {
+      if (entry.is_regular_file()) files[entry.path()] = read_text(entry.path());
+    }
+    return files;
+  }
+
+  inline static std::unique_ptr<Scratch> other_;
+  const pid_t bystander_;
+  const std::map<std::string, std::string> before_;
+  int runs_ = 0;
+};
+
+}  // namespace assay::tests
