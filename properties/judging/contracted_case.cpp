@@ -5,7 +5,7 @@
 
 #include "oracle/instant/nearness.h"
 #include "properties/judging/judged_query.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 namespace {

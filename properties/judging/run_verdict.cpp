@@ -4,7 +4,7 @@
 
 #include "properties/judging/candidate_check.h"
 #include "properties/judging/judged_query.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 

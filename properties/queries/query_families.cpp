@@ -7,7 +7,7 @@
 
 #include "properties/queries/extreme_queries.h"
 #include "properties/queries/query_generators.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 namespace {

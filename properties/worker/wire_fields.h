@@ -11,7 +11,7 @@
 #include "properties/worker/case_run.h"
 #include "properties/worker/isolation/keeper.h"
 #include "properties/worker/plugin/plugin_description.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 #include "properties/worker/wire.h"
 
 namespace assay::properties {
@@ -165,9 +165,7 @@ void fields(Wire& wire, Hello& hello) {
 // What a request asks for.
 enum class RequestKind : std::uint8_t { run, queries };
 template <>
-struct LastOf<RequestKind> {
-  static constexpr auto value = RequestKind::queries;
-};
+inline constexpr auto last_of<RequestKind> = RequestKind::queries;
 
 // One case and how to run it; a RunReply comes back for each configuration, in order.
 struct RunRequest {

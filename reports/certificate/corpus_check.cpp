@@ -9,7 +9,7 @@
 #include "corpus/scenes/scenes.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/rung_cases.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::reports {
@@ -155,7 +155,8 @@ corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
 Expected<void> check_queries(const properties::CampaignRequest& request,
                              const std::filesystem::path& corpus, const OnCorpusRow& on_row,
                              const OnCorpusFailure& on_failure) {
-  JudgedRows named(request, "named queries", on_failure);
+  int hung = 0;
+  JudgedRows named(request, "named queries", on_failure, hung);
   std::uint64_t place = 0;
   for (const auto& one : properties::rung_cases())
     named.add(properties::case_of_query(one.query, fmt::format("named-query-{}", place++)));
@@ -163,7 +164,7 @@ Expected<void> check_queries(const properties::CampaignRequest& request,
   const auto file = corpus / ".." / "queries" / "example_vf.csv";
   const auto queries = corpus::read_queries(file);
   if (!queries) return Refusal(queries.error());
-  JudgedRows labelled(request, file.filename().string(), on_failure);
+  JudgedRows labelled(request, file.filename().string(), on_failure, hung);
   place = 0;
   for (const auto& one : queries.value()) {
     const auto query =

@@ -130,8 +130,9 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& librar
   }
   const std::size_t left_out = corpus::steps_of(input.c).size() - corpus::steps_of(*seen).size();
   input.c = std::move(*seen);
-  return std::unique_ptr<Subject>(std::make_unique<Plugin>(
-      std::move(worker), std::move(description.value()), library, limits.threads, input.c, left_out));
+  return std::unique_ptr<Subject>(std::make_unique<Plugin>(std::move(worker),
+                                                           std::move(description.value()), library,
+                                                           limits.threads, input.c, left_out));
 }
 
 }  // namespace assay::reports

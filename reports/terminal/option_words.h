@@ -49,8 +49,8 @@ Check positive();      // a number above 0
 Check whole_number();  // 0 .. 2^64-1
 Check share();         // a number above 0, at most 1
 
-// What of a plug-in is judged: `by_library` is its steps, or candidates, where it has these, else its
-// query.
+// What of a plug-in is judged: `by_library` is its steps, or candidates, where it has these, else
+// its query.
 enum class DetectorPart : std::uint8_t { by_library, steps, query };
 
 // A detector as the user names it.

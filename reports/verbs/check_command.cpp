@@ -259,7 +259,9 @@ int run_check(const CheckRequest& request) {
                      : make_plugin_subject(request.detector.library,
                                            {request.time_limit.value_or(no_limit_seconds),
                                             request.memory_limit.value_or(0),
-                                            request.detector.isolation, request.detector.threads},
+                                            request.detector.isolation,
+                                            {},
+                                            request.detector.threads},
                                            input.value());
   if (!subject) return refuse(subject.error());
   auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/words.h"
-#include "reports/check/query_detector.h"
 #include "reports/check/query_score.h"
+#include "reports/queries/query_detector.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/joined.h"
 #include "reports/terminal/option_words.h"

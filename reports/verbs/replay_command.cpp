@@ -15,7 +15,7 @@
 #include "properties/printable.h"
 #include "properties/queries/query_families.h"
 #include "properties/reducer/mesh_size.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
 #include "reports/steps/case_export.h"

@@ -5,7 +5,7 @@
 #include "properties/campaign/phases/shrink.h"
 #include "properties/judging/case_check.h"
 #include "properties/reducer/mesh_size.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 #include "reports/check/detector_choice.h"
 #include "reports/pictures/scene_maker.h"
 #include "reports/terminal/complaint.h"
@@ -75,7 +75,7 @@ int run_shrink(const ShrinkRequest& request) {
   }
   constexpr double hang_seconds = 10;
   properties::WorkerProcess worker(subject.worker, subject.plugin,
-                                   {hang_seconds, 0, subject.isolation, subject.threads});
+                                   {hang_seconds, 0, subject.isolation, {}, subject.threads});
   const auto failing = find_failure(c, subject.detector, worker);
   if (!failing) {
     fmt::print("{}: holds in every configuration; there is nothing to shrink\n", request.file);

@@ -6,7 +6,7 @@
 
 #include "properties/judging/case_check.h"
 #include "properties/judging/cause.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 

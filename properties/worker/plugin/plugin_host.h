@@ -10,7 +10,7 @@
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_description.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 

@@ -7,7 +7,7 @@
 #include "detector/plugin/assay_detector.h"
 #include "detector/step_result.h"
 #include "properties/problem.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 

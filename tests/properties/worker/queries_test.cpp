@@ -7,7 +7,7 @@
 
 #include "properties/campaign/phases/trial.h"
 #include "properties/queries/query_families.h"
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 

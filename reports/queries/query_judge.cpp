@@ -1,10 +1,10 @@
-#include "properties/campaign/phases/query_trials.h"
+#include "reports/queries/query_judge.h"
 
 #include <chrono>
 
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 
-namespace assay::properties {
+namespace assay::reports {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -21,38 +21,38 @@ std::vector<JudgedQuery> QueryJudge::judge(std::span<const detector::FourPoints>
   std::vector<corpus::Case> cases;
   std::vector<detector::FourPoints> asked;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const auto given = case_of_query(queries[i], "query");
-    auto seen = contracted(given, detector_.contract);
+    const auto given = properties::case_of_query(queries[i], "query");
+    auto seen = properties::contracted(given, detector_.contract);
     if (!seen) continue;
     judged[i].is_within = true;
     judged[i].is_rounded = !same_frames(given, *seen);
     places.push_back(i);
-    asked.push_back(*query_of(*seen));
+    asked.push_back(*properties::query_of(*seen));
     cases.push_back(std::move(*seen));
   }
-  // Starts it, where that has to be, before the time is taken; its problems come back with the runs.
+  // Starts it before the time is taken; its problems come back with the runs.
   [[maybe_unused]] const auto started = worker_.describe();
   const auto begin = Clock::now();
   auto runs = worker_.ask(asked);
   const std::chrono::duration<double, std::micro> took = Clock::now() - begin;
-  std::vector<CaseRun> again;
+  std::vector<properties::CaseRun> again;
   if (detector_.claims.deterministic) again = worker_.ask(asked);
-  const Configuration configuration{"query", {}};
+  const properties::Configuration configuration{"query", {}};
   for (std::size_t i = 0; i < places.size(); ++i) {
     JudgedQuery& one = judged[places[i]];
-    const auto truth = judge_case(cases[i], detector_.contract);
-    auto verdict = judge_trial(cases[i], truth, runs[i], configuration, detector_,
-                               again.empty() ? nullptr : &again[i]);
-    count_measures(verdict.steps, runs[i].steps, truth, counts_);
+    const auto truth = properties::judge_case(cases[i], detector_.contract);
+    auto verdict = properties::judge_trial(cases[i], truth, runs[i], configuration, detector_,
+                                           again.empty() ? nullptr : &again[i]);
+    properties::count_measures(verdict.steps, runs[i].steps, truth, counts_);
     one.contact = !truth[0].pairs.empty();
     one.first = truth[0].first;
     one.outcome = verdict.outcome;
     one.failure = std::move(verdict.failure);
     one.microseconds = took.count() / static_cast<double>(places.size());
-    crashes_ += runs[i].end == RunEnd::crashed ? 1 : 0;
+    crashes_ += runs[i].end == properties::RunEnd::crashed ? 1 : 0;
     one.run = std::move(runs[i]);
   }
   return judged;
 }
 
-}  // namespace assay::properties
+}  // namespace assay::reports

@@ -1,4 +1,4 @@
-#include "reports/check/query_self_test.h"
+#include "reports/queries/family_run.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "properties/queries/self_test_run.h"
-#include "reports/check/query_detector.h"
+#include "reports/queries/query_detector.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/shell_word.h"
 
@@ -26,7 +26,7 @@ struct FamilyCount {
   std::string first_failure;  // its name in the self-test
 };
 
-void count_query(FamilyCount& count, const properties::JudgedQuery& one, const std::string& name) {
+void count_query(FamilyCount& count, const JudgedQuery& one, const std::string& name) {
   ++count.queries;
   count.contacts += one.contact ? 1 : 0;
   count.left_out += one.is_within ? 0 : 1;

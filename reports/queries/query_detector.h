@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/phases/query_trials.h"
 #include "properties/campaign/request.h"
+#include "reports/queries/query_judge.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 
@@ -33,8 +33,8 @@ class QueryDetector {
 
   // Judges some; names: one for each. Refused where no worker can be started. The queries that are
   // left out because it crashed too often before are not within.
-  Expected<std::vector<properties::JudgedQuery>> judge(
-      const std::vector<detector::FourPoints>& queries, const std::vector<std::string>& names);
+  Expected<std::vector<JudgedQuery>> judge(const std::vector<detector::FourPoints>& queries,
+                                           const std::vector<std::string>& names);
 
   // What all came to, a line each: what it does whatever it claims, the claims that are broken and
   // by which queries, and the verdict.
@@ -50,7 +50,7 @@ class QueryDetector {
   // On the heap: the judge holds on to them when this is moved.
   std::unique_ptr<properties::CampaignRequest> request_;
   std::unique_ptr<properties::WorkerProcess> worker_;
-  std::unique_ptr<properties::QueryJudge> judge_;
+  std::unique_ptr<QueryJudge> judge_;
   std::uint64_t judged_ = 0, left_out_ = 0, undecided_ = 0, not_asked_ = 0, defects_ = 0;
   std::map<std::string, std::uint64_t> broken_;  // queries, by claim
   std::vector<BrokenQuery> shown_;               // the first of each signature

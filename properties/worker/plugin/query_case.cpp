@@ -1,4 +1,4 @@
-#include "properties/worker/query_case.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 namespace {

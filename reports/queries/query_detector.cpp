@@ -1,4 +1,4 @@
-#include "reports/check/query_detector.h"
+#include "reports/queries/query_detector.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,6 @@
 
 namespace assay::reports {
 
-using properties::JudgedQuery;
 using properties::Outcome;
 
 namespace {
@@ -29,8 +28,8 @@ QueryDetector::QueryDetector(std::unique_ptr<properties::CampaignRequest> reques
     : request_(std::move(request)),
       worker_(std::make_unique<properties::WorkerProcess>(
           request_->worker, request_->plugin,
-          properties::WorkerLimits{query_seconds, 0, request_->isolation, request_->threads})),
-      judge_(std::make_unique<properties::QueryJudge>(request_->detector, *worker_)) {}
+          properties::WorkerLimits{query_seconds, 0, request_->isolation, {}, request_->threads})),
+      judge_(std::make_unique<QueryJudge>(request_->detector, *worker_)) {}
 
 Expected<QueryDetector> QueryDetector::open(const DetectorWords& words) {
   auto request = std::make_unique<properties::CampaignRequest>();

@@ -10,7 +10,7 @@
 #include "properties/campaign/stored/step_measures.h"
 #include "properties/worker/worker_process.h"
 
-namespace assay::properties {
+namespace assay::reports {
 
 // What came of one query.
 struct JudgedQuery {
@@ -18,16 +18,16 @@ struct JudgedQuery {
   bool is_rounded = false;  // by the contract: it is another query than was given
   bool contact = false;     // by the oracle, at `first`
   detector::TimeEnclosure first;
-  CaseRun run;
-  Outcome outcome = Outcome::undecided;
-  std::optional<Failure> failure;
+  properties::CaseRun run;
+  properties::Outcome outcome = properties::Outcome::undecided;
+  std::optional<properties::Failure> failure;
   double microseconds = 0;  // by the clock: of the message that it went in, by the queries in that
 };
 
 class QueryJudge {
  public:
   // The detector's claims are those on queries; both outlive the judge.
-  QueryJudge(const DetectorUnderTest& detector, WorkerProcess& worker)
+  QueryJudge(const properties::DetectorUnderTest& detector, properties::WorkerProcess& worker)
       : detector_(detector), worker_(worker) {}
 
   // Each in its place; twice where `deterministic` is claimed. Runs that did not take place end
@@ -35,14 +35,14 @@ class QueryJudge {
   std::vector<JudgedQuery> judge(std::span<const detector::FourPoints> queries);
 
   // Of all that were judged.
-  StepMeasures measures() const { return measures_in(counts_); }
+  properties::StepMeasures measures() const { return properties::measures_in(counts_); }
   std::uint64_t crashes() const { return crashes_; }
 
  private:
-  const DetectorUnderTest& detector_;
-  WorkerProcess& worker_;
-  Counts counts_;
+  const properties::DetectorUnderTest& detector_;
+  properties::WorkerProcess& worker_;
+  properties::Counts counts_;
   std::uint64_t crashes_ = 0;
 };
 
-}  // namespace assay::properties
+}  // namespace assay::reports
