@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/campaign/gates/measure_rates.h"
+#include "properties/printable.h"
 #include "reports/campaign/measures_text.h"
 #include "reports/certificate/sections.h"
 #include "reports/check/detector_choice.h"
 #include "reports/check/plugin_text.h"
-#include "reports/terminal/printable.h"
 
 namespace assay::reports {
 
@@ -75,7 +75,7 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
         ++broken_[properties::name_of(one.failure->claim)];
         const auto signature = one.failure->signature();
         if (met_[signature]++ == 0)
-          shown_.push_back({name, signature, printable(one.failure->what)});
+          shown_.push_back({name, signature, properties::printable(one.failure->what)});
       }
       all.push_back(std::move(one));
     }
