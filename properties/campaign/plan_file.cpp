@@ -8,7 +8,7 @@
 #include "corpus/json_text.h"
 #include "detector/mesh/problem.h"
 #include "properties/campaign/plan.h"
-#include "properties/generators/families.h"
+#include "properties/queries/query_families.h"
 
 namespace assay::properties {
 namespace {
@@ -92,11 +92,7 @@ class PlanReader {
       StratumPlan stratum;
       BOOST_OUTCOME_TRY(family_field, item.at("family"));
       BOOST_OUTCOME_TRY(family, family_field.text());
-      const auto known = families();
-      if (std::none_of(known.begin(), known.end(),
-                       [&](const Family& f) { return f.name == family; })) {
-        return family_field.problem("no family of this name");
-      }
+      if (!find_family(family)) return family_field.problem("no family of this name");
       if (std::any_of(plan_.strata.begin(), plan_.strata.end(),
                       [&](const StratumPlan& other) { return other.family == family; })) {
         return family_field.problem("this family is there already");

@@ -38,6 +38,7 @@ struct CampaignRequest {
   std::optional<std::filesystem::path> plugin;
   IsolationMode isolation = IsolationMode::best;  // as asked for, of the plug-in's process
   Isolation isolated;                             // as it turned out
+  std::uint64_t threads = 1;                      // that the plug-in may use
   std::filesystem::path worker;                   // the program assay-worker
   // Where another run of this build has shown its planted faults found, its rows: then no fault is
   // planted here.
@@ -46,7 +47,7 @@ struct CampaignRequest {
   std::optional<OwnCases> own_cases;
 
   // Of the workers that run its cases.
-  WorkerLimits worker_limits() const { return {plan.case_seconds, 0, isolation, isolated}; }
+  WorkerLimits worker_limits() const { return {plan.case_seconds, 0, isolation, isolated, threads}; }
 };
 
 // When a phase of the run must be over. Only what the user asked for by --time, or a campaign file

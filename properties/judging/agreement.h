@@ -32,6 +32,12 @@ struct FirstTimes {
   double late_by = 0, early_by = 0;
 };
 
+// How many candidate pairs there are, and how many pairs that count are in contact: the least
+// possible.
+struct CandidateCount {
+  std::uint64_t given = 0, least = 0;
+};
+
 struct StepDiff {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> broken;   // claimed, and refuted by this step
@@ -58,6 +64,11 @@ struct StepDiff {
   // saves the step from being a miss: else `free`, or the first time, would be wrong.
   std::vector<detector::PairContact> left_out;
   bool left_out_missed = false;
+
+  // Of a detector that claims candidates (candidate_check.h); nothing where it failed to give them.
+  std::optional<CandidateCount> candidates;
+  std::vector<detector::PairContact> missing_candidates;
+  bool has_answer = true;  // false: of a library of candidates alone
 };
 
 // Judges a step by what its detector claims. The oracle's pairs outside of the contract's

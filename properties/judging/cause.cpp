@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "oracle/instant/static_contact.h"
 #include "oracle/query/contact_shape.h"
@@ -48,7 +49,10 @@ class PairOfStep {
  public:
   PairOfStep(const TrianglesView& triangles, const PositionsView& x_t0, const PositionsView& x_t1,
              detector::TrianglePair pair)
-      : triangles_(triangles), x_t0_(x_t0), x_t1_(x_t1), pair_(pair) {}
+      : triangles_(triangles), x_t0_(x_t0), x_t1_(x_t1), pair_(pair), faces_{pair.a, pair.b} {}
+
+  // Whose area counts; else both.
+  void set_faces(std::vector<std::int32_t> faces) { faces_ = std::move(faces); }
 
   MovingPoint path(std::int32_t vertex) const {
     return detector::moving_point(x_t0_, x_t1_, vertex);
@@ -81,7 +85,7 @@ class PairOfStep {
   }
 
   bool is_without_area(const detector::TimeEnclosure& t) const {
-    for (const auto triangle : {pair_.a, pair_.b}) {
+    for (const auto triangle : faces_) {
       if (has_no_area(triangle, x_t0_) || has_no_area(triangle, x_t1_)) return true;
       if (t.lo == t.hi && has_no_area_at(triangle, t.lo)) return true;
     }
@@ -137,13 +141,10 @@ class PairOfStep {
   const TrianglesView& triangles_;
   const PositionsView &x_t0_, &x_t1_;
   const detector::TrianglePair pair_;
+  std::vector<std::int32_t> faces_;
 };
 
-}  // namespace
-
-Cause cause_of(const TrianglesView& triangles, const PositionsView& x_t0, const PositionsView& x_t1,
-               const PairContact& contact) {
-  const PairOfStep pair(triangles, x_t0, x_t1, contact.pair);
+Cause cause_of_contact(const PairOfStep& pair, const PairContact& contact) {
   Cause cause{time_of(contact.time), false, std::nullopt, pair.numbers()};
   for (const std::int32_t v : contact.feature.vertices) cause.is_moving |= v >= 0 && pair.moves(v);
   const bool has_shape = contact.feature.kind == FeatureKind::vertex_face ||
@@ -153,6 +154,24 @@ Cause cause_of(const TrianglesView& triangles, const PositionsView& x_t0, const 
   if (!cause.is_moving && cause.shape == CauseShape::coplanar_throughout)
     cause.shape = CauseShape::generic;
   return cause;
+}
+
+}  // namespace
+
+Cause cause_of(const TrianglesView& triangles, const PositionsView& x_t0, const PositionsView& x_t1,
+               const PairContact& contact) {
+  return cause_of_contact({triangles, x_t0, x_t1, contact.pair}, contact);
+}
+
+Cause cause_of_query(const TrianglesView& triangles, const PositionsView& x_t0,
+                     const PositionsView& x_t1, const PairContact& contact) {
+  PairOfStep pair(triangles, x_t0, x_t1, contact.pair);
+  if (contact.feature.kind == FeatureKind::vertex_face) {
+    pair.set_faces({contact.pair.b});
+  } else {
+    pair.set_faces({});
+  }
+  return cause_of_contact(pair, contact);
 }
 
 Cause cause_of(const TrianglesView& triangles, const PositionsView& x_t0, const PositionsView& x_t1,

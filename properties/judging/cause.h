@@ -42,6 +42,10 @@ struct Cause {
 // Of a contact of the oracle in the step from x_t0 to x_t1.
 Cause cause_of(const detector::TrianglesView& triangles, const detector::PositionsView& x_t0,
                const detector::PositionsView& x_t1, const detector::PairContact& contact);
+// Of a contact of the two features of a query (query_case.h), whose triangles hold more than these:
+// only the face's area counts.
+Cause cause_of_query(const detector::TrianglesView& triangles, const detector::PositionsView& x_t0,
+                     const detector::PositionsView& x_t1, const detector::PairContact& contact);
 // Of a pair of triangles that is not in contact.
 Cause cause_of(const detector::TrianglesView& triangles, const detector::PositionsView& x_t0,
                const detector::PositionsView& x_t1, detector::TrianglePair pair);

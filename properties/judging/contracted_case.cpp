@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "oracle/instant/nearness.h"
+#include "properties/judging/judged_query.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 namespace {
@@ -61,6 +63,10 @@ std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& co
   for (auto& frame : out.frames) {
     frame = contracted(frame, contract.coordinates);
     if (!frame.allFinite() || !in_range(frame, contract)) return std::nullopt;
+  }
+  if (says_query(out)) {
+    const auto query = query_of(out);
+    return query && takes(contract, *query) ? std::optional(out) : std::nullopt;
   }
   if (contract.start == StartRule::any) return out;
   const auto steps = corpus::steps_of(out);

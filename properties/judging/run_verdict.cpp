@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "properties/judging/candidate_check.h"
+#include "properties/judging/judged_query.h"
+#include "properties/worker/plugin/query_case.h"
+
 namespace assay::properties {
 
 namespace {
@@ -44,7 +48,19 @@ std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
 
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contract& contract,
                                               int jobs) {
+  if (const auto query = query_of(c)) return {judge_query(*query)};
   return judge_case(c, {jobs, {}, asked_features(contract)});
+}
+
+StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudgement& judgement,
+                      const Claims& claims, const Contract& contract,
+                      const detector::TrianglesView& triangles) {
+  StepDiff diff = run.has_answers ? compare(run.steps[s], judgement, claims, contract, triangles)
+                                  : diff_without_answer(run.steps[s], claims);
+  const CandidatePairs none;
+  const auto& candidates = s < run.candidates.size() ? run.candidates[s] : none;
+  judge_candidates(candidates, judgement, claims, contract, triangles, diff);
+  return diff;
 }
 
 RunVerdict judge_run(const corpus::Case& c, const CaseRun& run,
@@ -70,8 +86,9 @@ RunVerdict judge_run(const corpus::Case& c, const CaseRun& run,
       verdict.outcome = Outcome::error;
       return verdict;
   }
+  const Contract judged = says_query(c) ? on_queries(contract) : contract;
   for (std::size_t s = 0; s < std::min(run.steps.size(), judgements.size()); ++s) {
-    auto diff = compare(run.steps[s], judgements[s], claims, contract, c.triangles);
+    auto diff = compare_step(run, s, judgements[s], claims, judged, c.triangles);
     verdict.outcome = worse(verdict.outcome, diff.outcome);
     for (const auto claim : diff.broken) add_broken(verdict, claim);
     verdict.left_out_misses += diff.left_out_missed ? 1 : 0;

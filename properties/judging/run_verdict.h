@@ -24,9 +24,16 @@ struct RunVerdict {
 // The oracle on every step of a case.
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
                                               const oracle::JudgeOptions& options = {});
-// The same, asked for what the contract takes. REQUIRES a contracted case.
+// The same, asked for what the contract takes; of a query (query_case.h) it alone. REQUIRES a
+// contracted case.
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contract& contract,
                                               int jobs = 1);
+
+// The diff of step s of a run: its answer (agreement.h) and its candidates (candidate_check.h).
+// REQUIRES a run that has this step.
+StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudgement& judgement,
+                      const Claims& claims, const Contract& contract,
+                      const detector::TrianglesView& triangles);
 
 // REQUIRES judgements of the same case, contracted. A crash or a refusal of a case that is not
 // expected to be refused breaks `total` (where that is not claimed: Outcome::error); a hang, or the

@@ -234,6 +234,8 @@ constexpr std::array generators = {
     QueryGenerator{"generic", "uniform in a cube", generic, 5},
 };
 
+static_assert(generators.size() == query_generator_count);
+
 }  // namespace
 
 std::span<const QueryGenerator> query_generators() { return generators; }

@@ -24,6 +24,7 @@ struct QueryGenerator {
   int one_in;  // made for each `one_in` queries of small-int: the dearer, the fewer
 };
 
+inline constexpr std::size_t query_generator_count = 9;
 // small-int comes first.
 std::span<const QueryGenerator> query_generators();
 

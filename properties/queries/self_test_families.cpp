@@ -41,6 +41,10 @@ class RungFamily final : public SelfTestFamily {
     return {};
   }
 
+  std::optional<Query> query_at(std::uint64_t, std::uint64_t index) const override {
+    return rung_cases()[index % rung_cases().size()].query;
+  }
+
   std::string text(std::uint64_t, std::uint64_t index) const override {
     const RungCase& named = rung_cases()[index % rung_cases().size()];
     return fmt::format("{}\n{}{}", named.name, exact_text(named.query), answers_text(named.query));
@@ -61,6 +65,10 @@ class WorldFamily final : public SelfTestFamily {
     const auto query = world_.at(index);
     if (!query) return {};
     return check_query({*query, {}}, pick(seed, index), tally);
+  }
+
+  std::optional<Query> query_at(std::uint64_t, std::uint64_t index) const override {
+    return world_.at(index);
   }
 
   std::string text(std::uint64_t, std::uint64_t index) const override {
@@ -86,6 +94,10 @@ class RandomFamily final : public SelfTestFamily {
   std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                    QueryTally& tally) const override {
     return check_query(generator_.make(seed, index), pick(seed, index), tally);
+  }
+
+  std::optional<Query> query_at(std::uint64_t seed, std::uint64_t index) const override {
+    return generator_.make(seed, index).query;
   }
 
   std::string text(std::uint64_t seed, std::uint64_t index) const override {
@@ -120,6 +132,8 @@ class StepFamily final : public SelfTestFamily {
     ++tally.contradictions;
     return "pairs or times of the oracle's step and the detector's differ";
   }
+
+  std::optional<Query> query_at(std::uint64_t, std::uint64_t) const override { return {}; }
 
   std::string text(std::uint64_t seed, std::uint64_t index) const override {
     const SmallStep step = make_small_step(seed, index);

@@ -27,6 +27,8 @@ class SelfTestFamily {
   // Checks a case; what is wrong with it, or nothing. Some indices of a small world hold no case.
   virtual std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                            QueryTally& tally) const = 0;
+  // Its query, where it is one; nothing for whole steps.
+  virtual std::optional<Query> query_at(std::uint64_t seed, std::uint64_t index) const = 0;
   // The case, exactly, and what each method says of it.
   virtual std::string text(std::uint64_t seed, std::uint64_t index) const = 0;
 

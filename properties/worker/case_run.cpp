@@ -85,7 +85,8 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
 }
 
 bool same_answers(const CaseRun& a, const CaseRun& b) {
-  return a.end == b.end && a.what == b.what &&
+  return a.end == b.end && a.what == b.what && a.has_answers == b.has_answers &&
+         a.candidates == b.candidates &&
          std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same_result);
 }
 

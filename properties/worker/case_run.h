@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ enum class RunEnd : std::uint8_t {
 
 const char* name_of(RunEnd end);
 
+// Nothing where a detector failed to give them.
+using CandidatePairs = std::optional<std::vector<detector::TrianglePair>>;
+
 struct CaseRun {
   RunEnd end = RunEnd::completed;
   // One line: the signal, the refusal, or the first step's error. Empty when nothing is wrong.
@@ -36,6 +40,11 @@ struct CaseRun {
   // One for each step of the case when completed, else none. A pair or first time that a plug-in
   // does not state is [0, 1].
   std::vector<detector::StepResult> steps;
+  // One for each step, of a plug-in that claims candidates: ascending, each pair once.
+  std::vector<CandidatePairs> candidates = {};
+  // Whether its steps have answers. A library of candidates alone has none: a step of its is
+  // undecided, or an error.
+  bool has_answers = true;
 
   // Of the circumstances, filled in by the host; same_answers() does not look at them.
 

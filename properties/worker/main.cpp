@@ -48,13 +48,13 @@ bool keep_to(std::uint64_t bytes) {
   return bytes == 0 || ::setrlimit(RLIMIT_AS, &limit) == 0;
 }
 
-int serve(Channel channel, const char* plugin_library) {
+int serve(Channel channel, const char* plugin_library, std::uint32_t threads = 1) {
   Hello hello;
   hello.wire_version = wire_version();
   hello.description = {"built-in", "", claims_of({}), {}};
   std::optional<PluginHost> plugin;
   if (plugin_library) {
-    auto opened = PluginHost::open(plugin_library);
+    auto opened = PluginHost::open(plugin_library, threads);
     if (opened) {
       plugin = std::move(opened.value());
       hello.description = plugin->description();
@@ -68,8 +68,15 @@ int serve(Channel channel, const char* plugin_library) {
   try {
     std::string message;
     while (channel.receive(message) == Transfer::done) {
-      RunRequest request;
-      if (!decode(message, request)) return exit_usage;
+      Request received;
+      if (!decode(message, received)) return exit_usage;
+      if (received.kind == RequestKind::queries) {
+        if (!plugin || !plugin->description().parts.query) return exit_usage;
+        const QueryReply answered{received.query.number, plugin->ask(received.query.queries)};
+        if (channel.send(encode(answered)) != Transfer::done) return 0;
+        continue;
+      }
+      const RunRequest& request = received.run;
       reply.number = request.number;
       for (reply.place = 0; reply.place < request.configurations.size(); ++reply.place) {
         const auto& configuration = request.configurations[reply.place];
@@ -89,10 +96,10 @@ int serve(Channel channel, const char* plugin_library) {
 }  // namespace
 
 // Arguments: the channel's descriptor, the host's process, a limit in bytes; for a plug-in the
-// isolation, its scratch folder and the library.
+// isolation, its scratch folder, the library and how many threads it may use.
 int main(int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-  constexpr std::size_t built_in = 4, with_plugin = 7;
+  constexpr std::size_t built_in = 4, with_plugin = 8;
   if (words.size() == built_in || words.size() == with_plugin) {
     const auto channel = number(words[1]), host = number(words[2]), bytes = number(words[3]);
     if (channel && host && bytes && settle(*host)) {
@@ -100,10 +107,14 @@ int main(int argc, char** argv) {
       if (words.size() == built_in) {
         return keep_to(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
       }
-      if (const auto mode = isolation_mode_of(words[4])) {
+      const auto mode = isolation_mode_of(words[4]);
+      const auto threads = number(words[7]);
+      if (mode && threads) {
         const char* library = words[6];
-        keep(std::move(to_host), {*mode, words[5], *bytes},
-             [library](Channel to_keeper) { return serve(std::move(to_keeper), library); });
+        const auto told = static_cast<std::uint32_t>(*threads);
+        keep(std::move(to_host), {*mode, words[5], *bytes}, [library, told](Channel to_keeper) {
+          return serve(std::move(to_keeper), library, told);
+        });
       }
     }
   }

@@ -72,6 +72,42 @@ std::string broken_rule(const StepResult& result, Eigen::Index triangles) {
   return says_nothing_of_views(result) ? "" : "views, which no plug-in has";
 }
 
+std::string broken_rule(const CandidatePairs& candidates, const StepResult& result,
+                        Eigen::Index triangles) {
+  if (!candidates) {
+    const bool is_answered = result.answer == Answer::free || result.answer == Answer::collision;
+    return is_answered ? "no candidates beside an answer" : "";
+  }
+  for (const auto& [a, b] : *candidates) {
+    if (!(0 <= a && a < b && b < triangles)) return "a candidate that is none of the mesh";
+  }
+  const auto not_ascending = [](const auto& x, const auto& y) { return !(x < y); };
+  const bool ascend = std::adjacent_find(candidates->begin(), candidates->end(), not_ascending) ==
+                      candidates->end();
+  return ascend ? "" : "candidates that do not ascend";
+}
+
+// Of the parts that the description names, in a run with a result for each step.
+std::string broken_rule_of_parts(const CaseRun& run, const PluginDescription& description,
+                                 Eigen::Index triangles) {
+  if (run.has_answers != description.parts.steps) return "answers of another kind of detector";
+  const std::size_t lists = description.parts.candidates ? run.steps.size() : 0;
+  if (lists == 0 && !run.candidates.empty()) return "candidates that it does not claim";
+  if (run.candidates.size() != lists)
+    return fmt::format("{} lists of candidates for {} steps", run.candidates.size(),
+                       run.steps.size());
+  for (std::size_t s = 0; s < run.steps.size(); ++s) {
+    const auto& result = run.steps[s];
+    const bool is_answered = result.answer == Answer::free || result.answer == Answer::collision;
+    if (!run.has_answers && (is_answered || !result.pairs.empty()))
+      return "an answer of a detector that has none";
+    if (s >= lists) continue;
+    if (auto broken = broken_rule(run.candidates[s], result, triangles); !broken.empty())
+      return broken;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::uint64_t longest_reply(const corpus::Case& c) {
@@ -79,17 +115,19 @@ std::uint64_t longest_reply(const corpus::Case& c) {
   const std::uint64_t pairs = triangles * (triangles - 1) / 2;
   const std::uint64_t steps = corpus::steps_of(c).size();
   return longest_reply_text + bytes_of_a_result +
-         steps * (bytes_of_a_result + pairs * sizeof(PairContact));
+         steps *
+             (bytes_of_a_result + pairs * (sizeof(PairContact) + sizeof(detector::TrianglePair)));
 }
 
-std::string broken_rule(const corpus::Case& c, const CaseRun& run) {
+std::string broken_rule(const corpus::Case& c, const CaseRun& run,
+                        const PluginDescription& description) {
   if (!is_line(run.what)) return "a text that is no line";
   switch (run.end) {
     case RunEnd::completed:
       break;
     case RunEnd::refused:
     case RunEnd::out_of_memory:
-      return run.steps.empty() ? "" : "steps of a case that was not run";
+      return run.steps.empty() && run.candidates.empty() ? "" : "steps of a case that was not run";
     default:
       return fmt::format("that it {}, which only the host can say", name_of(run.end));
   }
@@ -100,12 +138,30 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run) {
   for (const auto& result : run.steps) {
     if (auto broken = broken_rule(result, c.triangles.rows()); !broken.empty()) return broken;
   }
+  return broken_rule_of_parts(run, description, c.triangles.rows());
+}
+
+std::uint64_t longest_query_reply(std::size_t queries) {
+  return bytes_of_a_result + queries * (longest_reply_text + sizeof(QueryAnswer));
+}
+
+std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& answers) {
+  if (answers.size() != queries)
+    return fmt::format("{} answers to {} queries", answers.size(), queries);
+  for (const auto& answer : answers) {
+    if (!is_line(answer.what)) return "a text that is no line";
+    if (!is_interval(answer.first)) return "a first time that is no interval in [0, 1]";
+  }
   return "";
 }
 
 std::string broken_rule(const PluginDescription& description) {
   if (!is_line(description.name) || !is_line(description.version)) return "a name that is no line";
   if (description.name.empty()) return "no name";
+  const auto& parts = description.parts;
+  if (!parts.steps && !parts.query && !parts.candidates) return "no part that can be judged";
+  if (description.claims.candidates != parts.candidates)
+    return "candidates without a claim, or a claim on none";
   return fault_of(description.contract);
 }
 

@@ -10,6 +10,7 @@
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_description.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
@@ -26,11 +27,19 @@ inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 // result for each step, or was refused or ran out of memory without one; what only the host can
 // say (crashed, hung, not run) is not said; texts are one printable line; a result has an answer,
 // pairs of two triangles of the mesh, each once and ascending, only if it is not free, intervals
-// in [0, 1], and nothing of what plug-ins are not asked for, such as views.
-std::string broken_rule(const corpus::Case& c, const CaseRun& run);
+// in [0, 1], and nothing of what plug-ins are not asked for, such as views; there are candidates
+// for each step, of such pairs, where the description claims them, and answers where it has steps.
+std::string broken_rule(const corpus::Case& c, const CaseRun& run,
+                        const PluginDescription& description);
+
+// The same of answers to so many queries: as many, each with a known answer, an interval in [0, 1]
+// and one printable line at most.
+std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& answers);
+// Bytes that they may have at most.
+std::uint64_t longest_query_reply(std::size_t queries);
 
 // The same of a description: a name and a version in one printable line, a margin that is a
-// length.
+// length, a part that can be judged, a claim on candidates where there are any and nowhere else.
 std::string broken_rule(const PluginDescription& description);
 
 // The same of why a plug-in cannot be loaded: a problem of PluginHost::open in one printable line.

@@ -4,12 +4,14 @@
 
 #include <span>
 
+#include "detector/contact/four_points.h"
 #include "detector/mesh/problem.h"
 #include "detector/step_result.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/isolation/keeper.h"
 #include "properties/worker/plugin/plugin_description.h"
+#include "properties/worker/plugin/query_case.h"
 #include "properties/worker/wire.h"
 
 namespace assay::properties {
@@ -19,7 +21,11 @@ struct TravelsAsBytes<detector::Point> : std::true_type {};
 template <>
 struct TravelsAsBytes<detector::MovingPoint> : std::true_type {};
 template <>
+struct TravelsAsBytes<detector::FourPoints> : std::true_type {};
+template <>
 struct TravelsAsBytes<detector::TimeEnclosure> : std::true_type {};
+template <>
+struct TravelsAsBytes<detector::TrianglePair> : std::true_type {};
 template <>
 struct TravelsAsBytes<detector::PairContact> : std::true_type {};
 template <>
@@ -82,8 +88,8 @@ void fields(Wire& wire, detector::StepResult& result) {
 template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
   // The last two are the host's to say.
-  auto& [end, what, steps, disturbances, processor_seconds] = run;
-  wire(end, what, steps);
+  auto& [end, what, steps, candidates, has_answers, disturbances, processor_seconds] = run;
+  wire(end, what, steps, candidates, has_answers);
 }
 
 template <class Wire>
@@ -156,6 +162,11 @@ void fields(Wire& wire, Hello& hello) {
   wire(hello.wire_version, hello.description, hello.serves, hello.problem);
 }
 
+// What a request asks for.
+enum class RequestKind : std::uint8_t { run, queries };
+template <>
+inline constexpr auto last_of<RequestKind> = RequestKind::queries;
+
 // One case and how to run it; a RunReply comes back for each configuration, in order.
 struct RunRequest {
   std::uint64_t number = 0;  // drawn for this request
@@ -179,6 +190,50 @@ void fields(Wire& wire, RunReply& reply) {
   wire(reply.number, reply.place, reply.run);
 }
 
+// Elementary queries of a plug-in; one QueryReply comes back for all.
+struct QueryRequest {
+  std::uint64_t number = 0;  // drawn for this request
+  std::vector<detector::FourPoints> queries;
+};
+
+template <class Wire>
+void fields(Wire& wire, QueryRequest& request) {
+  wire(request.number, request.queries);
+}
+
+template <class Wire>
+void fields(Wire& wire, QueryAnswer& answer) {
+  auto& [answered, first, what] = answer;
+  wire(answered, first, what);
+}
+
+struct QueryReply {
+  std::uint64_t number = 0;          // of the request
+  std::vector<QueryAnswer> answers;  // one for each query
+};
+
+template <class Wire>
+void fields(Wire& wire, QueryReply& reply) {
+  wire(reply.number, reply.answers);
+}
+
+// What a worker receives: one of the two.
+struct Request {
+  RequestKind kind = RequestKind::run;
+  RunRequest run;
+  QueryRequest query;
+};
+
+template <class Wire>
+void fields(Wire& wire, Request& request) {
+  wire(request.kind);
+  if (request.kind == RequestKind::run) {
+    wire(request.run);
+  } else {
+    wire(request.query);
+  }
+}
+
 template <class... T>
 std::string encode(const T&... messages) {
   WireWriter writer;
@@ -200,7 +255,7 @@ constexpr std::uint64_t wire_version() {
   for (const std::size_t size :
        {sizeof(detector::Options), sizeof(detector::StepResult), sizeof(detector::PairContact),
         sizeof(detector::StepCounts), sizeof(detector::StepTimes), sizeof(Claims), sizeof(Contract),
-        sizeof(corpus::Case)}) {
+        sizeof(corpus::Case), sizeof(detector::FourPoints), sizeof(QueryAnswer)}) {
     hash = hash * 1099511628211u + size;
   }
   return hash;

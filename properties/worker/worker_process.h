@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "detector/contact/four_points.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/isolation/isolation.h"
@@ -33,6 +34,7 @@ struct WorkerLimits {
   // What holds at least for its process, whatever was asked for: a plug-in of which it was said how
   // it is isolated is not loaded again with less. not_isolated.
   Isolation least = {};
+  std::uint64_t threads = 1;  // told to a plug-in that asks how many it may use
 };
 
 // Starts on demand and again after a crash or a hang. One instance a thread: the worker dies with
@@ -61,6 +63,12 @@ class WorkerProcess {
   // time in a row it has crashed: a plug-in that does this to itself is not told from bad luck by
   // one death, but by three. So may the loading of a plug-in fail.
   std::vector<CaseRun> run(const corpus::Case& c, std::span<const Configuration> configurations);
+
+  // One run for each query, as of its case (query_case.h): of a plug-in that has the part. Many go
+  // in one message; where one of them ends the worker they are asked again in smaller parts, until
+  // it is found. Others that are asked of such a plug-in by run() come here too. REQUIRES queries
+  // as the contract has them.
+  std::vector<CaseRun> ask(std::span<const detector::FourPoints> queries);
 
   // How often a worker was started, for statistics and tests.
   std::uint64_t starts() const;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "properties/campaign/query_plan.h"
 #include "properties/campaign/stored/power_proof.h"
 #include "properties/worker/worker_process.h"
 #include "reports/campaign/own_cases.h"
@@ -28,6 +29,7 @@ void add_campaign_options(Verb& verb, CampaignWords& words) {
   verb.add("--corpus", words.own_cases,
            "Folder of case files of your own (assay-case/1), judged beside what is shipped");
   add_detector(verb, words.detector);
+  add_part(verb, words.detector.part);
   add_jobs(verb, words.jobs);
 }
 
@@ -56,12 +58,19 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     if (!proof) return Refusal(proof.error());
     request.power = std::move(proof.value());
   }
-  if (auto chosen = choose_detector(words.detector, request); !chosen) return chosen.error();
+  auto chosen_words = words.detector;
+  if (asks_queries(request.plan) && chosen_words.part == DetectorPart::by_library)
+    chosen_words.part = DetectorPart::query;
+  if (auto chosen = choose_detector(chosen_words, request); !chosen) return chosen.error();
   const auto& detector = request.detector;
   if (!detector.built_in && judged_claims(detector.claims, detector.contract).empty())
     return Refusal(fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to certify",
         words.detector.library));
+  if (detector.of_queries) request.plan = properties::query_plan(std::move(request.plan));
+  if (!detector.of_queries && asks_queries(request.plan))
+    return Refusal(fmt::format("campaign {}: its strata are queries, of a plug-in's query alone",
+                               request.plan.name));
   std::error_code error;
   std::filesystem::create_directories(words.out, error);
   if (error) return Refusal(fmt::format("{}: cannot be made: {}", words.out, error.message()));

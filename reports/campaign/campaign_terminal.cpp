@@ -72,7 +72,9 @@ class CampaignTerminal : public properties::CampaignObserver {
   void on_failures_shrunk(const properties::KeptFailures& kept) override {
     progress_.reset();
     const auto failures = write_failures(
-        kept, out_, {request_.plugin ? request_.plugin->string() : "", request_.isolation});
+        kept, out_,
+        {request_.plugin ? request_.plugin->string() : "", request_.isolation, request_.threads,
+         request_.detector.of_queries ? DetectorPart::query : DetectorPart::steps});
     fmt::print("{}", failures.text);
     std::fflush(stdout);
     written_ = failures.written;
@@ -131,7 +133,7 @@ class CampaignTerminal : public properties::CampaignObserver {
                request_.detector.built_in
                    ? "detector built-in"
                    : plugin_text(request_.detector.name, request_.detector.claims,
-                                 request_.detector.contract, request_.isolated),
+                                 request_.detector.contract, request_.isolated, request_.threads),
                out_);
     std::fflush(stdout);
   }

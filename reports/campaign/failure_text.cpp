@@ -16,9 +16,9 @@ namespace assay::reports {
 using properties::failure_file;
 
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
-                        const std::string& plugin) {
+                        const DetectorWords& detector) {
   return fmt::format("assay replay {}{}", shell_word((out / file).string()),
-                     detector_words(plugin));
+                     detector_words(detector.library, detector.threads));
 }
 
 namespace {
@@ -74,7 +74,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
         shown_what(failure), failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
-        picture_file((out / shown_file).string()), replay_line(out, shown_file, detector.library));
+        picture_file((out / shown_file).string()), replay_line(out, shown_file, detector));
   }
   return report;
 }

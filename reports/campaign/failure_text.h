@@ -12,7 +12,7 @@ namespace assay::reports {
 
 // "assay replay OUT/failures/... --detector LIB.so"
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
-                        const std::string& plugin);
+                        const DetectorWords& detector);
 
 struct FailureReport {
   std::string text;  // a paragraph for each signature; empty without failures

@@ -24,13 +24,14 @@ std::string off_text(const properties::TimesOff& off) {
   return fmt::format("{}: {:.2g} {:.2g} {:.2g}", off.steps, off.median, off.p99, off.worst);
 }
 
-constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>24} {:>24} {:>14}";
+constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>24} {:>24} {:>14} {:>26}";
 
 }  // namespace
 
 std::string measures_head() {
   return fmt::format(row_format, "free steps answered collision", "answered free", "spurious",
-                     "late: median p99 worst", "early: median p99 worst", "left out");
+                     "late: median p99 worst", "early: median p99 worst", "left out",
+                     "candidates / least");
 }
 
 std::string measures_row(const properties::StepMeasures& m) {
@@ -40,7 +41,10 @@ std::string measures_row(const properties::StepMeasures& m) {
       misses.in ? fmt::format("{} of {}", misses.of, misses.in) : "-",
       fmt::format("{:.3g}/step", spurious_pairs_a_step(m)), off_text(times_late(m)),
       off_text(times_early(m)),
-      m.redrawn + m.steps_left_out ? fmt::format("{} + {}", m.redrawn, m.steps_left_out) : "-");
+      m.redrawn + m.steps_left_out ? fmt::format("{} + {}", m.redrawn, m.steps_left_out) : "-",
+      m.candidate_steps ? fmt::format("{} / {}, {:.3g}", m.candidates, m.least_candidates,
+                                      candidates_over_least(m))
+                        : "-");
 }
 
 std::string measures_sentence(const properties::StepMeasures& m) {

@@ -53,7 +53,7 @@ std::string trial_text(const properties::RunFindings& findings,
                        slow_mesh_size(kept->smallest), 2 * kept->limit);
   return out + fmt::format("              picture {}\n              replay: {}\n",
                            picture_file((findings.folder / file).string()),
-                           replay_line(findings.folder, file, findings.library));
+                           replay_line(findings.folder, file, DetectorWords{findings.library}));
 }
 
 }  // namespace

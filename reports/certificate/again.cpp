@@ -6,6 +6,7 @@
 
 #include "corpus/digest.h"
 #include "properties/campaign/gates/read_findings.h"
+#include "properties/campaign/query_plan.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
 
@@ -62,8 +63,10 @@ Expected<properties::TrialsAgain> run_certified_again(
   request.seed = run.seed;
   request.jobs = asked.jobs;
   request.worker = properties::worker_program();
-  if (auto chosen = choose_detector({library.value(), asked.detector.isolation}, request); !chosen)
-    return chosen.error();
+  const auto part = properties::asks_queries(run.plan) ? DetectorPart::query : DetectorPart::steps;
+  const DetectorWords words{library.value(), asked.detector.isolation, asked.detector.threads,
+                            part};
+  if (auto chosen = choose_detector(words, request); !chosen) return chosen.error();
   const auto ours = properties::read_binding(properties::binding_of(request), folder);
   if (!ours) return Refusal(ours.error());
   const auto difference = difference_of_builds(run, ours.value());

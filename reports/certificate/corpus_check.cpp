@@ -5,8 +5,11 @@
 #include <algorithm>
 
 #include "corpus/digest.h"
+#include "corpus/queries/query_csv.h"
 #include "corpus/scenes/scenes.h"
 #include "properties/judging/case_check.h"
+#include "properties/queries/rung_cases.h"
+#include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/campaign/own_cases.h"
 
@@ -146,11 +149,36 @@ corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   return c;
 }
 
+// The named queries of the self-test, and those of the corpus.
+Expected<void> check_queries(const properties::CampaignRequest& request,
+                             const std::filesystem::path& corpus, const OnCorpusRow& on_row,
+                             const OnCorpusFailure& on_failure) {
+  int hung = 0;
+  JudgedRows named(request, "named queries", on_failure, hung);
+  std::uint64_t place = 0;
+  for (const auto& one : properties::rung_cases())
+    named.add(properties::case_of_query(one.query, fmt::format("named-query-{}", place++)));
+  for (const auto& row : named.rows()) on_row(row);
+  const auto file = corpus / ".." / "queries" / "example_vf.csv";
+  const auto queries = corpus::read_queries(file);
+  if (!queries) return Refusal(queries.error());
+  JudgedRows labelled(request, file.filename().string(), on_failure, hung);
+  place = 0;
+  for (const auto& one : queries.value()) {
+    const auto query =
+        std::visit([](const auto& q) { return detector::four_points(q); }, one.query);
+    labelled.add(properties::case_of_query(query, fmt::format("example-vf-{}", place++)));
+  }
+  for (const auto& row : labelled.rows()) on_row(row);
+  return outcome::success();
+}
+
 }  // namespace
 
 Expected<void> check_corpus(const properties::CampaignRequest& request,
                             const std::filesystem::path& corpus, const OnCorpusRow& on_row,
                             const OnCorpusFailure& on_failure) {
+  if (request.detector.of_queries) return check_queries(request, corpus, on_row, on_failure);
   const auto cases = curated(corpus);
   if (!cases) return Refusal(cases.error());
   int hung = 0;

@@ -61,7 +61,7 @@ class BuiltIn : public Subject {
     return {result.problem->message, true};
   }
 
-  properties::StepDiff judge(const StepResult& result,
+  properties::StepDiff judge(std::size_t, const StepResult& result,
                              const oracle::StepJudgement& judgement) const override {
     return properties::compare(result, judgement, options_);
   }

@@ -26,6 +26,7 @@ std::string claims_text(const std::vector<std::string>& held,
 
 std::string CheckOutcome::summary() const {
   std::string text = undecided || !ended.empty() ? "no collision found so far" : "no collision";
+  if (!has_answers) text = "candidate pairs";
   if (collision_step) {
     text = fmt::format("collision at t = {} of step {}", time_text(collision_time),
                        *collision_step + 1);

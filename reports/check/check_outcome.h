@@ -15,7 +15,8 @@ struct CheckOutcome {
   bool unsound = false;       // a second opinion contradicts the oracle
   bool facts_differ = false;  // of a case file
   bool judged_by_claims = false;
-  std::string ended;  // how a plug-in's run ended, where it did not go through
+  bool has_answers = true;  // false: of a library of candidates alone
+  std::string ended;        // how a plug-in's run ended, where it did not go through
   std::string limit_reached;
   // Of a plug-in: claims that hold, those of which nothing is known, and what it does whatever it
   // claims.

@@ -12,19 +12,28 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
   if (words.library.empty()) return outcome::success();
   request.plugin = words.library;
   request.isolation = words.isolation;
+  request.threads = words.threads;
   properties::WorkerProcess worker(request.worker, request.plugin,
-                                   {.isolation = request.isolation});
+                                   {.isolation = request.isolation, .threads = request.threads});
   const auto description = worker.describe();
   if (!description) return Refusal(description.error());
   request.isolated = worker.isolation();
   const auto& plugin = description.value();
+  const bool has_steps = plugin.parts.steps || plugin.parts.candidates;
+  const bool of_queries =
+      words.part == DetectorPart::query || (words.part == DetectorPart::by_library && !has_steps);
+  if (of_queries && !plugin.parts.query)
+    return Refusal(fmt::format("{}: it holds no elementary query", words.library));
+  if (!of_queries && !has_steps)
+    return Refusal(fmt::format("{}: it holds no steps, but a query alone", words.library));
   // Its words go into ids, files and pages.
   const auto name = properties::printable(plugin.name);
   request.detector = {fmt::format("{} {}", name, properties::printable(plugin.version)),
                       false,
-                      plugin.claims,
+                      of_queries ? claims_on_queries(plugin) : claims_on_steps(plugin),
                       plugin.contract,
-                      {{name, {}}}};
+                      {{name, {}}},
+                      of_queries};
   return outcome::success();
 }
 

@@ -10,7 +10,8 @@
 namespace assay::reports {
 
 // Sets request.detector, and of a plug-in what there is of it; request.worker is set. Refused when
-// the library cannot serve, or cannot be isolated as it is required.
+// the library cannot serve, does not hold the part that is asked for, or cannot be isolated as it
+// is required.
 Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request);
 
 }  // namespace assay::reports

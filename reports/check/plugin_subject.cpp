@@ -25,21 +25,24 @@ properties::PluginDescription in_print(properties::PluginDescription description
 class Plugin : public Subject {
  public:
   Plugin(properties::WorkerProcess worker, properties::PluginDescription description,
-         std::string library, const corpus::Case& c, std::size_t steps_left_out)
+         std::string library, std::uint64_t threads, const corpus::Case& c,
+         std::size_t steps_left_out)
       : worker_(std::move(worker)),
         description_(in_print(std::move(description))),
+        claims_(claims_on_steps(description_)),
         library_(std::move(library)),
+        threads_(threads),
         case_(c),
         steps_left_out_(steps_left_out) {}
 
   std::string title() const override {
-    return plugin_text(description_.name + " " + description_.version, description_.claims,
-                       description_.contract, worker_.isolation());
+    return plugin_text(description_.name + " " + description_.version, claims_,
+                       description_.contract, worker_.isolation(), threads_);
   }
 
   nlohmann::ordered_json to_json() const override {
     nlohmann::ordered_json claims = nlohmann::ordered_json::array();
-    for (const auto claim : properties::list_of(description_.claims)) {
+    for (const auto claim : properties::list_of(claims_)) {
       claims.push_back(name_of(claim));
     }
     return {{"culling", nullptr},
@@ -57,10 +60,10 @@ class Plugin : public Subject {
   // All steps at once: the worker carries the detector's state from one to the next. A second time
   // where it claims to be deterministic.
   properties::RunVerdict begin() override {
-    const std::size_t times = description_.claims.deterministic ? 2 : 1;
+    const std::size_t times = claims_.deterministic ? 2 : 1;
     runs_ =
         worker_.run(case_, std::vector<properties::Configuration>(times, {description_.name, {}}));
-    return properties::judge_run(case_, runs_[0], {}, description_.claims, description_.contract,
+    return properties::judge_run(case_, runs_[0], {}, claims_, description_.contract,
                                  times == 2 ? &runs_[1] : nullptr);
   }
 
@@ -78,10 +81,14 @@ class Plugin : public Subject {
     return properties::asked_features(description_.contract);
   }
 
-  properties::StepDiff judge(const StepResult& result,
+  bool has_answers() const override { return description_.parts.steps; }
+
+  properties::StepDiff judge(std::size_t s, const StepResult& result,
                              const oracle::StepJudgement& judgement) const override {
-    return properties::compare(result, judgement, description_.claims, description_.contract,
-                               case_.triangles);
+    if (s < runs_[0].steps.size())
+      return properties::compare_step(runs_[0], s, judgement, claims_, description_.contract,
+                                      case_.triangles);
+    return properties::compare(result, judgement, claims_, description_.contract, case_.triangles);
   }
 
   std::string stage_that_lost(std::size_t, detector::TrianglePair) const override { return ""; }
@@ -95,7 +102,9 @@ class Plugin : public Subject {
 
   properties::WorkerProcess worker_;
   properties::PluginDescription description_;
+  properties::Claims claims_;  // on steps
   std::string library_;
+  std::uint64_t threads_;
   const corpus::Case& case_;
   const std::size_t steps_left_out_;
   std::vector<properties::CaseRun> runs_;
@@ -109,6 +118,10 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& librar
   properties::WorkerProcess worker(properties::worker_program(), library, limits);
   auto description = worker.describe();
   if (!description) return Refusal(description.error());
+  const auto& parts = description.value().parts;
+  if (!parts.steps && !parts.candidates)
+    return Refusal(
+        fmt::format("{}: it holds no steps, but a query alone: assay check-queries", library));
   auto seen = properties::contracted(input.c, description.value().contract);
   if (!seen) {
     return Refusal(fmt::format("{}: nothing of it is within the contract of {}: {}", input.file,
@@ -117,8 +130,9 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& librar
   }
   const std::size_t left_out = corpus::steps_of(input.c).size() - corpus::steps_of(*seen).size();
   input.c = std::move(*seen);
-  return std::unique_ptr<Subject>(std::make_unique<Plugin>(
-      std::move(worker), std::move(description.value()), library, input.c, left_out));
+  return std::unique_ptr<Subject>(std::make_unique<Plugin>(std::move(worker),
+                                                           std::move(description.value()), library,
+                                                           limits.threads, input.c, left_out));
 }
 
 }  // namespace assay::reports

@@ -1,6 +1,7 @@
 // What a plug-in says of itself, for people.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "properties/worker/claims.h"
@@ -8,10 +9,10 @@
 
 namespace assay::reports {
 
-// "plug-in NAME VERSION", its claims, its contract, its isolation: a line each, no newline at the
-// end.
+// "plug-in NAME VERSION", its claims, its contract, its isolation, the threads that it may use: a
+// line each, no newline at the end.
 std::string plugin_text(const std::string& name_and_version, const properties::Claims& claims,
                         const properties::Contract& contract,
-                        const properties::Isolation& isolation);
+                        const properties::Isolation& isolation, std::uint64_t threads);
 
 }  // namespace assay::reports

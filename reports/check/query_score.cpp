@@ -15,7 +15,7 @@ using corpus::LabelledQuery;
 void QueryScore::add(const std::string& file, const std::vector<LabelledQuery>& queries) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const auto begin = std::chrono::steady_clock::now();
-    const QueryAnswer answered = answer_by(method_, queries[i]);
+    const QueryAnswer answered = answer_by(*method_, queries[i]);
     const auto end = std::chrono::steady_clock::now();
     microseconds_.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
     if (answered.open) {
@@ -34,14 +34,22 @@ void QueryScore::add(const std::string& file, const std::vector<LabelledQuery>& 
       continue;
     }
     if (answered.contact != *queries[i].truth)
-      note_difference(file, i, queries[i], answered.contact);
+      note_difference(file, i, is_label_disputed(*method_, queries[i], answered.contact),
+                      answered.contact);
   }
+}
+
+void QueryScore::add_answer(const std::string& file, std::size_t index, const Answered& answered) {
+  microseconds_.push_back(answered.microseconds);
+  yes_ += answered.contact ? 1 : 0;
+  unlabelled_ += answered.truth ? 0 : 1;
+  if (answered.truth && *answered.truth != answered.contact)
+    note_difference(file, index, answered.label_disputed, answered.contact);
 }
 
 void QueryScore::print() const {
   constexpr std::size_t most_listed = 50;
-  fmt::print("{}: {} queries, {} yes, {} without a label{}\n", name_of(method_), count(), yes_,
-             unlabelled_,
+  fmt::print("{}: {} queries, {} yes, {} without a label{}\n", name_, count(), yes_, unlabelled_,
              method_ == QueryMethod::referee
                  ? fmt::format(", {} open, {} contradictions", open_, contradictions_.size())
                  : "");
@@ -59,14 +67,14 @@ void QueryScore::print() const {
       break;
     }
     fmt::print("  {} query {}: answer {}, label {}{}\n", d.file, d.index, d.answer, !d.answer,
-               d.label_disputed
-                   ? "; coplanar throughout, both exact methods agree against the label"
-                   : "");
+               !d.label_disputed ? ""
+               : method_ ? "; coplanar throughout, both exact methods agree against the label"
+                         : "; the oracle agrees against the label");
   }
   fmt::print("us a query: mean {:.2f}, median {:.2f}, p99 {:.2f}, p99.9 {:.2f}, max {:.2f}\n",
              mean(), quantile(0.5), quantile(0.99), quantile(0.999), quantile(1));
-  const auto& rungs = rungs_of(method_);
-  if (!*rungs[0]) return;
+  if (!method_ || !*rungs_of(*method_)[0]) return;
+  const auto& rungs = rungs_of(*method_);
   std::string text;
   for (std::size_t r = 0; r < rungs.size() && *rungs[r]; ++r) {
     text += fmt::format(
@@ -86,13 +94,13 @@ nlohmann::ordered_json QueryScore::to_json(const std::vector<std::string>& files
                            {"label_disputed", d.label_disputed}});
   }
   nlohmann::ordered_json rungs;
-  for (std::size_t r = 0; r < rungs_.size(); ++r) {
-    const char* name = rungs_of(method_)[r];
+  for (std::size_t r = 0; method_ && r < rungs_.size(); ++r) {
+    const char* name = rungs_of(*method_)[r];
     if (*name) rungs[name] = rungs_[r];
   }
   return {{"schema", "assay-queries/1"},
           {"version", version_text()},
-          {"method", name_of(method_)},
+          {"method", name_},
           {"files", files},
           {"count", count()},
           {"yes", yes_},
@@ -111,9 +119,8 @@ nlohmann::ordered_json QueryScore::to_json(const std::vector<std::string>& files
           {"rungs", rungs}};
 }
 
-void QueryScore::note_difference(const std::string& file, std::size_t index,
-                                 const LabelledQuery& query, bool contact) {
-  const bool disputed = is_label_disputed(method_, query, contact);
+void QueryScore::note_difference(const std::string& file, std::size_t index, bool disputed,
+                                 bool contact) {
   differences_.push_back({file, index, contact, disputed});
   if (!disputed) ++(contact ? false_positives_ : false_negatives_);
 }

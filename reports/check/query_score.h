@@ -3,6 +3,7 @@
 
 #include <array>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,20 @@ struct Difference {
 
 class QueryScore {
  public:
-  explicit QueryScore(QueryMethod method) : method_(method) {}
+  explicit QueryScore(QueryMethod method) : method_(method), name_(name_of(method)) {}
+  // Of another who answers, a plug-in: its answers come by add_answer.
+  explicit QueryScore(std::string name) : name_(std::move(name)) {}
 
   // Answers and times each query of a file, one by one.
   void add(const std::string& file, const std::vector<corpus::LabelledQuery>& queries);
+
+  struct Answered {
+    bool contact = false;
+    std::optional<bool> truth;    // the label, where it is of the query that was asked
+    bool label_disputed = false;  // the oracle answers against it
+    double microseconds = 0;
+  };
+  void add_answer(const std::string& file, std::size_t index, const Answered& answered);
 
   // To stdout: counts, differences from the truth, microseconds, rungs.
   void print() const;
@@ -32,21 +43,23 @@ class QueryScore {
 
   // The referee contradicts the oracle.
   bool is_unsound() const { return !contradictions_.empty(); }
-  // An answer differs from its truth in a way that the method promises not to.
+  // An answer differs from its truth in a way that the method promises not to; a plug-in is judged
+  // by its claims instead (query_detector.h).
   bool is_wrong() const {
-    return (false_positives_ > 0 && claims_no_false_positives(method_)) ||
-           (false_negatives_ > 0 && claims_no_false_negatives(method_));
+    return method_ && ((false_positives_ > 0 && claims_no_false_positives(*method_)) ||
+                       (false_negatives_ > 0 && claims_no_false_negatives(*method_)));
   }
 
  private:
-  void note_difference(const std::string& file, std::size_t index,
-                       const corpus::LabelledQuery& query, bool contact);
+  void note_difference(const std::string& file, std::size_t index, bool label_disputed,
+                       bool contact);
   std::size_t count() const { return microseconds_.size(); }
   std::size_t disputed() const { return differences_.size() - false_positives_ - false_negatives_; }
   double mean() const;
   double quantile(double share) const;
 
-  QueryMethod method_;
+  std::optional<QueryMethod> method_;
+  std::string name_;
   std::vector<double> microseconds_;
   std::size_t yes_ = 0, unlabelled_ = 0, false_positives_ = 0, false_negatives_ = 0;
   std::array<std::size_t, 3> rungs_ = {0, 0, 0};

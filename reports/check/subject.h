@@ -49,7 +49,9 @@ class Subject {
 
   // What the oracle is to be asked for.
   virtual oracle::AskedFeatures asked() const { return oracle::AskedFeatures::all; }
-  virtual properties::StepDiff judge(const detector::StepResult& result,
+  // Whether its steps have answers: a library of candidates alone has none.
+  virtual bool has_answers() const { return true; }
+  virtual properties::StepDiff judge(std::size_t step, const detector::StepResult& result,
                                      const oracle::StepJudgement& judgement) const = 0;
   // The stage that lost a missing pair; empty where stages are not known.
   virtual std::string stage_that_lost(std::size_t step, detector::TrianglePair pair) const = 0;

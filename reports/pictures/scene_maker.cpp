@@ -26,8 +26,9 @@ SceneMaker::SceneMaker(const std::optional<DetectorWords>& detector)
     return;
   }
   detector_ = request.detector;
-  worker_.emplace(properties::worker_program(), request.plugin,
-                  properties::WorkerLimits{case_seconds, 0, request.isolation});
+  worker_.emplace(
+      properties::worker_program(), request.plugin,
+      properties::WorkerLimits{case_seconds, 0, request.isolation, {}, request.threads});
 }
 
 std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,

@@ -29,6 +29,13 @@ Json pairs_json(const std::vector<detector::PairContact>& pairs) {
   return out;
 }
 
+Json candidates_json(const properties::StepDiff& diff) {
+  if (!diff.candidates) return nullptr;
+  return {{"given", diff.candidates->given},
+          {"least", diff.candidates->least},
+          {"missing", pairs_json(diff.missing_candidates)}};
+}
+
 Json times_json(const std::vector<properties::WrongTime>& times) {
   Json out = Json::array();
   for (const auto& t : times) {
@@ -54,6 +61,7 @@ Json to_json(const properties::StepDiff& diff) {
           {"spurious", pairs_json(diff.spurious)},
           {"late", times_json(diff.late)},
           {"early", times_json(diff.early)},
+          {"candidates", candidates_json(diff)},
           {"left_out", diff.left_out.size()},
           {"left_out_missed", diff.left_out_missed}};
 }

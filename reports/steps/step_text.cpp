@@ -20,7 +20,8 @@ namespace {
 // In ways that no claim is broken by, where the outcome is `holds`.
 bool differs(const properties::StepDiff& diff) {
   return diff.wrong_answer() || diff.wrong_first_time() || !diff.missing.empty() ||
-         !diff.spurious.empty() || !diff.late.empty() || !diff.early.empty();
+         !diff.spurious.empty() || !diff.missing_candidates.empty() || !diff.late.empty() ||
+         !diff.early.empty();
 }
 
 std::string verdict_text(const properties::StepDiff& diff) {
@@ -53,6 +54,7 @@ std::string diff_text(const properties::StepDiff& diff, bool has_stages) {
   };
   list("missing", diff.missing, true);
   list("spurious", diff.spurious, has_stages);
+  list("no candidate", diff.missing_candidates, true);
   return out;
 }
 
@@ -84,7 +86,9 @@ std::string stages_text(const detector::StepResult& result, std::optional<double
 std::string step_text(std::size_t number, const detector::StepResult& result,
                       const oracle::StepJudgement* judgement, double oracle_ms,
                       const properties::StepDiff* diff, const ShownWork& shown) {
-  std::string out = fmt::format("step {}: {}", number, properties::name_of(result.answer));
+  const bool has_answer = !diff || diff->has_answer || result.answer == Answer::error;
+  std::string out = fmt::format("step {}: {}", number,
+                                has_answer ? properties::name_of(result.answer) : "no answer");
   if (result.answer == Answer::collision) {
     out += fmt::format(" at t = {}", time_text(result.first));
     if (shown.reports_pairs) out += fmt::format(", {} pairs in contact", result.pairs.size());
@@ -105,6 +109,10 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
   }
   if (shown.has_stages || judgement) out += "\n";
   if (!diff) return out;
+  if (diff->candidates)
+    out += fmt::format("  candidates: {} pairs, at least {} needed, {} lost\n",
+                       diff->candidates->given, diff->candidates->least,
+                       diff->missing_candidates.size());
   out += times_off_text(*diff);
   if (diff->outcome != Outcome::holds || differs(*diff)) out += diff_text(*diff, shown.has_stages);
   return out;

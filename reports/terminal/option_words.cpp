@@ -72,12 +72,26 @@ void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about) {
   verb.add("--seed", seed, about).with(whole_number()).shows_default();
 }
 
+void add_part(Verb& verb, DetectorPart& part) {
+  const auto parse = [](std::string_view word) {
+    return word == "steps"   ? std::optional(DetectorPart::steps)
+           : word == "query" ? std::optional(DetectorPart::query)
+                             : std::nullopt;
+  };
+  add_choice(verb, "--part", part, "steps, query", parse,
+             "What of the plug-in is judged: whole steps with their candidates (default where it "
+             "has them), or its elementary query");
+}
+
 VerbOption add_detector(Verb& verb, DetectorWords& detector, const std::string& about) {
   auto library = verb.add("--detector", detector.library, about);
   add_choice(verb, "--isolation", detector.isolation, "none, best, required",
              properties::isolation_mode_of,
              "Of the plug-in's process: best takes what the system offers (default), required "
              "refuses where something is lacking, none lets it print");
+  verb.add("--threads", detector.threads, "How many threads the plug-in is told that it may use")
+      .in_range(1, 1024)
+      .shows_default();
   return library;
 }
 

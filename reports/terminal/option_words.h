@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -48,15 +49,23 @@ Check positive();      // a number above 0
 Check whole_number();  // 0 .. 2^64-1
 Check share();         // a number above 0, at most 1
 
+// What of a plug-in is judged: `by_library` is its steps, or candidates, where it has these, else
+// its query.
+enum class DetectorPart : std::uint8_t { by_library, steps, query };
+
 // A detector as the user names it.
 struct DetectorWords {
   std::string library;  // of a plug-in; empty: the built-in detector
   properties::IsolationMode isolation = properties::IsolationMode::best;
+  std::uint64_t threads = 1;  // that it may use
+  DetectorPart part = DetectorPart::by_library;
 };
 
-// --jobs (all cores, unless told otherwise), --seed, --detector with --isolation
+// --jobs (all cores, unless told otherwise), --seed, --detector with --isolation and --threads
 void add_jobs(Verb& verb, int& jobs);
 void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about);
+// --part: what of a plug-in a campaign is about.
+void add_part(Verb& verb, DetectorPart& part);
 // The option --detector is returned.
 VerbOption add_detector(Verb& verb, DetectorWords& detector,
                         const std::string& about = "A plug-in's library (default: the built-in)");

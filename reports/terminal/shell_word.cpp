@@ -17,8 +17,10 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-std::string detector_words(const std::string& library) {
-  return library.empty() ? "" : " --detector " + shell_word(library);
+std::string detector_words(const std::string& library, std::uint64_t threads) {
+  if (library.empty()) return "";
+  const std::string words = " --detector " + shell_word(library);
+  return threads == 1 ? words : words + " --threads " + std::to_string(threads);
 }
 
 }  // namespace assay::reports

@@ -1,6 +1,7 @@
 // Words of a command that can be pasted into a shell.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace assay::reports {
@@ -8,7 +9,7 @@ namespace assay::reports {
 // The word itself, or in quotes where a shell would read it as something else.
 std::string shell_word(const std::string& word);
 
-// " --detector LIB.so"; empty for the built-in detector.
-std::string detector_words(const std::string& library);
+// " --detector LIB.so", with " --threads N" where these are not 1; empty for the built-in detector.
+std::string detector_words(const std::string& library, std::uint64_t threads = 1);
 
 }  // namespace assay::reports

@@ -61,6 +61,7 @@ class Check {
         tally_(subject.description()) {
     outcome_.is_judged = !request.no_oracle;
     outcome_.judged_by_claims = subject.judged_by_claims();
+    outcome_.has_answers = subject.has_answers();
   }
 
   int run() {
@@ -156,7 +157,7 @@ class Check {
       outcome_.collision_step = s;
       outcome_.collision_time = result.first;
     }
-    outcome_.undecided |= result.answer == Answer::undecided;
+    outcome_.undecided |= subject_.has_answers() && result.answer == Answer::undecided;
     if (request_.no_oracle) {
       progress.finish();
       fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr, shown_work(s)));
@@ -165,7 +166,7 @@ class Check {
 
     progress.phase("oracle");
     const auto [judgement, oracle_ms] = oracle_.judge(x_t0, x_t1, case_.triangles, stop);
-    const auto diff = subject_.judge(result, judgement);
+    const auto diff = subject_.judge(s, result, judgement);
     progress.finish();
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
@@ -253,13 +254,15 @@ int run_check(const CheckRequest& request) {
     return refuse(fmt::format("{}: {}", request.files[0], bad->message));
   }
   Limits limits(request.time_limit, request.memory_limit);
-  auto subject =
-      request.detector.library.empty()
-          ? make_built_in(request.built_in, input.value(), limits)
-          : make_plugin_subject(request.detector.library,
-                                {request.time_limit.value_or(no_limit_seconds),
-                                 request.memory_limit.value_or(0), request.detector.isolation},
-                                input.value());
+  auto subject = request.detector.library.empty()
+                     ? make_built_in(request.built_in, input.value(), limits)
+                     : make_plugin_subject(request.detector.library,
+                                           {request.time_limit.value_or(no_limit_seconds),
+                                            request.memory_limit.value_or(0),
+                                            request.detector.isolation,
+                                            {},
+                                            request.detector.threads},
+                                           input.value());
   if (!subject) return refuse(subject.error());
   auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());
   return Check(request, input.value(), std::move(mesh), *subject.value(), limits).run();

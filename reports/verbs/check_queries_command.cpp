@@ -1,11 +1,12 @@
 // `assay check-queries`: labelled vertex-face and edge-edge queries answered by one method, scored
-// against their truth, and timed one by one.
+// against their truth, and timed one by one; or by a plug-in's query, judged by its claims too.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "properties/words.h"
 #include "reports/check/query_score.h"
+#include "reports/queries/query_detector.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/joined.h"
 #include "reports/terminal/option_words.h"
@@ -19,8 +20,63 @@ struct CheckQueriesRequest {
   std::vector<std::string> files;
   std::vector<std::string> truths;  // none, or one a file
   QueryMethod method = QueryMethod::oracle;
+  DetectorWords detector;
   std::string json_file;
 };
+
+using QuerySet = std::vector<corpus::LabelledQuery>;
+
+Expected<void> write_report(const std::string& file, const nlohmann::ordered_json& report) {
+  if (file.empty()) return outcome::success();
+  const auto written = write_json_file(file, report);
+  if (written) fmt::print("wrote {}\n", file);
+  return written;
+}
+
+// What a plug-in answers to the queries of a file, judged and scored.
+Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, const QuerySet& set,
+                          QueryScore& score) {
+  std::vector<detector::FourPoints> queries;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    queries.push_back(
+        std::visit([](const auto& q) { return detector::four_points(q); }, set[i].query));
+    names.push_back(fmt::format("{} query {}", file, i));
+  }
+  const auto judged = detector.judge(queries, names);
+  if (!judged) return judged.error();
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const auto& one = judged.value()[i];
+    if (!one.is_within || one.run.steps.empty()) continue;
+    const auto answer = one.run.steps[0].answer;
+    if (answer != detector::Answer::free && answer != detector::Answer::collision) continue;
+    const auto truth = one.is_rounded ? std::nullopt : set[i].truth;
+    score.add_answer(file, i,
+                     {answer == detector::Answer::collision, truth, truth && *truth != one.contact,
+                      one.microseconds});
+  }
+  return outcome::success();
+}
+
+int check_plugin(const CheckQueriesRequest& request, const std::vector<QuerySet>& sets) {
+  auto opened = QueryDetector::open(request.detector);
+  if (!opened) return refuse(opened.error());
+  auto& detector = opened.value();
+  fmt::print("{}\n", detector.title());
+  std::fflush(stdout);
+  QueryScore score(detector.request().detector.name);
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (const auto asked = ask_plugin(detector, request.files[i], sets[i], score); !asked)
+      return refuse(asked.error());
+  }
+  score.print();
+  fmt::print("{}", detector.text());
+  auto report = score.to_json(request.files);
+  report["detector"] = detector.to_json();
+  if (const auto written = write_report(request.json_file, report); !written)
+    return refuse(written.error());
+  return detector.exit_code();
+}
 
 int run_check_queries(const CheckQueriesRequest& request) {
   if (!request.truths.empty() && request.truths.size() != request.files.size()) {
@@ -29,7 +85,7 @@ int run_check_queries(const CheckQueriesRequest& request) {
                     request.truths.size(), request.files.size()));
   }
   if (auto may = may_write(request.json_file, request.files); !may) return refuse(may.error());
-  std::vector<std::vector<corpus::LabelledQuery>> sets;
+  std::vector<QuerySet> sets;
   for (std::size_t i = 0; i < request.files.size(); ++i) {
     std::optional<std::filesystem::path> truth;
     if (!request.truths.empty()) truth = request.truths[i];
@@ -37,14 +93,14 @@ int run_check_queries(const CheckQueriesRequest& request) {
     if (!queries) return refuse(Refusal(queries.error()));
     sets.push_back(std::move(queries.value()));
   }
+  if (!request.detector.library.empty()) return check_plugin(request, sets);
   QueryScore score(request.method);
   for (std::size_t i = 0; i < sets.size(); ++i) score.add(request.files[i], sets[i]);
   score.print();
-  if (!request.json_file.empty()) {
-    const auto written = write_json_file(request.json_file, score.to_json(request.files));
-    if (!written) return refuse(written.error());
-    fmt::print("wrote {}\n", request.json_file);
-  }
+  auto report = score.to_json(request.files);
+  report["detector"] = nullptr;
+  if (const auto written = write_report(request.json_file, report); !written)
+    return refuse(written.error());
   if (score.is_unsound()) return exit_unsound;
   return score.is_wrong() ? exit_defect : exit_holds;
 }
@@ -55,8 +111,9 @@ void add_options(Verb& verb, CheckQueriesRequest& request) {
   const auto parse = [](std::string_view word) {
     return properties::value_of<QueryMethod>(query_method_names, word);
   };
-  add_choice(verb, "--method", request.method, joined(query_method_names, ", "), parse,
-             "Who answers (default oracle)");
+  const auto method = add_choice(verb, "--method", request.method, joined(query_method_names, ", "),
+                                 parse, "Who answers (default oracle)");
+  add_detector(verb, request.detector, "A plug-in's library: its query answers").excludes(method);
   verb.add("--json", request.json_file, "Write the report here (assay-queries/1)");
 }
 

@@ -11,10 +11,11 @@
 #include "properties/campaign/phases/clean_starts.h"
 #include "properties/campaign/phases/planned_case.h"
 #include "properties/campaign/request.h"
-#include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "properties/printable.h"
+#include "properties/queries/query_families.h"
 #include "properties/reducer/mesh_size.h"
+#include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
 #include "reports/steps/case_export.h"
@@ -62,11 +63,9 @@ std::optional<TrialName> trial_of(std::string_view id) {
   std::uint64_t index = 0;
   const auto* end = parts[3].data() + parts[3].size();
   if (std::from_chars(parts[3].data(), end, index).ec != std::errc()) return std::nullopt;
-  const auto known = properties::families();
-  const auto found = std::find_if(known.begin(), known.end(),
-                                  [&](const auto& family) { return family.name == parts[2]; });
-  if (found == known.end()) return std::nullopt;
-  return TrialName{&*found, index};
+  const auto* found = properties::find_family(parts[2]);
+  if (!found) return std::nullopt;
+  return TrialName{found, index};
 }
 
 struct ReplayedCase {
@@ -127,6 +126,9 @@ void print_run(const properties::Configuration& configuration, const properties:
              run.what.empty() ? "" : " (" + run.what + ")");
   for (std::size_t s = 0; s < run.steps.size(); ++s) {
     const auto& result = run.steps[s];
+    if (s < run.candidates.size() && run.candidates[s])
+      fmt::print("  step {}: {} candidate pairs\n", s + 1, run.candidates[s]->size());
+    if (!run.has_answers) continue;
     fmt::print("  step {}: {}{}, {} pairs{}\n", s + 1, properties::name_of(result.answer),
                result.answer == detector::Answer::collision
                    ? fmt::format(" at t = {}", time_text(result.first))
@@ -162,8 +164,15 @@ int run_replay(const ReplayRequest& request) {
   const auto& trial = made.value().trial;
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
-  if (auto chosen = choose_detector(request.detector, subject); !chosen)
-    return refuse(chosen.error());
+  auto words = request.detector;
+  const bool is_query =
+      trial ? properties::is_query_family(trial->family->name) : properties::says_query(c);
+  if (is_query && !request.export_folder.empty())
+    return refuse("--export is of meshes: this is a query");
+  if (is_query && words.library.empty())
+    return refuse("this is a query of a plug-in: name its library by --detector");
+  words.part = is_query ? DetectorPart::query : DetectorPart::steps;
+  if (auto chosen = choose_detector(words, subject); !chosen) return refuse(chosen.error());
   const auto& contract = subject.detector.contract;
   if (trial) c = properties::case_within(contract, *trial->family, request.id_or_file).made.c;
   if (auto problem = choose_configurations(c, subject.detector)) {
@@ -187,7 +196,7 @@ int run_replay(const ReplayRequest& request) {
   }
   const auto truth = properties::judge_case(*seen, contract);
   properties::WorkerProcess worker(subject.worker, subject.plugin,
-                                   {.isolation = subject.isolation});
+                                   {.isolation = subject.isolation, .threads = subject.threads});
   const auto runs = worker.run(*seen, subject.detector.configurations);
   for (const auto& run : runs) {
     if (run.end == properties::RunEnd::not_run) return refuse(run.what);

@@ -1,4 +1,4 @@
-// assay self-test: the oracle's own check, a line a family.
+// assay self-test: the oracle's own check, a line a family; or a plug-in's query on these families.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "properties/queries/self_test_run.h"
+#include "reports/queries/family_run.h"
 #include "reports/terminal/exit_code.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/progress.h"
@@ -19,7 +20,8 @@ struct SelfTestRequest {
   std::uint64_t queries = 20'000;    // random small-integer queries
   std::optional<double> time_limit;  // seconds
   int jobs = 1;
-  std::string replay;  // "family:seed:index"; empty: the whole self-test
+  DetectorWords detector;  // whose query answers; none: the oracle and its referees
+  std::string replay;      // "family:seed:index"; empty: the whole self-test
 };
 
 using properties::FamilyResult;
@@ -88,6 +90,9 @@ void announce(const SelfTestRequest& request) {
 }
 
 int run_self_test(const SelfTestRequest& request) {
+  if (!request.detector.library.empty())
+    return self_test_of_plugin(
+        {request.detector, request.seed, request.queries, request.time_limit, request.replay});
   if (!request.replay.empty()) return replay(request);
   announce(request);
 
@@ -144,6 +149,8 @@ void add_options(Verb& verb, SelfTestRequest& request) {
   verb.add("--time", request.time_limit, "Limit in seconds; what is left is undecided")
       .with(positive());
   add_jobs(verb, request.jobs);
+  add_detector(verb, request.detector,
+               "A plug-in's library: its query answers the same queries, and the oracle judges it");
   verb.add("--replay", request.replay, "One case again, by its name family:seed:index");
 }
 

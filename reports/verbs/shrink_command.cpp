@@ -5,6 +5,7 @@
 #include "properties/campaign/phases/shrink.h"
 #include "properties/judging/case_check.h"
 #include "properties/reducer/mesh_size.h"
+#include "properties/worker/plugin/query_case.h"
 #include "reports/check/detector_choice.h"
 #include "reports/pictures/scene_maker.h"
 #include "reports/terminal/complaint.h"
@@ -58,18 +59,23 @@ int run_shrink(const ShrinkRequest& request) {
   auto read = corpus::read_case(request.file);
   if (!read) return refuse(read.error().message);
   const corpus::Case& c = read.value();
-  const auto options = properties::read_options(c);
-  if (!options) return refuse(fmt::format("{}: {}", request.file, options.error().message));
+  auto words = request.detector;
+  const bool is_query = properties::says_query(c);
+  if (is_query && words.library.empty())
+    return refuse(
+        fmt::format("{}: a query of a plug-in: name its library by --detector", request.file));
+  words.part = is_query ? DetectorPart::query : DetectorPart::steps;
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
-  if (auto chosen = choose_detector(request.detector, subject); !chosen)
-    return refuse(chosen.error());
+  if (auto chosen = choose_detector(words, subject); !chosen) return refuse(chosen.error());
+  const auto options = properties::read_options(is_query ? corpus::Case() : c);
+  if (!options) return refuse(fmt::format("{}: {}", request.file, options.error().message));
   if (subject.detector.built_in && !c.options.empty()) {
     subject.detector.configurations = {{"the case's own", options.value()}};
   }
   constexpr double hang_seconds = 10;
   properties::WorkerProcess worker(subject.worker, subject.plugin,
-                                   {hang_seconds, 0, subject.isolation});
+                                   {hang_seconds, 0, subject.isolation, {}, subject.threads});
   const auto failing = find_failure(c, subject.detector, worker);
   if (!failing) {
     fmt::print("{}: holds in every configuration; there is nothing to shrink\n", request.file);
@@ -95,7 +101,7 @@ int run_shrink(const ShrinkRequest& request) {
   progress.finish();
   if (written) written = write_text_file(request.out, corpus::case_text(reduction.smallest));
   if (written) {
-    SceneMaker scenes(request.detector);
+    SceneMaker scenes(words);
     written = scenes.write_picture(request.out, reduction.smallest, failing->configuration.name,
                                    failing->signature);
   }
@@ -104,7 +110,7 @@ int run_shrink(const ShrinkRequest& request) {
              properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
              reduction.calls, reduction.seconds, reduction.fixed_point ? "" : "; the time was over",
              picture_file(request.out), shell_word(request.out),
-             detector_words(request.detector.library));
+             detector_words(request.detector.library, request.detector.threads));
   return exit_defect;
 }
 

@@ -19,6 +19,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "detector/plugin/assay_detector.h"
 #include "properties/worker/channel.h"
@@ -78,6 +79,27 @@ Forgery colliding(assay::detector::PairContact contact, int times = 1) {
   });
 }
 
+Forgery with_candidates(const std::vector<assay::detector::TrianglePair>& pairs) {
+  return changed([pairs](RunReply& r) { r.run.candidates = {pairs}; });
+}
+
+// Of answers to queries; the bytes of a reply whose answers are all free.
+std::string forged_answers(const QueryRequest& request, const std::string& mode) {
+  QueryReply reply{request.number, {}};
+  reply.answers.resize(request.queries.size(), {Answer::free, {}, ""});
+  auto& first = reply.answers.front();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (mode == "forge-query-count") reply.answers.emplace_back();
+  if (mode == "forge-query-none") reply.answers.clear();
+  if (mode == "forge-query-nan") first.first = {nan, nan};
+  if (mode == "forge-query-time") first.first = {0, 2};
+  if (mode == "forge-query-answer") first.answer = static_cast<Answer>(9);
+  if (mode == "forge-query-text") first.what = "fine\n\033[2Jcertified";
+  if (mode == "forge-query-long") first.what.assign(1 << 20, 'x');
+  if (mode == "forge-query-number") ++reply.number;
+  return encode(reply);
+}
+
 const std::map<std::string, Forgery>& forgeries() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   static const std::map<std::string, Forgery> all = {
@@ -124,6 +146,19 @@ const std::map<std::string, Forgery>& forgeries() {
          std::memcpy(bytes.data() + 25, &many, sizeof many);
          return bytes;
        }},
+      {"forge-candidates", changed([](RunReply& r) { r.run.candidates.emplace_back(); })},
+      {"forge-no-answers", changed([](RunReply& r) {
+         r.run.has_answers = false;
+         r.run.steps[0].answer = Answer::undecided;
+       })},
+      // Of one that claims candidates.
+      {"forge-candidate-none", changed([](RunReply&) {})},
+      {"forge-candidate-missing", changed([](RunReply& r) { r.run.candidates.resize(1); })},
+      {"forge-candidate-beyond", with_candidates({{0, 1 << 30}})},
+      {"forge-candidate-of-one", with_candidates({{1, 1}})},
+      {"forge-candidate-negative", with_candidates({{-1, 1}})},
+      {"forge-candidate-twice", with_candidates({{0, 1}, {0, 1}})},
+      {"forge-candidate-lies", with_candidates({{0, 1}})},
       {"forge-garbage", [](RunReply) { return std::string(4096, '\x5a'); }},
       {"forge-nothing", [](RunReply) { return std::string(); }},
       {"forge-lies", changed([](RunReply&) {})},  // legal, and judged as answers are
@@ -139,11 +174,18 @@ const std::map<std::string, Forgery>& forgeries() {
   hello.description = {"forger", mode, {}, {}};
   auto& c = hello.description.claims;
   c = {true, true, true, true, true, true, true, true};
+  hello.description.parts.query = mode.starts_with("forge-query");
+  hello.description.parts.candidates = c.candidates = mode.starts_with("forge-candidate-");
   channel.send(encode(hello));
   std::string message;
   while (channel.receive(message) == Transfer::done) {
-    RunRequest request;
-    if (!decode(message, request)) break;
+    Request received;
+    if (!decode(message, received)) break;
+    if (received.kind == RequestKind::queries) {
+      channel.send(forged_answers(received.query, mode));
+      continue;
+    }
+    const RunRequest& request = received.run;
     for (std::uint64_t i = 0; i < request.configurations.size(); ++i) {
       channel.send(forgery(all_free(request, i)));
     }
@@ -382,6 +424,7 @@ const assay_detector_api* assay_detector() {
   const std::string mode = variable("ASSAY_HOSTILE");
   const auto forgery = forgeries().find(mode);
   if (forgery != forgeries().end()) forge(forgery->second, mode);
+  if (mode.starts_with("forge-query")) forge({}, mode);
   if (mode == "forge-length") forge_length();
   if (mode == "forge-refusal") forge_refusal(ProblemKind::not_a_plugin, "a\n\033[2Jcertified");
   if (mode == "forge-long-refusal")

@@ -18,6 +18,7 @@ A chunk that is in none of these lists fails the test, and so does an entry that
 
 RECURSION = "runs this very test"
 NIGHT = "takes a night"
+NO_QUERY = "libmine.so is the example, which holds no query; parts_of_a_detector_test runs them"
 MUTANTS = "compiles as the build did, and the build is only lent; test mutation_smoke runs the script"
 
 # What the reader is to have at hand: made before the first command of that README.
@@ -96,6 +97,12 @@ NOT_RUN = {
             NIGHT + ", on hosts that ssh has to reach",
         "reports/nightly --out /shared/night --by slurm --shards 32 --at-once 32 --sbatch '--partition=night'":
             NIGHT + ", and a cluster",
+    },
+    "detector/plugin/README.md": {
+        "assay check-queries --detector ./libmine.so corpus/queries/example_vf.csv": NO_QUERY,
+        "assay self-test --detector ./libmine.so": NO_QUERY,
+        "assay run --campaign smoke --part query --detector ./libmine.so --power proof --out mine-query":
+            NO_QUERY,
     },
     "tests/README.md": {
         "ctest --preset slow": RECURSION,

@@ -26,19 +26,10 @@ inline bool is_of_type(const SchemaJson& value, const std::string& type) {
 // One line for each place where `value` is not what `schema` says.
 inline void check_schema(const SchemaJson& schema, const SchemaJson& value,
                          const std::string& place, std::vector<std::string>& wrong) {
-  static const std::set<std::string> known = {"$schema",
-                                              "$id",
-                                              "title",
-                                              "const",
-                                              "enum",
-                                              "type",
-                                              "pattern",
-                                              "minimum",
-                                              "maximum",
-                                              "properties",
-                                              "items",
-                                              "required",
-                                              "additionalProperties"};
+  static const std::set<std::string> known = {
+      "$schema", "$id",      "title",    "const",    "enum",
+      "type",    "pattern",  "minimum",  "maximum",  "properties",
+      "items",   "minItems", "maxItems", "required", "additionalProperties"};
   const auto fail = [&](const std::string& why) { wrong.push_back(place + ": " + why); };
   for (const auto& [key, unused] : schema.items()) {
     if (!known.contains(key)) fail("keyword " + key + " is checked by nobody");
@@ -61,6 +52,10 @@ inline void check_schema(const SchemaJson& schema, const SchemaJson& value,
     fail("too small");
   if (value.is_number() && schema.contains("maximum") && value > schema["maximum"])
     fail("too large");
+  if (value.is_array() && value.size() < schema.value("minItems", std::size_t{0})) fail("too few");
+  if (value.is_array() && schema.contains("maxItems") &&
+      value.size() > schema["maxItems"].get<std::size_t>())
+    fail("too many");
   if (value.is_array() && schema.contains("items")) {
     for (std::size_t i = 0; i < value.size(); ++i)
       check_schema(schema["items"], value[i], place + "/" + std::to_string(i), wrong);

@@ -28,6 +28,11 @@ double spurious_pairs_a_step(const StepMeasures& m) {
   return m.steps ? static_cast<double>(m.spurious_pairs) / static_cast<double>(m.steps) : 0;
 }
 
+double candidates_over_least(const StepMeasures& m) {
+  if (m.least_candidates == 0) return 0;
+  return static_cast<double>(m.candidates) / static_cast<double>(m.least_candidates);
+}
+
 TimesOff times_late(const StepMeasures& m) {
   return times_off(m.late, m.late_steps(), m.collisions);
 }

@@ -21,6 +21,9 @@ Rate miss_rate(const StepMeasures& measures);
 // 0 without steps.
 double spurious_pairs_a_step(const StepMeasures& measures);
 
+// Candidates by the least possible; 0 where no pair was in contact.
+double candidates_over_least(const StepMeasures& measures);
+
 // By which share of the step the first time is off, over all steps in which the detector and the
 // oracle have one: 0 in those that are not.
 struct TimesOff {

@@ -24,6 +24,8 @@ std::string reason_against(Claim claim, const Contract& contract, const StepMeas
         return fmt::format("its interval is wider than {} in {} of {} collisions",
                            widest_stated_time, m.without_time, m.collisions);
       break;
+    case Claim::candidates:
+      return m.least_candidates == 0 ? "no step had a contact" : "";
     case Claim::deterministic:
     case Claim::total:
       return "";

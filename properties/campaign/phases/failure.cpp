@@ -52,6 +52,10 @@ class FailureOfStep {
       case Claim::no_spurious:
         too_much();
         break;
+      case Claim::candidates:
+        at("missing candidate", diff.missing_candidates.front());
+        failure_.what += fmt::format(", and are none of {} candidates", diff.candidates->given);
+        break;
       default:
         failure_.kind = "error";
     }
@@ -112,7 +116,7 @@ class FailureOfStep {
 
 Failure failure_of(const StepDiff& diff, const detector::StepResult& result) {
   Failure failure = FailureOfStep(diff).take();
-  if (failure.kind == "error") return failure;
+  if (failure.kind == "error" || failure.claim == Claim::candidates) return failure;
   const auto exact = diff.first_contact
                          ? answer_text(detector::Answer::collision, diff.first_contact->time)
                          : answer_text(detector::Answer::free, {});

@@ -13,7 +13,8 @@ namespace assay::properties {
 struct Failure {
   Claim claim = Claim::total;
   // "answered free", "late", "early", "missing pair", "late pair", "answered collision", "spurious
-  // pair", "early pair", "error", "two runs differ", "crashed", "refused": it fits the claim.
+  // pair", "early pair", "missing candidate", "error", "two runs differ", "crashed", "refused": it
+  // fits the claim.
   std::string kind;
   std::size_t step = 0;                        // of the script
   std::optional<detector::TrianglePair> pair;  // the first that is wrong

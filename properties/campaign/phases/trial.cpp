@@ -6,6 +6,7 @@
 
 #include "properties/judging/case_check.h"
 #include "properties/judging/cause.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
@@ -55,7 +56,15 @@ void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
   const auto contact = std::find_if(pairs.begin(), pairs.end(),
                                     [&](const auto& exact) { return exact.pair == *failure.pair; });
   failure.cause = text_of(contact == pairs.end() ? cause_of(c.triangles, x_t0, x_t1, *failure.pair)
+                          : says_query(c)        ? cause_of_query(c.triangles, x_t0, x_t1, *contact)
                                                  : cause_of(c.triangles, x_t0, x_t1, *contact));
+}
+
+// Of a query, whose two triangles only hold the features that were asked.
+void name_features(Failure& failure, const detector::FourPoints& query) {
+  if (failure.feature.empty()) failure.feature = query_word(query);
+  constexpr std::string_view pair = "triangles 0 and 1 ";
+  if (failure.what.starts_with(pair)) failure.what.replace(0, pair.size(), "the two features ");
 }
 
 }  // namespace
@@ -97,7 +106,11 @@ Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement
         whole.broken.front() == Claim::deterministic ? "two runs differ" : name_of(run.end);
     verdict.failure->what = whole.what.empty() ? verdict.failure->kind : whole.what;
   }
-  if (verdict.failure) verdict.failure->configuration = configuration.name;
+  if (verdict.failure) {
+    auto& failure = *verdict.failure;
+    failure.configuration = configuration.name;
+    if (const auto query = query_of(c)) name_features(failure, *query);
+  }
   verdict.steps = std::move(whole.steps);
   return verdict;
 }

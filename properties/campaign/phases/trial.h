@@ -19,6 +19,7 @@ struct DetectorUnderTest {
   Claims claims;  // of a plug-in; the built-in claims by its configuration's options
   Contract contract;
   std::vector<Configuration> configurations;
+  bool of_queries = false;  // of a plug-in: its elementary query is judged, and nothing else
 
   Claims claims_in(const Configuration& configuration) const;
 };

@@ -11,8 +11,8 @@
 #include "properties/campaign/phases/planned_case.h"
 #include "properties/campaign/stored/count_names.h"
 #include "properties/campaign/stored/step_measures.h"
-#include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
+#include "properties/queries/query_families.h"
 #include "properties/random.h"
 #include "properties/threads.h"
 #include "properties/worker/worker_process.h"
@@ -71,10 +71,7 @@ std::vector<PlannedTrial> planned_trials(const CampaignRequest& request,
     for (const auto& stratum : plan.strata) {
       if (i >= stratum.cases || !shard.holds(i)) continue;
       if (only && !only->contains(trial_id(plan, request.seed, stratum.family, i))) continue;
-      const auto known = families();
-      const auto family = std::find_if(known.begin(), known.end(),
-                                       [&](const Family& f) { return f.name == stratum.family; });
-      list.push_back({&*family, i});
+      list.push_back({find_family(stratum.family), i});
     }
   }
   return list;

@@ -8,7 +8,7 @@
 #include "properties/campaign/stored/json_optional.h"
 #include "properties/campaign/stored/store.h"
 #include "properties/faults/fault.h"
-#include "properties/generators/families.h"
+#include "properties/queries/query_families.h"
 
 namespace assay::properties {
 
@@ -76,10 +76,13 @@ Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::
 std::string generator_digest() {
   constexpr std::uint64_t cases = 16;  // of a family
   std::string digests;
-  for (const auto& family : families()) {
-    for (std::uint64_t i = 0; i < cases; ++i) {
-      const auto made = make_case(family, fmt::format("generator-digest:1:{}:{}", family.name, i));
-      digests += corpus::sha256_of(corpus::case_text(made.c)) + "\n";
+  for (const auto known : {families(), query_families()}) {
+    for (const auto& family : known) {
+      for (std::uint64_t i = 0; i < cases; ++i) {
+        const auto made =
+            make_case(family, fmt::format("generator-digest:1:{}:{}", family.name, i));
+        digests += corpus::sha256_of(corpus::case_text(made.c)) + "\n";
+      }
     }
   }
   return corpus::sha256_of(digests);

@@ -29,6 +29,9 @@ constexpr NamedMeasure named_measures[] = {
     {"measure:collisions", &StepMeasures::collisions},
     {"measure:without-time", &StepMeasures::without_time},
     {"measure:spurious-pairs", &StepMeasures::spurious_pairs},
+    {"measure:candidate-steps", &StepMeasures::candidate_steps},
+    {"measure:candidates", &StepMeasures::candidates},
+    {"measure:least-candidates", &StepMeasures::least_candidates},
     {"measure:redrawn", &StepMeasures::redrawn},
     {"measure:steps-left-out", &StepMeasures::steps_left_out},
     {"measure:left-out-misses", &StepMeasures::left_out_misses},
@@ -66,6 +69,11 @@ void add_time(std::string_view prefix, double share, Counts& counts) {
 
 void count_step(const StepDiff& diff, const detector::StepResult& result,
                 const oracle::StepJudgement& truth, Counts& counts, StepMeasures& sum) {
+  if (truth.complete && diff.candidates) {
+    ++sum.candidate_steps;
+    sum.candidates += diff.candidates->given;
+    sum.least_candidates += diff.candidates->least;
+  }
   const bool is_answered = result.answer == Answer::free || result.answer == Answer::collision;
   if (!is_answered || !truth.complete) return;
   ++sum.steps;

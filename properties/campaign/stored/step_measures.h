@@ -1,5 +1,5 @@
 // What is counted of a plug-in's steps whatever it claims: false alarms, misses, spurious pairs,
-// and how late and how early its times are. A trial keeps them among its counts.
+// candidates, and how late and how early its times are. A trial keeps them among its counts.
 #pragma once
 
 #include <map>
@@ -22,12 +22,15 @@ struct StepMeasures {
   std::uint64_t false_alarms = 0;  // of these, answered collision
   // The sum over trials of the square of their free steps: how much they hang together.
   std::uint64_t free_steps_squared = 0;
-  std::uint64_t contact_steps = 0;   // something that counts is in contact
-  std::uint64_t answered_free = 0;   // of these
-  std::uint64_t collisions = 0;      // of these, answered collision
-  std::uint64_t without_time = 0;    // of these collisions, with an interval that states no time
-  std::uint64_t spurious_pairs = 0;  // in all steps
-  ByHowMuch late, early;             // of `collisions`, those that are; whatever is tolerated
+  std::uint64_t contact_steps = 0;     // something that counts is in contact
+  std::uint64_t answered_free = 0;     // of these
+  std::uint64_t collisions = 0;        // of these, answered collision
+  std::uint64_t without_time = 0;      // of these collisions, with an interval that states no time
+  std::uint64_t spurious_pairs = 0;    // in all steps
+  std::uint64_t candidate_steps = 0;   // that candidates were given for
+  std::uint64_t candidates = 0;        // in these
+  std::uint64_t least_candidates = 0;  // pairs in contact that count, in these
+  ByHowMuch late, early;               // of `collisions`, those that are; whatever is tolerated
   // By the contract.
   std::uint64_t redrawn = 0;          // cases that it does not take at all
   std::uint64_t steps_left_out = 0;   // of those that it takes

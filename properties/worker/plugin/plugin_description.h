@@ -20,4 +20,10 @@ struct PluginDescription {
   PluginParts parts = {};
 };
 
+// Of its claims those that a part of it is judged by. Its steps: all; of a library without steps
+// candidates, deterministic and total.
+Claims claims_on_steps(const PluginDescription& description);
+// Its query: all but those on pairs and candidates.
+Claims claims_on_queries(const PluginDescription& description);
+
 }  // namespace assay::properties

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <new>
 
@@ -27,6 +28,16 @@ class PluginRun {
         handle_(handle, api.destroy),
         triangle_count_(triangle_count),
         reports_pairs_(reports_pairs) {}
+
+  // The candidate pairs of a step, or why there are none, as below.
+  Expected<std::vector<detector::TrianglePair>> candidates(const detector::Positions& x_t0,
+                                                           const detector::Positions& x_t1) {
+    assay_candidates raw = {};
+    const auto asked =
+        called("candidates", api_.candidates(handle_.get(), x_t0.data(), x_t1.data(), &raw));
+    if (!asked) return asked.error();
+    return candidate_pairs(raw, triangle_count_);
+  }
 
   // The result of a step, or why it has none: out_of_memory, step_failed, broken_result.
   Expected<StepResult> step(const detector::Positions& x_t0, const detector::Positions& x_t1,
@@ -95,8 +106,29 @@ Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std:
   return PluginHost(table.value(), std::move(description.value()));
 }
 
+std::vector<QueryAnswer> PluginHost::ask(std::span<const detector::FourPoints> queries) const {
+  std::vector<QueryAnswer> answers;
+  for (const auto& query : queries) {
+    constexpr std::size_t points = 4, axes = 3;
+    std::array<double, points * axes> x_t0, x_t1;
+    for (std::size_t i = 0; i < points; ++i) {
+      for (std::size_t k = 0; k < axes; ++k) {
+        x_t0[axes * i + k] = query.points[i].t0[k];
+        x_t1[axes * i + k] = query.points[i].t1[k];
+      }
+    }
+    assay_query_result raw = {};
+    const std::int32_t code =
+        table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
+                     x_t0.data(), x_t1.data(), &raw);
+    answers.push_back(query_answer(code, raw));
+  }
+  return answers;
+}
+
 CaseRun PluginHost::run(const corpus::Case& c) const {
-  if (!description_.parts.steps) return {RunEnd::refused, "it takes no steps", {}};
+  const auto& parts = description_.parts;
+  if (!parts.steps && !parts.candidates) return {RunEnd::refused, "it takes no steps", {}};
   std::vector<detector::Positions> frames;
   for (const auto& frame : c.frames) {
     frames.push_back(contracted(frame, description_.contract.coordinates));
@@ -119,19 +151,40 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
   PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
                    description_.contract.reports_pairs);
   CaseRun run;
+  run.has_answers = parts.steps;
   for (const auto& step : corpus::steps_of(c)) {
-    auto result = plugin.step(frames[static_cast<std::size_t>(step.from)],
-                              frames[static_cast<std::size_t>(step.to)], step.commit);
-    if (result) {
-      run.steps.push_back(std::move(result.value()));
-      continue;
+    const auto& x_t0 = frames[static_cast<std::size_t>(step.from)];
+    const auto& x_t1 = frames[static_cast<std::size_t>(step.to)];
+    StepResult& result = run.steps.emplace_back();
+    result.answer = Answer::undecided;
+    const auto fail = [&](const Problem& problem) {
+      result = {};
+      result.answer =
+          problem.kind == ProblemKind::out_of_memory ? Answer::undecided : Answer::error;
+      if (!run.what.empty()) return;
+      run.what =
+          "step " + std::to_string(run.steps.size()) + ": " + line_of(problem.message.c_str());
+    };
+    // Before the step is evaluated: nothing may stand between that and its commit.
+    std::optional<Problem> without_candidates;
+    if (parts.candidates) {
+      auto pairs = plugin.candidates(x_t0, x_t1);
+      run.candidates.emplace_back();
+      if (pairs) {
+        run.candidates.back() = std::move(pairs.value());
+      } else {
+        without_candidates = pairs.error();
+      }
     }
-    const auto& [kind, why] = result.error();
-    StepResult& failed = run.steps.emplace_back();
-    failed.answer = kind == ProblemKind::out_of_memory ? Answer::undecided : Answer::error;
-    if (run.what.empty()) {
-      run.what = "step " + std::to_string(run.steps.size()) + ": " + line_of(why.c_str());
+    if (parts.steps) {
+      auto answered = plugin.step(x_t0, x_t1, step.commit);
+      if (answered) {
+        result = std::move(answered.value());
+      } else {
+        fail(answered.error());
+      }
     }
+    if (without_candidates) fail(*without_candidates);
   }
   return run;
 }

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <vector>
 
 #include "detector/plugin/assay_detector.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/plugin/plugin_description.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 
@@ -24,6 +27,10 @@ class PluginHost {
   // is none) makes its step an error; errors are told in `what`. Coordinates are rounded to what
   // the contract says; steps that it leaves out are the caller's to leave out.
   CaseRun run(const corpus::Case& c) const;
+
+  // An answer to each query, by the same rules. REQUIRES that it has the part, and queries as the
+  // contract has them.
+  std::vector<QueryAnswer> ask(std::span<const detector::FourPoints> queries) const;
 
  private:
   PluginHost(const assay_detector_api& table, PluginDescription description)

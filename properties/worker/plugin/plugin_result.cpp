@@ -86,4 +86,34 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
   return result;
 }
 
+QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw) {
+  if (code == ASSAY_OUT_OF_MEMORY) return {Answer::undecided, {}, "out of memory"};
+  if (code != ASSAY_OK) return {Answer::error, {}, "query returned " + std::to_string(code)};
+  assay_result alike = {};
+  alike.answer = raw.answer;
+  alike.first_lo = raw.first_lo;
+  alike.first_hi = raw.first_hi;
+  const auto result = step_result(alike, 0);
+  if (!result) return {Answer::error, {}, result.error().message};
+  return {result.value().answer, result.value().first, ""};
+}
+
+Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
+                                                              std::int32_t triangle_count) {
+  const auto broken = [](std::string what) {
+    return Problem{ProblemKind::broken_result, std::move(what)};
+  };
+  if (raw.pair_count > 0 && !raw.pairs) return broken("candidates are counted but not given");
+  std::vector<detector::TrianglePair> pairs;
+  for (std::uint64_t i = 0; i < raw.pair_count; ++i) {
+    detector::TrianglePair pair;
+    if (!read_pair(raw.pairs + 2 * i, triangle_count, pair))
+      return broken("candidate " + std::to_string(i) + " names no two triangles");
+    pairs.push_back(pair);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
 }  // namespace assay::properties

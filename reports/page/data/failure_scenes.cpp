@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "properties/campaign/query_plan.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/page/data/scene_json.h"
@@ -18,6 +19,8 @@ std::optional<DetectorWords> detector_of(const properties::RunFindings& findings
   if (!findings.run.detector.built_in && findings.library.empty()) return std::nullopt;
   DetectorWords words;
   words.library = findings.library;
+  words.part =
+      properties::asks_queries(findings.run.plan) ? DetectorPart::query : DetectorPart::steps;
   return words;
 }
 
@@ -40,7 +43,7 @@ class FailureList {
  private:
   std::string replay_of(const properties::StoredFailure& failure) const {
     return replay_line(run_.folder, properties::failure_file(failure, !failure.smallest.empty()),
-                       run_.library);
+                       DetectorWords{run_.library});
   }
 
   Json other(const properties::StoredFailure& failure) const {

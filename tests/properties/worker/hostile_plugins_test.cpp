@@ -105,6 +105,14 @@ TEST_F(Hostile, ForgedRepliesAreCrashes) {
            {"forge-counts", "counts or times, which the host measures"},
            {"forge-bool", "bytes that are none"},
            {"forge-count-of-steps", "bytes that are none"},
+           {"forge-candidates", "candidates that it does not claim"},
+           {"forge-no-answers", "answers of another kind of detector"},
+           {"forge-candidate-none", "0 lists of candidates for 1 steps"},
+           {"forge-candidate-missing", "no candidates beside an answer"},
+           {"forge-candidate-beyond", "a candidate that is none of the mesh"},
+           {"forge-candidate-of-one", "a candidate that is none of the mesh"},
+           {"forge-candidate-negative", "a candidate that is none of the mesh"},
+           {"forge-candidate-twice", "candidates that do not ascend"},
            {"forge-garbage", "bytes that are none"},
            {"forge-nothing", "bytes that are none"},
        }) {
@@ -115,13 +123,43 @@ TEST_F(Hostile, ForgedRepliesAreCrashes) {
   }
 }
 
+TEST_F(Hostile, ForgedAnswersToQueriesAreCrashesOfTheseQueries) {
+  const std::vector<detector::FourPoints> three(3);
+  for (const auto& [mode, rule] : std::map<std::string, std::string>{
+           {"forge-query-count", "2 answers to 1 queries"},
+           {"forge-query-none", "0 answers to 1 queries"},
+           {"forge-query-nan", "a first time that is no interval in [0, 1]"},
+           {"forge-query-time", "a first time that is no interval in [0, 1]"},
+           {"forge-query-answer", "bytes that are none"},
+           {"forge-query-text", "a text that is no line"},
+           {"forge-query-long", "longer than any reply to these queries"},
+           {"forge-query-number", "to another request"},
+       }) {
+    setenv("ASSAY_HOSTILE", mode.c_str(), 1);
+    WorkerProcess worker(ASSAY_WORKER, plugin("hostile"), {.seconds = .2});
+    const auto runs = worker.ask(three);
+    ASSERT_EQ(runs.size(), three.size()) << mode;
+    for (const auto& run : runs) {
+      EXPECT_EQ(run.end, RunEnd::crashed) << mode;
+      EXPECT_EQ(run.what, "sent a reply that is none: " + rule) << mode;
+      EXPECT_TRUE(run.steps.empty()) << mode;
+    }
+  }
+  setenv("ASSAY_HOSTILE", "forge-query-lies", 1);
+  WorkerProcess liar(ASSAY_WORKER, plugin("hostile"), {.seconds = .2});
+  for (const auto& run : liar.ask(three)) {
+    EXPECT_EQ(run.end, RunEnd::completed) << run.what;
+    EXPECT_EQ(run.steps.at(0).answer, detector::Answer::free);
+  }
+}
+
 TEST_F(Hostile, ForgedDescriptionsAreNamed) {
   for (const auto& [mode, rule] : std::map<std::string, std::string>{
            {"forge-name", "a name that is no line"},
            {"forge-refusal", "a refusal that is no line"},
            {"forge-long-refusal", "a refusal that is no line"},
            {"forge-refusal-kind", "a refusal that loading a plug-in does not end with"},
-           {"forge-margin", "a margin that is no length"},
+           {"forge-margin", "its margin is no length"},
            {"forge-length", "no description"}}) {
     setenv("ASSAY_HOSTILE", mode.c_str(), 1);
     WorkerProcess worker(ASSAY_WORKER, plugin("hostile"), {.seconds = .2});
@@ -137,6 +175,9 @@ TEST_F(Hostile, WhatIsLegalIsAnAnswer) {
   EXPECT_EQ(run.end, RunEnd::completed) << run.what;
   ASSERT_EQ(run.steps.size(), 1u);
   EXPECT_EQ(run.steps[0].answer, detector::Answer::free);
+  const auto with_candidates = this->run("forge-candidate-lies");
+  EXPECT_EQ(with_candidates.end, RunEnd::completed) << with_candidates.what;
+  EXPECT_EQ(with_candidates.candidates.size(), 1u);
 }
 
 TEST_F(Hostile, DeedsHarmNothing) {

@@ -1,0 +1,42 @@
+#include "properties/judging/candidate_check.h"
+
+#include <algorithm>
+
+namespace assay::properties {
+
+void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgement& judgement,
+                      const Claims& claims, const Contract& contract,
+                      const detector::TrianglesView& triangles, StepDiff& diff) {
+  if (!claims.candidates) return;
+  if (candidates) {
+    const bool all_features = contract.features == TestedFeatures::both;
+    CandidateCount count{candidates->size(), 0};
+    auto ours = candidates->begin();
+    for (const auto& contact : all_features ? judgement.pairs : judgement.asked_pairs) {
+      if (leaves_out(contract, triangles, contact.pair)) continue;
+      ++count.least;
+      while (ours != candidates->end() && *ours < contact.pair) ++ours;
+      const bool is_there = ours != candidates->end() && *ours == contact.pair;
+      if (!is_there) diff.missing_candidates.push_back(contact);
+    }
+    diff.candidates = count;
+  }
+  if (!diff.missing_candidates.empty()) {
+    diff.broken.push_back(Claim::candidates);
+    diff.outcome = Outcome::defect;
+  } else if (diff.outcome == Outcome::holds && !(candidates && judgement.complete)) {
+    diff.partial = true;
+    diff.outcome = Outcome::undecided;
+  }
+}
+
+StepDiff diff_without_answer(const detector::StepResult& result, const Claims& claims) {
+  StepDiff diff;
+  diff.has_answer = false;
+  if (result.answer != detector::Answer::error) return diff;
+  if (claims.total) diff.broken.push_back(Claim::total);
+  diff.outcome = claims.total ? Outcome::defect : Outcome::error;
+  return diff;
+}
+
+}  // namespace assay::properties

@@ -1,0 +1,20 @@
+// An elementary query as the oracle and a contract see it.
+#pragma once
+
+#include "detector/contact/four_points.h"
+#include "oracle/mesh/step.h"
+#include "properties/worker/contract.h"
+
+namespace assay::properties {
+
+// The exact answer to the query alone, as the judgement of its case (query_case.h): a contact is
+// one of triangles 0 and 1, by the two features that are asked. Cost: oracle/query/contact.h.
+oracle::StepJudgement judge_query(const detector::FourPoints& query);
+
+// Whether a contract takes it: the kind of its features, and how these lie at t = 0.
+bool takes(const Contract& contract, const detector::FourPoints& query);
+
+// The contract under which an answer is judged: two features of a query are no neighbours.
+Contract on_queries(const Contract& contract);
+
+}  // namespace assay::properties

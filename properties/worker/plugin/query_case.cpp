@@ -1,0 +1,68 @@
+#include "properties/worker/plugin/query_case.h"
+
+namespace assay::properties {
+namespace {
+
+constexpr const char* query_option = "query";
+constexpr const char* vertex_face_word = "vertex-face";
+constexpr const char* edge_edge_word = "edge-edge";
+constexpr int vertices_of_a_query = 4;
+
+detector::Triangles triangles_of_queries() {
+  detector::Triangles triangles(2, 3);
+  triangles << 0, 1, 2, 1, 3, 2;
+  return triangles;
+}
+
+}  // namespace
+
+const char* query_word(const detector::FourPoints& query) {
+  return query.first_group == 1 ? vertex_face_word : edge_edge_word;
+}
+
+corpus::Case case_of_query(const detector::FourPoints& query, std::string id) {
+  corpus::Case c;
+  c.id = std::move(id);
+  c.triangles = triangles_of_queries();
+  c.options[query_option] = query_word(query);
+  c.frames.assign(2, detector::Positions(vertices_of_a_query, 3));
+  for (int v = 0; v < vertices_of_a_query; ++v) {
+    const auto& path = query.points[static_cast<std::size_t>(v)];
+    for (int axis = 0; axis < 3; ++axis) {
+      c.frames[0](v, axis) = path.t0[static_cast<std::size_t>(axis)];
+      c.frames[1](v, axis) = path.t1[static_cast<std::size_t>(axis)];
+    }
+  }
+  return c;
+}
+
+bool says_query(const corpus::Case& c) { return c.options.contains(query_option); }
+
+std::optional<detector::FourPoints> query_of(const corpus::Case& c) {
+  const auto word = c.options.find(query_option);
+  if (word == c.options.end()) return std::nullopt;
+  const bool is_vertex_face = word->second == vertex_face_word;
+  if (!is_vertex_face && word->second != edge_edge_word) return std::nullopt;
+  const detector::Triangles expected = triangles_of_queries();
+  if (c.triangles.rows() != expected.rows() || c.triangles != expected) return std::nullopt;
+  const auto steps = corpus::steps_of(c);
+  if (steps.size() != 1) return std::nullopt;
+  const auto &x_t0 = start_of(c, steps[0]), &x_t1 = end_of(c, steps[0]);
+  if (x_t0.rows() != vertices_of_a_query) return std::nullopt;
+  detector::FourPoints query;
+  query.first_group = is_vertex_face ? 1 : 2;
+  for (int v = 0; v < vertices_of_a_query; ++v)
+    query.points[static_cast<std::size_t>(v)] = detector::moving_point(x_t0, x_t1, v);
+  return query;
+}
+
+CaseRun run_of(QueryAnswer answer) {
+  CaseRun run;
+  run.what = std::move(answer.what);
+  auto& step = run.steps.emplace_back();
+  step.answer = answer.answer;
+  step.first = answer.first;
+  return run;
+}
+
+}  // namespace assay::properties

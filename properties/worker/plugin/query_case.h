@@ -1,0 +1,39 @@
+// An elementary query as a case: what campaigns, the reducer and `replay` know how to treat.
+//
+// Four vertices in the order of detector/contact/four_points.h, two triangles (0,1,2) and (1,3,2), one step, and the
+// option `query`: `vertex-face`, of vertex 0 and the face (1,2,3), or `edge-edge`, of the edges 01
+// and 23. The triangles hold these features, so that a picture shows them; whatever else of them
+// meets is not asked.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corpus/cases/case_file.h"
+#include "detector/contact/four_points.h"
+#include "detector/mesh/types.h"
+#include "properties/worker/case_run.h"
+
+namespace assay::properties {
+
+// What a plug-in says of a query.
+struct QueryAnswer {
+  detector::Answer answer = detector::Answer::error;
+  detector::TimeEnclosure first;  // with a collision
+  std::string what;               // of an error, one line
+};
+
+corpus::Case case_of_query(const detector::FourPoints& query, std::string id);
+
+// Whether the case says that it is a query, rightly or not.
+bool says_query(const corpus::Case& c);
+// The query of such a case; nothing where it is none.
+std::optional<detector::FourPoints> query_of(const corpus::Case& c);
+
+const char* query_word(const detector::FourPoints& query);  // "vertex-face", "edge-edge"
+
+// The run of the case of one query.
+CaseRun run_of(QueryAnswer answer);
+
+}  // namespace assay::properties

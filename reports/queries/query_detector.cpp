@@ -1,0 +1,133 @@
+#include "reports/queries/query_detector.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "properties/campaign/gates/measure_rates.h"
+#include "properties/printable.h"
+#include "reports/campaign/measures_text.h"
+#include "reports/certificate/sections.h"
+#include "reports/check/detector_choice.h"
+#include "reports/check/plugin_text.h"
+
+namespace assay::reports {
+
+using properties::Outcome;
+
+namespace {
+
+// So many that a library that crashes at each of a million queries is known in a minute.
+constexpr std::uint64_t most_crashes = 100;
+constexpr double query_seconds = 10;  // of processor time, of the queries of a message
+
+}  // namespace
+
+QueryDetector::QueryDetector(std::unique_ptr<properties::CampaignRequest> request)
+    : request_(std::move(request)),
+      worker_(std::make_unique<properties::WorkerProcess>(
+          request_->worker, request_->plugin,
+          properties::WorkerLimits{query_seconds, 0, request_->isolation, {}, request_->threads})),
+      judge_(std::make_unique<QueryJudge>(request_->detector, *worker_)) {}
+
+Expected<QueryDetector> QueryDetector::open(const DetectorWords& words) {
+  auto request = std::make_unique<properties::CampaignRequest>();
+  request->worker = properties::worker_program();
+  DetectorWords of_queries = words;
+  of_queries.part = DetectorPart::query;
+  if (auto chosen = choose_detector(of_queries, *request); !chosen) return chosen.error();
+  const auto& detector = request->detector;
+  if (judged_claims(detector.claims, detector.contract).empty())
+    return Refusal(fmt::format("{}: it claims nothing of its query", words.library));
+  return QueryDetector(std::move(request));
+}
+
+std::string QueryDetector::title() const {
+  return plugin_text(request_->detector.name, request_->detector.claims,
+                     request_->detector.contract, request_->isolated, request_->threads);
+}
+
+Expected<std::vector<JudgedQuery>> QueryDetector::judge(
+    const std::vector<detector::FourPoints>& queries, const std::vector<std::string>& names) {
+  constexpr std::size_t at_once = 512;
+  std::vector<JudgedQuery> all;
+  while (all.size() < queries.size()) {
+    const std::size_t count = std::min(at_once, queries.size() - all.size());
+    if (judge_->crashes() > most_crashes) {
+      not_asked_ += count;
+      all.resize(all.size() + count);
+      continue;
+    }
+    auto some = judge_->judge(std::span(queries).subspan(all.size(), count));
+    for (auto& one : some) {
+      const auto& name = names[all.size()];
+      if (one.run.end == properties::RunEnd::not_run) return Refusal(one.run.what);
+      if (!one.is_within) {
+        ++left_out_;
+      } else {
+        ++judged_;
+        const bool is_open = one.outcome == Outcome::undecided || one.outcome == Outcome::error;
+        undecided_ += is_open ? 1 : 0;
+      }
+      if (one.failure) {
+        ++defects_;
+        ++broken_[properties::name_of(one.failure->claim)];
+        const auto signature = one.failure->signature();
+        if (met_[signature]++ == 0)
+          shown_.push_back({name, signature, properties::printable(one.failure->what)});
+      }
+      all.push_back(std::move(one));
+    }
+  }
+  return all;
+}
+
+std::string QueryDetector::text() const {
+  std::string out = fmt::format("{}\n{}\n", measures_head(), measures_row(judge_->measures()));
+  if (left_out_ > 0) out += fmt::format("{} queries are left out by its contract\n", left_out_);
+  if (not_asked_ > 0)
+    out += fmt::format("{} queries were not asked: it had crashed {} times\n", not_asked_,
+                       judge_->crashes());
+  constexpr std::size_t most_shown = 20;
+  for (std::size_t i = 0; i < std::min(most_shown, shown_.size()); ++i) {
+    const auto& one = shown_[i];
+    out += fmt::format("DEFECT {}, met {} times\n  {}: {}\n", one.signature, met_.at(one.signature),
+                       one.name, one.what);
+  }
+  if (shown_.size() > most_shown)
+    out += fmt::format("... {} signatures more\n", shown_.size() - most_shown);
+  for (const auto& [claim, count] : broken_)
+    out += fmt::format("broken: {}, by {} queries\n", claim, count);
+  if (defects_ > 0) return out + fmt::format("{} of {} queries break a claim\n", defects_, judged_);
+  if (undecided_ + not_asked_ > 0)
+    return out + fmt::format("undecided: {} of {} queries\n", undecided_ + not_asked_,
+                             judged_ + not_asked_);
+  if (judged_ == 0) return out + "undecided: no query is within its contract\n";
+  return out + fmt::format("all claims hold in {} queries\n", judged_);
+}
+
+nlohmann::ordered_json QueryDetector::to_json() const {
+  nlohmann::ordered_json broken = nlohmann::ordered_json::object();
+  for (const auto& [claim, count] : broken_) broken[claim] = count;
+  nlohmann::ordered_json failures = nlohmann::ordered_json::array();
+  for (const auto& one : shown_)
+    failures.push_back({{"signature", one.signature},
+                        {"met", met_.at(one.signature)},
+                        {"query", one.name},
+                        {"what", one.what}});
+  return {{"judged", judged_},
+          {"left_out", left_out_},
+          {"undecided", undecided_},
+          {"not_asked", not_asked_},
+          {"measures", measures_json(judge_->measures())},
+          {"broken", std::move(broken)},
+          {"failures", std::move(failures)}};
+}
+
+int QueryDetector::exit_code() const {
+  if (defects_ > 0) return exit_defect;
+  return undecided_ + not_asked_ > 0 || judged_ == 0 ? exit_undecided : exit_holds;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,158 @@
+// An elementary query and nothing else: the built-in one. Its contract and faults are words of the
+// environment variable ASSAY_QUERY, such as "features=vertex-face miss=edge-edge":
+//
+//   features=vertex-face, features=edge-edge, float32, range=LO:HI, start=free, start=apart:D,
+//   tolerance=T, margin=D, claims=BITS       its description
+//   miss=vertex-face, miss=edge-edge         answers free
+//   miss-at-start, miss-inside               answers free when the first contact is at 0, above 0
+//   miss-coplanar                            answers free where F is zero throughout
+//   late=S, early=S                          its first time off by S
+//   alarm                                    answers collision to every query
+//   undecided, error, refuse, no-memory      to every query that has a contact
+//   changing                                 every third answer is another
+//   abort-at-start                           aborts where the first contact is at 0
+//   no-interval, no-answer, nan              what is no result
+//   abort-outside                            aborts when a query out of the contract is put to it
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "detector/contact/contact_exact.h"
+#include "detector/contact/elementary.h"
+#include "detector/plugin/assay_detector.h"
+
+namespace {
+
+using namespace assay::detector;
+
+// The word's value, or nothing; "" for a word without one.
+const char* value_of(const char* name) {
+  static const std::vector<std::string> words = [] {
+    const char* given = std::getenv("ASSAY_QUERY");
+    std::istringstream in(given ? given : "");
+    std::vector<std::string> list;
+    for (std::string word; in >> word;) list.push_back(word);
+    return list;
+  }();
+  const std::size_t length = std::strlen(name);
+  for (const auto& word : words) {
+    if (word == name) return "";
+    if (word.starts_with(name) && word[length] == '=') return word.c_str() + length + 1;
+  }
+  return nullptr;
+}
+bool has(const char* name) { return value_of(name) != nullptr; }
+bool is(const char* name, const char* value) {
+  const char* found = value_of(name);
+  return found && std::strcmp(found, value) == 0;
+}
+double number_of(const char* name) {
+  const char* text = value_of(name);
+  return text ? std::strtod(text, nullptr) : 0;
+}
+
+constexpr std::uint32_t query_claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE |
+                                       ASSAY_CLAIM_FIRST_TIME | ASSAY_CLAIM_NO_SPURIOUS |
+                                       ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
+
+const assay_description* describe() {
+  static const assay_description description = [] {
+    assay_description d = {};
+    d.name = "query alone";
+    d.version = "1";
+    d.claims = has("claims") ? static_cast<std::uint32_t>(number_of("claims")) : query_claims;
+    if (has("float32")) d.coordinates = ASSAY_COORDINATES_FLOAT32;
+    if (is("features", "vertex-face")) d.features = ASSAY_FEATURES_VERTEX_FACE;
+    if (is("features", "edge-edge")) d.features = ASSAY_FEATURES_EDGE_EDGE;
+    if (is("start", "free")) d.start = ASSAY_START_FREE;
+    if (const char* start = value_of("start"); start && std::strncmp(start, "apart:", 6) == 0) {
+      d.start = ASSAY_START_APART;
+      d.start_distance = std::strtod(start + 6, nullptr);
+    }
+    if (const char* range = value_of("range")) {
+      d.least_nonzero = std::strtod(range, nullptr);
+      d.largest = std::strtod(std::strchr(range, ':') + 1, nullptr);
+    }
+    d.time_tolerance = number_of("tolerance");
+    d.margin = number_of("margin");
+    return d;
+  }();
+  return &description;
+}
+
+bool is_outside(std::int32_t kind, const FourPoints& q, bool at_start) {
+  const auto& d = *describe();
+  if (d.features == ASSAY_FEATURES_VERTEX_FACE && kind != ASSAY_QUERY_VERTEX_FACE) return true;
+  if (d.features == ASSAY_FEATURES_EDGE_EDGE && kind != ASSAY_QUERY_EDGE_EDGE) return true;
+  if (d.start == ASSAY_START_FREE && at_start) return true;
+  for (const auto& p : q.points) {
+    for (const auto& end : {p.t0, p.t1}) {
+      for (const double x : end) {
+        if (d.coordinates == ASSAY_COORDINATES_FLOAT32 && static_cast<float>(x) != x) return true;
+        const bool in_range =
+            x == 0 || (std::abs(x) >= d.least_nonzero && std::abs(x) <= d.largest);
+        if (d.largest > 0 && !in_range) return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool misses(std::int32_t kind, const FourPoints& q, bool at_start) {
+  if (is("miss", kind == ASSAY_QUERY_VERTEX_FACE ? "vertex-face" : "edge-edge")) return true;
+  if (has("miss-coplanar") && coplanar_throughout(q)) return true;
+  return has(at_start ? "miss-at-start" : "miss-inside");
+}
+
+std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
+                   assay_query_result* out) {
+  FourPoints q;
+  q.first_group = kind == ASSAY_QUERY_VERTEX_FACE ? 1 : 2;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      q.points[i].t0[k] = x_t0[3 * i + k];
+      q.points[i].t1[k] = x_t1[3 * i + k];
+    }
+  }
+  const auto found = test_contact(q, Want::first_time);
+  const bool at_start = found.contact && found.time.hi == 0;
+  if (has("abort-outside") && is_outside(kind, q, at_start)) std::abort();
+  if (has("abort-at-start") && at_start) std::abort();
+  const double shift = number_of("late") - number_of("early");
+  if (found.contact && !misses(kind, q, at_start)) {
+    out->answer = ASSAY_COLLISION;
+    out->first_lo = std::clamp(found.time.lo + shift, 0., 1.);
+    out->first_hi = std::clamp(found.time.hi + shift, 0., 1.);
+    if (has("undecided")) out->answer = ASSAY_UNDECIDED;
+    if (has("error")) out->answer = ASSAY_ERROR;
+    if (has("no-interval")) out->first_lo = 2;
+    if (has("nan")) out->first_lo = std::numeric_limits<double>::quiet_NaN();
+    if (has("no-answer")) out->answer = 17;
+    if (has("refuse")) return ASSAY_REFUSED;
+    if (has("no-memory")) return ASSAY_OUT_OF_MEMORY;
+  } else if (has("alarm")) {
+    out->answer = ASSAY_COLLISION;
+    out->first_hi = 1;
+  }
+  static int calls = 0;  // on purpose: what is asked twice is answered in two ways
+  if (has("changing") && ++calls % 3 == 0 && out->answer == ASSAY_COLLISION) out->first_lo = 0;
+  return ASSAY_OK;
+}
+
+}  // namespace
+
+const assay_detector_api* assay_detector() {
+  static const assay_detector_api api = [] {
+    assay_detector_api table = {};
+    table.abi_version = ASSAY_DETECTOR_ABI_VERSION;
+    table.describe = describe;
+    table.query = query;
+    return table;
+  }();
+  return &api;
+}

@@ -1,0 +1,184 @@
+// Libraries that hold a part of a detector through the program: a broad phase, an elementary query.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "tests/reports/json_schema.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Parts : public testing::Test {
+ protected:
+  const Scratch scratch;
+  const std::string plan = scratch.write(
+      "plan.json", plan_text(24, R"(, "shrink_share": 0.3, "policy": {"self_test_queries": 20})"));
+  const std::string queries = std::string(ASSAY_SOURCE_DIR) + "/corpus/queries/example_vf.csv";
+  const std::string broad = " --detector " + plugin("candidates_alone");
+  const std::string query = " --detector " + plugin("query_alone");
+
+  static Outcome with(const char* variable, const std::string& words, const std::string& command) {
+    ::setenv(variable, words.c_str(), 1);
+    return run_assay(command);
+  }
+  Outcome candidates(const std::string& words, const std::string& command) const {
+    return with("ASSAY_CANDIDATES", words, command + broad);
+  }
+  Outcome asked(const std::string& words, const std::string& command) const {
+    return with("ASSAY_QUERY", words, command + query);
+  }
+  std::string out(const std::string& name) const { return scratch / name; }
+  std::string campaign(const std::string& verb, const std::string& name) const {
+    return verb + " --campaign " + plan + " --jobs 2 --out " + out(name);
+  }
+};
+
+void expect_valid_certificate(const std::string& file) {
+  const auto schema =
+      Json::parse(read_text(ASSAY_SOURCE_DIR "/reports/certificate/certificate.schema.json"));
+  std::vector<std::string> wrong;
+  check_schema(schema, Json::parse(read_text(file)), "", wrong);
+  for (const auto& line : wrong) ADD_FAILURE() << line;
+}
+
+TEST_F(Parts, ABroadPhaseIsCheckedByWhatItLoses) {
+  const std::string folder = scratch / "scene";
+  ASSERT_EQ(run_assay("scene folding-sheet --size 200 --frames 5 --out " + folder).exit_code, 0);
+  const std::string check = "check " + folder + "/frame_*.ply --json " + (scratch / "report.json");
+  const auto right = candidates("threads=4", check + " --threads 4");
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_TRUE(contains(right.out, "\nthreads: 4")) << right.out;
+  EXPECT_TRUE(contains(right.out, "no answer; agree")) << right.out;
+  EXPECT_TRUE(contains(right.out, " needed, 0 lost")) << right.out;
+  EXPECT_TRUE(contains(right.out, "candidate pairs; all claims hold")) << right.out;
+  auto report = Json::parse(read_text(scratch / "report.json"));
+  EXPECT_EQ(report["outcome"], "holds");
+  const auto wrong = candidates("every-second", check);
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
+  EXPECT_TRUE(contains(wrong.out, "broken: candidates")) << wrong.out;
+  EXPECT_TRUE(contains(wrong.out, "no candidate: triangles ")) << wrong.out;
+  report = Json::parse(read_text(scratch / "report.json"));
+  const auto& last = report["steps"].back()["diff"]["candidates"];
+  EXPECT_GT(last["given"], last["least"]);
+  EXPECT_GT(last["missing"].size(), 0u);
+}
+
+TEST_F(Parts, ABroadPhaseIsCertifiedAndItsMissesAreShrunk) {
+  const auto right = candidates("", campaign("certify", "right"));
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_TRUE(contains(right.out, "claims: deterministic, total, candidates\n")) << right.out;
+  EXPECT_TRUE(contains(right.out, "candidates / least")) << right.out;
+  EXPECT_FALSE(contains(right.out, "not judged: candidates")) << right.out;
+  expect_valid_certificate(out("right") + "/certificate.json");
+  const auto statement = Json::parse(read_text(out("right") + "/certificate.json"));
+  const auto& measures = statement["predicate"]["strata"][0]["measures"]["candidates"];
+  EXPECT_GT(measures["least"], 0);
+  EXPECT_GT(measures["over_least"], 1);
+  const auto again = candidates("", "verify --again 1 " + out("right") + "/certificate.json");
+  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
+
+  const auto wrong = candidates("ends-only", campaign("run", "wrong"));
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
+  EXPECT_TRUE(contains(wrong.out, "DEFECT candidates: missing candidate, ")) << wrong.out;
+  const auto lines = replay_lines(wrong.out);
+  ASSERT_FALSE(lines.empty());
+  const auto replayed = run_assay(lines[0]);
+  EXPECT_EQ(replayed.exit_code, 1) << lines[0] << replayed.out << replayed.err;
+  EXPECT_TRUE(contains(replayed.out, "DEFECT candidates: missing candidate")) << replayed.out;
+}
+
+TEST_F(Parts, LabelledQueriesAreScoredAndJudged) {
+  const std::string check = "check-queries " + queries + " --json " + (scratch / "report.json");
+  const auto right = asked("", check);
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_TRUE(contains(right.out, "0 false positives, 0 false negatives")) << right.out;
+  EXPECT_TRUE(contains(right.out, "all claims hold in 5 queries")) << right.out;
+  const auto report = Json::parse(read_text(scratch / "report.json"));
+  EXPECT_EQ(report["method"], "query alone 1");
+  EXPECT_EQ(report["detector"]["judged"], 5);
+  EXPECT_EQ(report["detector"]["broken"], Json::object());
+
+  const auto missed = asked("miss-inside", check);
+  EXPECT_EQ(missed.exit_code, 1) << missed.out << missed.err;
+  EXPECT_TRUE(contains(missed.out, "broken: free-sound, by ")) << missed.out;
+  EXPECT_FALSE(contains(missed.out, " 0 false negatives")) << missed.out;
+  const auto alarm = asked("alarm", check);
+  EXPECT_EQ(alarm.exit_code, 1) << alarm.out << alarm.err;
+  EXPECT_TRUE(contains(alarm.out, "broken: no-spurious, by ")) << alarm.out;
+  const auto late = asked("late=1e-6", check);
+  EXPECT_EQ(late.exit_code, 1) << late.out << late.err;
+  EXPECT_TRUE(contains(late.out, "broken: not-late, by ")) << late.out;
+  // Whoever does not claim it is not judged by it, and counted.
+  const auto total_alone = asked("claims=128 alarm", check);
+  EXPECT_EQ(total_alone.exit_code, 0) << total_alone.out << total_alone.err;
+  EXPECT_FALSE(contains(total_alone.out, " 0 false positives")) << total_alone.out;
+  EXPECT_EQ(asked("features=edge-edge", check).exit_code, 3) << "nothing was judged";
+  EXPECT_EQ(asked("undecided", check).exit_code, 3);
+}
+
+TEST_F(Parts, TheSelfTestsFamiliesFindAFaultAndItsLineReplaysIt) {
+  const auto right = asked("", "self-test --queries 300");
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  for (const std::string word : {"small-int", "rungs", "plane-2", "all claims hold in "})
+    EXPECT_TRUE(contains(right.out, word)) << word << "\n" << right.out;
+  const auto wrong = asked("miss-coplanar", "self-test --queries 300");
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
+  EXPECT_TRUE(contains(wrong.out, "coplanar throughout")) << wrong.out;
+  const auto lines = replay_lines(wrong.out);
+  ASSERT_FALSE(lines.empty());
+  const auto replayed = run_assay(lines[0]);
+  EXPECT_EQ(replayed.exit_code, 1) << lines[0] << replayed.out << replayed.err;
+  EXPECT_TRUE(contains(replayed.out, "plug-in: free")) << replayed.out;
+}
+
+TEST_F(Parts, ACampaignOfQueriesIsCertifiedAndVerified) {
+  const auto right = asked("", campaign("certify", "right"));
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_TRUE(contains(right.out, "240 trials of 10 families")) << right.out;
+  EXPECT_TRUE(contains(right.out, "query-small-int")) << right.out;
+  EXPECT_TRUE(contains(right.out, "named queries")) << right.out;
+  expect_valid_certificate(out("right") + "/certificate.json");
+  const auto again = asked("", "verify --again 1 " + out("right") + "/certificate.json");
+  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
+}
+
+TEST_F(Parts, AFailingQueryIsShrunkAndReplayed) {
+  const auto wrong = asked("miss-inside", campaign("run", "wrong"));
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
+  EXPECT_TRUE(contains(wrong.out, "DEFECT free-sound: answered free, ")) << wrong.out;
+  EXPECT_TRUE(contains(wrong.out, "2 triangles, 4 vertices, 1 step")) << wrong.out;
+  const auto lines = replay_lines(wrong.out);
+  ASSERT_FALSE(lines.empty());
+  for (const auto& line : lines) {
+    const auto replayed = run_assay(line);
+    EXPECT_EQ(replayed.exit_code, 1) << line << replayed.out << replayed.err;
+    EXPECT_TRUE(contains(replayed.out, "DEFECT free-sound: answered free")) << replayed.out;
+  }
+  // Simpler than it was drawn, and still the query that it says.
+  const auto file = lines[0].substr(lines[0].find(' ') + 1);
+  const auto smallest = Json::parse(read_text(file.substr(0, file.find(' '))));
+  EXPECT_EQ(smallest["triangles"], Json::parse("[[0, 1, 2], [1, 3, 2]]"));
+  EXPECT_TRUE(smallest["options"].contains("query"));
+  const auto of_trial = asked("miss-inside", "replay tiny:1:query-constructed:0");
+  EXPECT_TRUE(of_trial.exit_code == 0 || of_trial.exit_code == 1) << of_trial.out << of_trial.err;
+}
+
+TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {
+  const std::string frames = std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/";
+  expect_refused(candidates("", "check-queries " + queries), "it holds no elementary query");
+  expect_refused(candidates("", "self-test"), "it holds no elementary query");
+  expect_refused(asked("", campaign("run", "steps") + " --part steps"), "but a query alone");
+  expect_refused(candidates("", campaign("run", "query") + " --part query"),
+                 "it holds no elementary query");
+  expect_refused(asked("", "check " + frames + "B1_one_vertex_own_nearest.json"),
+                 "but a query alone");
+  expect_refused(run_assay("replay tiny:1:query-ulp:0"), "--detector");
+  expect_refused(asked("claims=8", "check-queries " + queries), "claims nothing of its query");
+}
+
+}  // namespace
+}  // namespace assay::tests
