@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/phases/trial.h"
 #include "properties/campaign/plan.h"
 #include "properties/campaign/stored/evidence.h"
+#include "properties/campaign/trials/trial.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {
@@ -47,7 +47,9 @@ struct CampaignRequest {
   std::optional<OwnCases> own_cases;
 
   // Of the workers that run its cases.
-  WorkerLimits worker_limits() const { return {plan.case_seconds, 0, isolation, isolated, threads}; }
+  WorkerLimits worker_limits() const {
+    return {plan.case_seconds, 0, isolation, isolated, threads};
+  }
 };
 
 // When a phase of the run must be over. Only what the user asked for by --time, or a campaign file

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "properties/claims/claims.h"
 #include "properties/numbering.h"
-#include "properties/worker/claims.h"
 
 namespace assay::properties {
 

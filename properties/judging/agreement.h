@@ -9,7 +9,7 @@
 #include "detector/options.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
-#include "properties/worker/claims.h"
+#include "properties/claims/claims.h"
 
 namespace assay::properties {
 

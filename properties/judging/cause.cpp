@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "oracle/instant/static_contact.h"
-#include "oracle/query/contact_shape.h"
+#include "oracle/mesh/contact_shape.h"
 #include "properties/words.h"
 
 namespace assay::properties {

@@ -16,7 +16,7 @@ enum class CauseTime : std::uint8_t { inside, at_1, at_0 };
 
 // The first that holds, of features at rest without `coplanar_throughout`: a triangle of the pair
 // has no area at t = 0, at t = 1 or at a contact whose time is a double; then those of
-// oracle/query/contact_shape.h.
+// oracle/mesh/contact_shape.h.
 enum class CauseShape : std::uint8_t {
   generic,
   double_root,
@@ -32,8 +32,8 @@ enum class CauseNumbers : std::uint8_t { ordinary, tiny, huge };
 
 struct Cause {
   std::optional<CauseTime> time;  // nothing where there is no contact
-  bool is_moving = true;          // some vertex of the two features; without a contact: of the two
-                                  // triangles
+  // Some vertex of the two features; without a contact, of the two triangles.
+  bool is_moving = true;
   std::optional<CauseShape> shape;  // nothing where there is no contact, and for piercing
   CauseNumbers numbers = CauseNumbers::ordinary;
   friend bool operator==(const Cause&, const Cause&) = default;
@@ -42,8 +42,8 @@ struct Cause {
 // Of a contact of the oracle in the step from x_t0 to x_t1.
 Cause cause_of(const detector::TrianglesView& triangles, const detector::PositionsView& x_t0,
                const detector::PositionsView& x_t1, const detector::PairContact& contact);
-// Of a contact of the two features of a query (query_case.h), whose triangles hold more than these:
-// only the face's area counts.
+// Of a contact of the two features of a query (query_case.h), whose triangles hold more than
+// these: only the face's area counts.
 Cause cause_of_query(const detector::TrianglesView& triangles, const detector::PositionsView& x_t0,
                      const detector::PositionsView& x_t1, const detector::PairContact& contact);
 // Of a pair of triangles that is not in contact.

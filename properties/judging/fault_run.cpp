@@ -1,5 +1,7 @@
 #include "properties/judging/fault_run.h"
 
+#include <algorithm>
+
 #include "properties/worker/case_player.h"
 
 namespace assay::properties {
@@ -38,17 +40,25 @@ std::vector<StepResult> run_disturbed(const corpus::Case& c, const detector::Opt
   if (!made || !beside) return refused(c, made.error());
   std::vector<StepResult> results;
   for (std::size_t s = 0; s < made.value().steps(); ++s) {
+    std::vector<StepResult> after_stops;
     for (int stop_at = 1; stop_at <= most_stops; ++stop_at) {
       int asked = 0;
       const auto stop = [&] { return ++asked == stop_at; };
       const auto stopped = made.value().look(s, stop);
       if (stopped.answer != detector::Answer::undecided) break;
+      after_stops.push_back(made.value().look(s));
     }
     const auto meanwhile = [&] {
       beside.value().look(s);
       return false;
     };
     results.push_back(made.value().play(s, meanwhile));
+    const auto differs = [&](const StepResult& after_stop) {
+      return !same_answers(without_marking_counts({after_stop}),
+                           without_marking_counts({results.back()}));
+    };
+    const auto other = std::find_if(after_stops.begin(), after_stops.end(), differs);
+    if (other != after_stops.end()) results.back() = *other;
   }
   return results;
 }

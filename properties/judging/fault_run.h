@@ -22,8 +22,9 @@ std::vector<detector::StepResult> run_case(const corpus::Case& c, const detector
 std::vector<detector::StepResult> run_case(const corpus::Case& c, const Fault& fault);
 
 // The same run disturbed: each step is first evaluated and stopped, at one asking after the other,
-// then taken while a second detector of such stages works on the same step in between. A detector
-// takes no notice: undecided evaluations change nothing, and two detectors share nothing.
+// and evaluated whole behind each stop; then taken while a second detector of such stages works on
+// the same step in between. A detector takes no notice: undecided evaluations change nothing, and two
+// detectors share nothing. Of a step whose results differ among each other one that differs is given.
 using MakeStages = detector::Stages (*)(const detector::Options&);
 std::vector<detector::StepResult> run_disturbed(const corpus::Case& c,
                                                 const detector::Options& options,

@@ -3,7 +3,7 @@
 
 #include "detector/contact/four_points.h"
 #include "oracle/mesh/step.h"
-#include "properties/worker/contract.h"
+#include "properties/claims/contract.h"
 
 namespace assay::properties {
 

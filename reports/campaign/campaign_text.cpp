@@ -6,7 +6,7 @@
 
 #include "properties/campaign/gates/bounds.h"
 #include "properties/campaign/stored/count_names.h"
-#include "reports/campaign/measures_text.h"
+#include "reports/steps/measures_text.h"
 #include "reports/terminal/exit_code.h"
 
 namespace assay::reports {

@@ -15,7 +15,7 @@ namespace {
 
 using properties::SlowCase;
 
-// "slow/smoke-1-broken-7-libmine-smallest.json", within the run's folder.
+// Within the run's folder: slow/ID-CONFIGURATION-smallest.json.
 std::filesystem::path slow_file(const SlowCase& slow, bool smallest) {
   std::string name = slow.id + "-" + slow.configuration;
   for (char& c : name) {

@@ -10,8 +10,8 @@
 
 namespace assay::reports {
 
-// Writes OUT/slow/ID-CONFIGURATION-original.json and -smallest.json for each case that was kept, and
-// a picture of the smaller one.
+// Writes two files for each case that was kept, OUT/slow/ID-CONFIGURATION-original.json and
+// -smallest.json, and a picture of the smaller one.
 Expected<void> write_slow_cases(const std::vector<properties::SlowCase>& cases,
                                 const std::filesystem::path& out, const DetectorWords& detector);
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "properties/judging/agreement.h"
-#include "reports/campaign/measures_text.h"
+#include "reports/steps/measures_text.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/exit_code.h"
 #include "reports/terminal/joined.h"

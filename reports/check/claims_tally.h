@@ -1,4 +1,4 @@
-// What the steps of a plug-in come to under `check`: its claims, and what it does whatever it claims.
+// What the steps of a plug-in come to under `check`: its claims, and what it does whatever these.
 #pragma once
 
 #include "properties/worker/plugin/plugin_description.h"

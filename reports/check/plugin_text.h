@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "properties/worker/claims.h"
+#include "properties/claims/claims.h"
 #include "properties/worker/isolation/isolation.h"
 
 namespace assay::reports {

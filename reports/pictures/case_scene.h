@@ -8,7 +8,7 @@
 #include "detector/mesh/surface.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
-#include "properties/campaign/phases/trial.h"
+#include "properties/campaign/trials/trial.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::reports {

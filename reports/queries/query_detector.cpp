@@ -7,10 +7,10 @@
 
 #include "properties/campaign/gates/measure_rates.h"
 #include "properties/printable.h"
-#include "reports/campaign/measures_text.h"
 #include "reports/certificate/sections.h"
 #include "reports/check/detector_choice.h"
 #include "reports/check/plugin_text.h"
+#include "reports/steps/measures_text.h"
 
 namespace assay::reports {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "detector/contact/four_points.h"
-#include "properties/campaign/phases/trial.h"
 #include "properties/campaign/stored/step_measures.h"
+#include "properties/campaign/trials/trial.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::reports {

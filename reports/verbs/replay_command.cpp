@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "detector/step_result.h"
-#include "properties/campaign/phases/case_tally.h"
-#include "properties/campaign/phases/clean_starts.h"
-#include "properties/campaign/phases/planned_case.h"
 #include "properties/campaign/request.h"
+#include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/trials/clean_starts.h"
+#include "properties/campaign/trials/planned_case.h"
 #include "properties/judging/case_check.h"
 #include "properties/printable.h"
 #include "properties/queries/query_families.h"

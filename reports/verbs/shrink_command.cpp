@@ -1,8 +1,8 @@
 // `assay shrink`: the smallest case that fails as this one does.
 #include <fmt/format.h>
 
-#include "properties/campaign/phases/case_tally.h"
 #include "properties/campaign/phases/shrink.h"
+#include "properties/campaign/trials/case_tally.h"
 #include "properties/judging/case_check.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/plugin/query_case.h"

@@ -7,7 +7,7 @@
 //   miss=vertex-face, miss=edge-edge         does not test these
 //   late=S, early=S                          its first time, and those of its pairs, off by S
 //   alarm=N                                  answers collision in one of N free steps
-//   alarm-share=P                            the same in a share of them, drawn from the coordinates
+//   alarm-share=P                            the same in a share of them, by the coordinates
 //   burn=S                                   S seconds where the first time is a double above 0
 //   abort-outside                            aborts when a step of the wrong contract is put to it
 //   whenever                                 collision at [0, 1] in every step

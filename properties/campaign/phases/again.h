@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "properties/campaign/phases/trials.h"
 #include "properties/campaign/request.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/problem.h"
 
 namespace assay::properties {

@@ -5,7 +5,7 @@
 
 #include "corpus/cases/case_file.h"
 #include "detector/options.h"
-#include "properties/campaign/phases/trial.h"
+#include "properties/campaign/trials/trial.h"
 #include "properties/reducer/reducer.h"
 
 namespace assay::properties {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "properties/campaign/phases/fault_hunt.h"
-#include "properties/campaign/phases/trials.h"
 #include "properties/campaign/request.h"
 #include "properties/campaign/stored/evidence.h"
+#include "properties/campaign/trials/trials.h"
 
 namespace assay::properties {
 
@@ -19,8 +19,8 @@ class CampaignObserver {
   virtual ~CampaignObserver() = default;
   // First of all: so many trials are in the store already.
   virtual void on_begin(std::uint64_t /*trials*/) {}
-  // "trials", "shrinking", "slow cases", "faults", "tetrahedron": what begins now. The first is told after the
-  // canary.
+  // "trials", "shrinking", "slow cases", "faults", "tetrahedron": what begins now. The first is
+  // told after the canary.
   virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "properties/campaign/database/store_problem.h"
-#include "properties/campaign/phases/case_tally.h"
-#include "properties/campaign/phases/clean_starts.h"
+#include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/trials/clean_starts.h"
 
 namespace assay::properties {
 

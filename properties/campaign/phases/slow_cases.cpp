@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "properties/campaign/phases/planned_case.h"
+#include "properties/campaign/trials/planned_case.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {

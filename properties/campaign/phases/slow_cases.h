@@ -11,15 +11,15 @@
 
 namespace assay::properties {
 
-// How many of the trials that reached the limit, or came near it, are kept with a mesh; the slowest
-// first.
+// How many of the trials that reached the limit, or came near it, are kept with a mesh; the
+// slowest first.
 inline constexpr std::size_t slow_cases_kept = 5;
 
-// Stores a SlowCase for each of them that is not stored yet, then shrinks those that reach the limit
-// of a case twice over: a smaller case is taken where the median of three runs takes at least twice
-// the limit. Nothing is shrunk beyond `limits` each, nor beyond the deadline. Processor time alone
-// decides, and yet two runs of one campaign may shrink differently: what is stored here `may_differ`.
-// Throws StoreProblem: for campaign/ alone.
+// Stores a SlowCase for each of them that is not stored yet, then shrinks those that reach the
+// limit of a case twice over: a smaller case is taken where the median of three runs takes at
+// least twice the limit. Nothing is shrunk beyond `limits` each, nor beyond the deadline.
+// Processor time alone decides, and yet two runs of one campaign may shrink differently: what is
+// stored here `may_differ`. Throws StoreProblem: for campaign/ alone.
 void keep_slow_cases(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const std::function<void(const std::string&)>& progress);
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "properties/worker/contract.h"
+#include "properties/claims/contract.h"
 
 namespace assay::properties {
 

@@ -91,7 +91,8 @@ struct SlowCase {
   bool undecided = false;  // it reached the limit
   double seconds = 0;      // of processor time, where it did not
   double limit = 0;        // of a case
-  // Case files as text; smallest: one that takes at least twice the limit, empty where none is known.
+  // Case files as text; smallest: one that takes at least twice the limit, empty where none is
+  // known.
   std::string mesh, smallest;
 };
 

@@ -34,12 +34,13 @@ struct StoredFailure {
 // for a case may break a law and a claim.
 inline constexpr std::string_view law_in_signature = "law ", law_in_configuration = ", law ";
 
-// The id of a failure that the shipped corpus shows is this and the name of its case. No trial's id
-// begins so: the name of a campaign has no '/'.
+// The id of a failure that the shipped corpus shows is this and the name of its case. No trial's
+// id begins so: the name of a campaign has no '/'.
 inline constexpr std::string_view corpus_in_id = "corpus/";
 
-// What the mesh of a failure says of itself: "all-pairs: missing pair, edge-edge; triangles 0 and 1
-// meet at 0.5", and back: what stands behind the signature, of the smallest mesh where there is one.
+// What the mesh of a failure says of itself: "all-pairs: missing pair, edge-edge; triangles 0 and
+// 1 meet at 0.5", and back: what stands behind the signature, of the smallest mesh where there is
+// one.
 std::string about_text(const std::string& signature, const std::string& what);
 std::string shown_what(const StoredFailure& failure);
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "properties/worker/claims.h"
+#include "properties/claims/claims.h"
 
 namespace assay::properties {
 

@@ -1,9 +1,9 @@
 // An elementary query as a case: what campaigns, the reducer and `replay` know how to treat.
 //
-// Four vertices in the order of detector/contact/four_points.h, two triangles (0,1,2) and (1,3,2), one step, and the
-// option `query`: `vertex-face`, of vertex 0 and the face (1,2,3), or `edge-edge`, of the edges 01
-// and 23. The triangles hold these features, so that a picture shows them; whatever else of them
-// meets is not asked.
+// Four vertices in the order of detector/contact/four_points.h, two triangles (0,1,2) and (1,3,2),
+// one step, and the option `query`: `vertex-face`, of vertex 0 and the face (1,2,3), or
+// `edge-edge`, of the edges 01 and 23. The triangles hold these features, so that a picture shows
+// them; whatever else of them meets is not asked.
 #pragma once
 
 #include <optional>

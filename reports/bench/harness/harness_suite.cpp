@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "oracle/mesh/step.h"
-#include "properties/campaign/phases/trial.h"
+#include "properties/campaign/trials/trial.h"
 #include "properties/generators/families.h"
 #include "properties/queries/query_methods.h"
 #include "properties/worker/case_run.h"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "properties/campaign/phases/canary.h"
-#include "properties/campaign/phases/trials.h"
 #include "properties/campaign/stored/count_names.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/laws/law.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/properties/small_case.h"

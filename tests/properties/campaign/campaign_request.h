@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "properties/campaign/phases/trials.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/faults/fault.h"
 
 namespace assay::properties::test {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "properties/campaign/phases/shrink.h"
-#include "properties/campaign/phases/trials.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/cause.h"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "properties/campaign/phases/canary.h"
-#include "properties/campaign/phases/case_tally.h"
-#include "properties/campaign/phases/trials.h"
 #include "properties/campaign/stored/count_names.h"
+#include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/trials/trials.h"
 
 namespace assay::properties {
 namespace {

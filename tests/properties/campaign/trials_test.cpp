@@ -1,6 +1,6 @@
 // The trials of a campaign: the same for any jobs and shards, resumed, made again by their id;
 // their failures are kept, replayed and shrunk.
-#include "properties/campaign/phases/trials.h"
+#include "properties/campaign/trials/trials.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "properties/campaign/phases/canary.h"
-#include "properties/campaign/phases/case_tally.h"
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/stored/count_names.h"
+#include "properties/campaign/trials/case_tally.h"
 #include "properties/generators/families.h"
 #include "properties/judging/case_check.h"
 #include "properties/worker/worker_process.h"

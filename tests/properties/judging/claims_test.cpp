@@ -1,6 +1,6 @@
 // A detector is judged by what it claims: each claim is broken once, alone, and a claim that is not
 // made is never broken.
-#include "properties/worker/claims.h"
+#include "properties/claims/claims.h"
 
 #include <gtest/gtest.h>
 

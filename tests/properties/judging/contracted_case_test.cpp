@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "properties/campaign/phases/planned_case.h"
+#include "properties/campaign/trials/planned_case.h"
 
 namespace assay::properties {
 namespace {

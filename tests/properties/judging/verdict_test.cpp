@@ -1,7 +1,7 @@
 // Verdicts on hand-made runs of a case.
 #include <gtest/gtest.h>
 
-#include "properties/campaign/phases/trials.h"
+#include "properties/campaign/trials/trials.h"
 #include "properties/judging/case_check.h"
 #include "properties/judging/cause.h"
 #include "tests/properties/small_case.h"

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <map>
 
-#include "properties/campaign/phases/planned_case.h"
-#include "properties/campaign/phases/trial.h"
 #include "properties/campaign/stored/step_measures.h"
+#include "properties/campaign/trials/planned_case.h"
+#include "properties/campaign/trials/trial.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 

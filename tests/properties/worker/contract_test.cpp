@@ -1,14 +1,14 @@
 // The contract of a plug-in: every field has a fault that it excuses, and one that it does not.
-#include "properties/worker/contract.h"
+#include "properties/claims/contract.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <map>
 
-#include "properties/campaign/phases/planned_case.h"
-#include "properties/campaign/phases/trial.h"
 #include "properties/campaign/stored/step_measures.h"
+#include "properties/campaign/trials/planned_case.h"
+#include "properties/campaign/trials/trial.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 

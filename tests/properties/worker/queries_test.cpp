@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "properties/campaign/phases/trial.h"
+#include "properties/campaign/trials/trial.h"
 #include "properties/queries/query_families.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"

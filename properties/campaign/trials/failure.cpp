@@ -1,4 +1,4 @@
-#include "properties/campaign/phases/failure.h"
+#include "properties/campaign/trials/failure.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "properties/campaign/phases/planned_case.h"
+#include "properties/campaign/trials/planned_case.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "oracle/query/contact_shape.h"
+#include "oracle/mesh/contact_shape.h"
 
 #include <array>
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "properties/claims/contract.h"
 #include "properties/generators/families.h"
-#include "properties/worker/contract.h"
 
 namespace assay::properties {
 

@@ -1,4 +1,4 @@
-#include "properties/campaign/phases/trials.h"
+#include "properties/campaign/trials/trials.h"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <mutex>
 
 #include "properties/campaign/database/store_problem.h"
-#include "properties/campaign/phases/case_tally.h"
-#include "properties/campaign/phases/clean_starts.h"
-#include "properties/campaign/phases/planned_case.h"
 #include "properties/campaign/stored/count_names.h"
 #include "properties/campaign/stored/step_measures.h"
+#include "properties/campaign/trials/case_tally.h"
+#include "properties/campaign/trials/clean_starts.h"
+#include "properties/campaign/trials/planned_case.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/query_families.h"
 #include "properties/random.h"

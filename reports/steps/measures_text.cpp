@@ -1,4 +1,4 @@
-#include "reports/campaign/measures_text.h"
+#include "reports/steps/measures_text.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/phases/failure.h"
+#include "properties/campaign/trials/failure.h"
 #include "properties/judging/run_verdict.h"
 
 namespace assay::properties {

@@ -1,4 +1,4 @@
-#include "properties/campaign/phases/trial.h"
+#include "properties/campaign/trials/trial.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "properties/campaign/phases/trial.h"
+#include "properties/campaign/trials/trial.h"
 
 namespace assay::properties {
 

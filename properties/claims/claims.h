@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "detector/options.h"
-#include "properties/worker/contract.h"
+#include "properties/claims/contract.h"
 
 namespace assay::properties {
 

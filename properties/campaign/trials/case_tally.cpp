@@ -1,10 +1,10 @@
-#include "properties/campaign/phases/case_tally.h"
+#include "properties/campaign/trials/case_tally.h"
 
 #include <fmt/format.h>
 
-#include "properties/campaign/phases/trial.h"
 #include "properties/campaign/stored/count_names.h"
 #include "properties/campaign/stored/store.h"
+#include "properties/campaign/trials/trial.h"
 #include "properties/generators/tag_table.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law_table.h"

@@ -1,4 +1,4 @@
-#include "oracle/query/contact_shape.h"
+#include "oracle/mesh/contact_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -58,8 +58,8 @@ TEST(ContactShape, OfEdges) {
             ContactShape::coplanar_throughout);
 }
 
-// F = 2 (2t - 1)^2: the first edge sweeps along y, the second rises along z and turns through a point,
-// all at t = 1/2.
+// F = 2 (2t - 1)^2: the first edge sweeps along y, the second rises along z and turns through a
+// point, all at t = 1/2.
 TEST(ContactShape, OfADoubleRoot) {
   const EdgeEdge q{{MovingPoint{{-1, -1, 0}, {-1, 1, 0}}, MovingPoint{{1, -1, 0}, {1, 1, 0}}},
                    {MovingPoint{{0, 0, -1}, {0, 0, 1}}, MovingPoint{{1, 1, -1}, {-1, -1, 1}}}};

@@ -1,4 +1,4 @@
-#include "properties/campaign/phases/clean_starts.h"
+#include "properties/campaign/trials/clean_starts.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "properties/worker/contract.h"
+#include "properties/claims/contract.h"
 
 #include <fmt/format.h>
 

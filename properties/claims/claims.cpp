@@ -1,4 +1,4 @@
-#include "properties/worker/claims.h"
+#include "properties/claims/claims.h"
 
 #include <algorithm>
 

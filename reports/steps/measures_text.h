@@ -7,13 +7,13 @@
 
 namespace assay::reports {
 
-// A row for each stratum and one for all of them: false alarms with their interval, misses, spurious
-// pairs, how late and how early, what the contract leaves out; then the claims that were not judged.
-// Empty for the built-in detector.
+// A row for each stratum and one for all of them: false alarms with their interval, misses,
+// spurious pairs, how late and how early, what the contract leaves out; then the claims that were
+// not judged. Empty for the built-in detector.
 std::string measures_text(const properties::RunFindings& findings);
 
-// The same of a few steps, in words; empty where nothing is worth a word: "1 of 2 free steps answered
-// collision; 28874 spurious pairs; ...".
+// The same of a few steps, in words; empty where nothing is worth a word: "1 of 2 free steps
+// answered collision; 28874 spurious pairs; ...".
 std::string measures_sentence(const properties::StepMeasures& measures);
 
 // The columns of one row, without its name.
