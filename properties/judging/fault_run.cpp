@@ -33,7 +33,7 @@ std::vector<StepResult> run_case(const corpus::Case& c, const Fault& fault) {
 }
 
 std::vector<StepResult> run_disturbed(const corpus::Case& c, const detector::Options& options,
-                                      MakeStages stages) {
+                                      MakeStages stages, std::span<const StepResult> undisturbed) {
   constexpr int most_stops = 8;
   auto made = CasePlayer::make(c, options, stages(options));
   auto beside = CasePlayer::make(c, options, stages(options));
@@ -53,12 +53,12 @@ std::vector<StepResult> run_disturbed(const corpus::Case& c, const detector::Opt
       return false;
     };
     results.push_back(made.value().play(s, meanwhile));
-    const auto differs = [&](const StepResult& after_stop) {
-      return !same_answers(without_marking_counts({after_stop}),
-                           without_marking_counts({results.back()}));
+    const auto differs = [&](const StepResult& disturbed) {
+      return !same_answers(without_marking_counts({disturbed}),
+                           without_marking_counts({undisturbed[s]}));
     };
     const auto other = std::find_if(after_stops.begin(), after_stops.end(), differs);
-    if (other != after_stops.end()) results.back() = *other;
+    if (other != after_stops.end() && !differs(results.back())) results.back() = *other;
   }
   return results;
 }
@@ -87,7 +87,7 @@ std::optional<StepDefect> defect_of(const corpus::Case& c, const Fault& fault, M
   const auto results = run_case(c, fault.options, stages(fault.options));
   auto defect = first_defect(results, judgements, fault.options.pairs);
   if (defect || !fault.is_disturbed) return defect;
-  const auto disturbed = run_disturbed(c, fault.options, stages);
+  const auto disturbed = run_disturbed(c, fault.options, stages, results);
   for (std::size_t s = 0; s < results.size(); ++s) {
     if (same_answers(without_marking_counts({results[s]}),
                      without_marking_counts({disturbed[s]}))) {

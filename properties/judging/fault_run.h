@@ -23,12 +23,13 @@ std::vector<detector::StepResult> run_case(const corpus::Case& c, const Fault& f
 
 // The same run disturbed: each step is first evaluated and stopped, at one asking after the other,
 // and evaluated whole behind each stop; then taken while a second detector of such stages works on
-// the same step in between. A detector takes no notice: undecided evaluations change nothing, and two
-// detectors share nothing. Of a step whose results differ among each other one that differs is given.
+// the same step in between. A detector takes no notice: undecided evaluations change nothing, and
+// two detectors share nothing. Of a step one result is given, one that differs from `undisturbed`
+// where there is one.
 using MakeStages = detector::Stages (*)(const detector::Options&);
 std::vector<detector::StepResult> run_disturbed(const corpus::Case& c,
-                                                const detector::Options& options,
-                                                MakeStages stages);
+                                                const detector::Options& options, MakeStages stages,
+                                                std::span<const detector::StepResult> undisturbed);
 // To compare the two: without the counts of marking, which rest on the marking before, be its step
 // committed or not.
 CaseRun without_marking_counts(std::vector<detector::StepResult> results);

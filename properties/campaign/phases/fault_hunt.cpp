@@ -22,8 +22,8 @@ std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& 
   if (run.steps.empty()) return std::nullopt;  // refused: such a case shows nothing
   CaseRun again = run;
   if (fault.is_disturbed) {
+    again = without_marking_counts(run_disturbed(c, fault.options, fault.stages, run.steps));
     run = without_marking_counts(std::move(run.steps));
-    again = without_marking_counts(run_disturbed(c, fault.options, fault.stages));
   }
   auto verdict = judge_trial(c, truth, run, configuration, built_in_detector(), &again);
   if (verdict.failure) verdict.failure->stage = fault.stage;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 
 #include "properties/campaign/stored/record.h"
 #include "properties/judging/agreement.h"
