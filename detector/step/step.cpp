@@ -166,8 +166,8 @@ class Step {
     sweep.near = &work_.near_ghosts;
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
       if (work_.free[c]) continue;
-      constexpr std::uint64_t work_of_component = 200;
-      if (work_.pace.after(work_of_component)) return false;
+      constexpr std::uint64_t work_of_sweep = 200;
+      if (work_.pace.after(work_of_sweep)) return false;
       if (!work_.boundary.sweep(sweep, work_.ghosts(c), work_.stop, work_.touched,
                                 work_.counts.ghosts)) {
         return false;

@@ -1,7 +1,6 @@
 #include "properties/claims/contract.h"
 
-#include <fmt/format.h>
-
+#include <charconv>
 #include <cmath>
 
 #include "properties/words.h"
@@ -24,6 +23,13 @@ const char* name_of(TestedFeatures features) {
 
 namespace {
 
+// The shortest decimal that reads back to the same double. The worker does without libfmt.
+std::string number_text(double x) {
+  char text[32];
+  const auto end = std::to_chars(std::begin(text), std::end(text), x).ptr;
+  return {text, end};
+}
+
 bool is_length(double x) { return std::isfinite(x) && x >= 0; }
 
 }  // namespace
@@ -38,32 +44,32 @@ std::string fault_of(const Contract& contract) {
   if (!is_length(contract.least_nonzero) || !is_length(contract.largest))
     return "its range of coordinates is none";
   if (contract.least_nonzero > contract.largest)
-    return fmt::format("its range of coordinates is upside down: from {} to {}",
-                       contract.least_nonzero, contract.largest);
+    return "its range of coordinates is upside down: from " + number_text(contract.least_nonzero) +
+           " to " + number_text(contract.largest);
   if (!(contract.time_tolerance >= 0)) return "its time_tolerance is no time";
   if (contract.time_tolerance > widest_time_tolerance)
-    return fmt::format("its time_tolerance {} is above {}", contract.time_tolerance,
-                       widest_time_tolerance);
+    return "its time_tolerance " + number_text(contract.time_tolerance) + " is above " +
+           number_text(widest_time_tolerance);
   return "";
 }
 
 std::vector<std::string> phrases_of(const Contract& contract) {
   std::vector<std::string> list;
-  if (contract.adjacency != Adjacency::all)
-    list.push_back(fmt::format("neighbours {}", name_of(contract.adjacency)));
+  const auto say = [&](const char* what, const std::string& value, const char* behind = "") {
+    list.push_back(std::string(what).append(value).append(behind));
+  };
+  if (contract.adjacency != Adjacency::all) say("neighbours ", name_of(contract.adjacency));
   if (contract.coordinates != Coordinates::float64)
-    list.push_back(fmt::format("coordinates {}", name_of(contract.coordinates)));
-  if (contract.margin > 0) list.push_back(fmt::format("margin {}", contract.margin));
+    say("coordinates ", name_of(contract.coordinates));
+  if (contract.margin > 0) say("margin ", number_text(contract.margin));
   if (contract.start == StartRule::free) list.emplace_back("starts free");
   if (contract.start == StartRule::apart)
-    list.push_back(fmt::format("starts {} apart", contract.start_distance));
+    say("starts ", number_text(contract.start_distance), " apart");
   if (contract.has_range())
-    list.push_back(
-        fmt::format("coordinates from {} to {}", contract.least_nonzero, contract.largest));
-  if (contract.features != TestedFeatures::both)
-    list.push_back(fmt::format("{} alone", name_of(contract.features)));
-  if (contract.time_tolerance > 0)
-    list.push_back(fmt::format("times within {}", contract.time_tolerance));
+    say("coordinates from ",
+        number_text(contract.least_nonzero).append(" to ").append(number_text(contract.largest)));
+  if (contract.features != TestedFeatures::both) say("", name_of(contract.features), " alone");
+  if (contract.time_tolerance > 0) say("times within ", number_text(contract.time_tolerance));
   if (!contract.reports_pairs) list.emplace_back("no pairs");
   return list;
 }

@@ -16,7 +16,7 @@ void ClaimsTally::tell(CheckOutcome& outcome, std::size_t steps_left_out) const 
   outcome.measures = properties::measures_in(counts_);
   outcome.measures.steps_left_out = steps_left_out;
   std::vector<std::string> claims;
-  for (const auto claim : list_of(plugin_->claims)) claims.emplace_back(name_of(claim));
+  for (const auto claim : list_of(claims_on_steps(*plugin_))) claims.emplace_back(name_of(claim));
   outcome.not_judged = properties::not_judged(claims, plugin_->contract, outcome.measures);
   for (const auto& claim : claims) {
     const bool is_judged = std::none_of(outcome.not_judged.begin(), outcome.not_judged.end(),

@@ -5,7 +5,6 @@
 #include <system_error>
 
 #include "corpus/cases/case_file.h"
-#include "corpus/cases/case_file.h"
 #include "corpus/json_text.h"
 #include "properties/campaign/database/file_lock.h"
 #include "properties/campaign/stored/row_of.h"

@@ -43,7 +43,8 @@ TEST_F(MergeCommand, ShardsComeToWhatOneRunComesTo) {
     EXPECT_TRUE(contains(line, library)) << line;
     EXPECT_EQ(run_assay(line).exit_code, 1) << line;
   }
-  EXPECT_TRUE(contains(run_assay("list failures " + out).out, " times  free-sound: answered free, "));
+  EXPECT_TRUE(
+      contains(run_assay("list failures " + out).out, " times  free-sound: answered free, "));
 }
 
 TEST_F(MergeCommand, BadInputIsOneLine) {

@@ -51,7 +51,7 @@ TEST_F(Plugin, TheBuiltInHoldsAsAPlugIn) {
 TEST_F(Plugin, WhatItsContractLeavesOutIsSaid) {
   const auto outcome = check("example", true);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.out.find("contract: adjacency no-shared-vertex, float64"), std::string::npos)
+  EXPECT_NE(outcome.out.find("contract: neighbours no-shared-vertex"), std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.out.find("collision at t = [0, 1] of step"), std::string::npos) << outcome.out;
   EXPECT_EQ(report()["steps"][0]["first_time"], json::array({0, 1}));

@@ -62,7 +62,7 @@ TEST_F(Run, ADefectHasAllThatIsNeededToSeeIt) {
   EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "plug-in constant answer 1\nclaims: free-sound, "))
       << outcome.out;
-  EXPECT_TRUE(contains(outcome.out, "contract: adjacency all, float64")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "contract: leaves nothing out")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "would have been a miss in 0 steps")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "DEFECT free-sound: answered free, ")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "\nDEFECT: ")) << outcome.out;
@@ -108,7 +108,7 @@ TEST_F(Run, PlugInsGetTheVerdictsThatTheyDeserve) {
 
   const auto example = verdict("example");
   EXPECT_EQ(example.exit_code, 0) << example.out << example.err;
-  EXPECT_TRUE(contains(example.out, "adjacency no-shared-vertex")) << example.out;
+  EXPECT_TRUE(contains(example.out, "neighbours no-shared-vertex")) << example.out;
   EXPECT_TRUE(contains(example.out, "would have been a miss in ")) << example.out;
   EXPECT_FALSE(contains(example.out, "would have been a miss in 0 steps")) << example.out;
 
