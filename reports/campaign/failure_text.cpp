@@ -17,8 +17,8 @@ using properties::failure_file;
 
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
                         const DetectorWords& detector) {
-  return fmt::format("assay replay {}{}", shell_word((out / file).string()),
-                     detector_words(detector.library, detector.threads));
+  return fmt::format("assay replay {}{}", shell_word(absolute_path(out / file)),
+                     detector_words(absolute_path(detector.library), detector.threads));
 }
 
 namespace {

@@ -10,7 +10,7 @@
 
 namespace assay::reports {
 
-// "assay replay OUT/failures/... --detector LIB.so"
+// "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder.
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
                         const DetectorWords& detector);
 

@@ -7,6 +7,7 @@
 #include "corpus/atomic_file.h"
 #include "properties/judging/case_check.h"
 #include "properties/worker/given_view.h"
+#include "reports/steps/owner_export.h"
 #include "reports/terminal/joined.h"
 
 namespace assay::reports {
@@ -133,9 +134,11 @@ Expected<void> export_case(const std::filesystem::path& folder, const corpus::Ca
     if (auto written = write(name, obj_text(c.frames[f], c.triangles)); !written) return written;
   }
   if (auto written = write("case.json", corpus::case_text(c)); !written) return written;
-  const detector::Options options =
-      detector.built_in ? detector.configurations.front().options : detector::Options{};
-  return write("case_test.cpp", test_text(c, options, truth));
+  if (detector.built_in)
+    return write("case_test.cpp", test_text(c, detector.configurations.front().options, truth));
+  if (auto written = write("case.cpp", plain_case_text(c, detector.contract, truth)); !written)
+    return written;
+  return write("case_plugin.cpp", plugin_case_text());
 }
 
 }  // namespace assay::reports

@@ -17,6 +17,13 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
+std::string absolute_path(const std::filesystem::path& path) {
+  if (path.empty()) return "";
+  std::error_code error;
+  const auto found = std::filesystem::absolute(path, error);
+  return error ? path.string() : found.lexically_normal().string();
+}
+
 std::string detector_words(const std::string& library, std::uint64_t threads) {
   if (library.empty()) return "";
   const std::string words = " --detector " + shell_word(library);

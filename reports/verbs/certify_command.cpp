@@ -86,7 +86,8 @@ class Certification {
     const auto commit = commit_text();
     keep(properties::Versions{ASSAY_VERSION, commit.empty() ? std::nullopt : std::optional(commit),
                               version_text()});
-    keep(properties::Paths{words_.out, words_.detector.library, words_.own_cases});
+    keep(properties::Paths{absolute_path(words_.out), absolute_path(words_.detector.library),
+                           absolute_path(words_.own_cases)});
     keep(input_digests());
     if (request_.plugin)
       keep(properties::PluginIsolation{properties::checks_shard, name_of(request_.isolation),

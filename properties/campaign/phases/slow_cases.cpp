@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "properties/campaign/stored/count_names.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/worker/worker_process.h"
 
@@ -16,6 +17,7 @@ struct SlowTrial {
   std::string id, family;
   std::size_t configuration = 0;  // the first that is undecided, or 0
   bool is_undecided = false;
+  bool is_asleep = false;  // no processor time would show a smaller case to be as slow
   double seconds = 0;
 };
 
@@ -33,7 +35,8 @@ std::vector<SlowTrial> slowest_trials(const Store& store, double limit) {
     const double seconds = 1e-6 * static_cast<double>(r.slowest_us);
     const bool is_undecided = undecided != std::string::npos;
     if (!is_undecided && seconds < near_share * limit) return;
-    list.push_back({r.id, r.family, is_undecided ? undecided : 0, is_undecided, seconds});
+    list.push_back({r.id, r.family, is_undecided ? undecided : 0, is_undecided,
+                    r.counts.contains(asleep_count), seconds});
   });
   std::sort(list.begin(), list.end(), is_before);
   if (list.size() > slow_cases_kept) list.resize(slow_cases_kept);
@@ -67,7 +70,7 @@ class SlowCases {
     slow.limit = request_.plan.case_seconds;
     slow.mesh = corpus::case_text(*planned.seen);
     store_.set(to_row(slow));
-    if (!trial.is_undecided || seconds_left() <= 0) return;
+    if (!trial.is_undecided || trial.is_asleep || seconds_left() <= 0) return;
     if (progress) progress(trial.id);
     const ReduceLimits bounded{std::min(limits_.seconds, seconds_left()), limits_.calls};
     const auto judge = judge_of_slowness(request_.detector, configuration, *worker_);

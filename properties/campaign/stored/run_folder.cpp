@@ -53,7 +53,10 @@ Expected<WholeShard> make_whole(const std::filesystem::path& file, const Campaig
 }
 
 void note_library(Store& store, const CampaignRequest& request) {
-  if (request.plugin) store.set_note(library_note, request.plugin->string());
+  if (!request.plugin) return;
+  std::error_code error;
+  const auto found = std::filesystem::absolute(*request.plugin, error);
+  store.set_note(library_note, error ? request.plugin->string() : found.string());
 }
 
 std::optional<std::string> noted_library(const Store& store) { return store.note(library_note); }

@@ -185,13 +185,16 @@ class Trials {
   }
 
   // Notes what disturbed the runs and how long they took. Throws where there is no worker.
-  static std::vector<CaseRun> run(Trial& trial, std::span<const Configuration> configurations,
-                                  WorkerProcess& worker) {
+  std::vector<CaseRun> run(Trial& trial, std::span<const Configuration> configurations,
+                           WorkerProcess& worker) const {
     auto runs = worker.run(trial.seen, configurations);
     for (const auto& one : runs) {
       if (one.end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, one.what);
       trial.record.disturbed += one.disturbances;
-      if (one.end == RunEnd::hung) continue;
+      const bool is_hung = one.end == RunEnd::hung;
+      if (is_hung && one.processor_seconds < 0.5 * request_.plan.case_seconds)
+        ++trial.record.counts[asleep_count];
+      if (is_hung) continue;
       trial.record.slowest_us = std::max(trial.record.slowest_us,
                                          static_cast<std::uint64_t>(1e6 * one.processor_seconds));
     }

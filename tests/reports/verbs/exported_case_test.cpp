@@ -1,7 +1,7 @@
 // What `assay replay --export` writes compiles against the detector alone, and passes.
 #include <gtest/gtest.h>
 
-#include "tests/reports/program.h"
+#include "tests/reports/tiny_campaign.h"
 
 namespace assay::tests {
 namespace {
@@ -54,6 +54,43 @@ TEST_F(ExportedCase, FailsWhereTheDetectorDiffers) {
   scratch.write("case/case_test.cpp", text);
   ASSERT_EQ(compile(), 0) << read_text(scratch / "compiler");
   EXPECT_EQ(status_of(scratch / "test >/dev/null"), 1);
+}
+
+// Of a plug-in: arrays that compile with nothing beside them, a function to fill in, and the same
+// arrays through the library.
+TEST_F(ExportedCase, OfAPlugInIsPlainArrays) {
+  const std::string library = plugin("by_contract");
+  const auto exported = run_assay(
+      "replay tiny:1:closed-generic:19 --detector " + library + " --export " + (scratch / "case"),
+      "ASSAY_BY_CONTRACT=miss-inside ");
+  ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "case/case_test.cpp"));
+  const std::string compiler = std::string(ASSAY_COMPILER) + " -std=c++17 -Wall -Wextra -Werror ";
+  const auto compiles = [&](const std::string& file, const std::string& more) {
+    EXPECT_EQ(status_of(compiler + (scratch / ("case/" + file)) + more + " -o " +
+                        (scratch / "program") + " >" + (scratch / "compiler") + " 2>&1"),
+              0)
+        << read_text(scratch / "compiler");
+  };
+  compiles("case.cpp", "");
+  EXPECT_EQ(status_of(scratch / "program >/dev/null"), 2);
+  std::string text = read_text(scratch / "case/case.cpp");
+  const std::string unfilled = "return {false, false, 0};";
+  ASSERT_NE(text.find(unfilled), std::string::npos);
+  text.replace(text.find(unfilled), unfilled.size(), "return {true, false, 0};");
+  scratch.write("case/filled.cpp", text);
+  compiles("filled.cpp", "");
+  EXPECT_EQ(status_of((scratch / "program >") + (scratch / "printed")), 1);
+  EXPECT_TRUE(contains(read_text(scratch / "printed"), "answered free at 0, exact collision at "));
+  compiles("case_plugin.cpp", " -I " ASSAY_SOURCE_DIR " -ldl");
+  const auto judged = [&](const std::string& words) {
+    return status_of("ASSAY_BY_CONTRACT=" + words + " " + (scratch / "program ") + library +
+                     " >/dev/null");
+  };
+  EXPECT_EQ(judged("claims=255"), 0);
+  EXPECT_EQ(judged("miss-inside"), 1);
+  EXPECT_EQ(judged("late=0.1"), 1);
+  EXPECT_EQ(status_of(scratch / "program ./none.so >/dev/null"), 2);
 }
 
 }  // namespace

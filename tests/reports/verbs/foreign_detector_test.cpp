@@ -76,7 +76,7 @@ TEST_F(ForeignDetector, NoCertificateNamesWhatNobodyJudged) {
 
 TEST_F(ForeignDetector, ItsSlowCasesAreListedAndShrunk) {
   const std::string plan =
-      R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": 40, "shrink_share": 0.2,)"
+      R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": 20, "shrink_share": 0.2,)"
       R"( "strata": [{"family": "closed-degenerate", "cases": 12}]})";
   const auto made =
       judge("run", "claims=131 start=free no-pairs burn=30", plan, "--case-seconds 0.1 --jobs 2");
