@@ -83,8 +83,7 @@ class CampaignTerminal : public properties::CampaignObserver {
   void on_slow_cases(const std::vector<properties::SlowCase>& cases) override {
     progress_.reset();
     if (!written_) return;
-    written_ = write_slow_cases(
-        cases, out_, {request_.plugin ? request_.plugin->string() : "", request_.isolation});
+    written_ = write_slow_cases(cases, out_);
   }
 
   void on_hunt(const properties::HuntProgress& state) override {

@@ -13,7 +13,7 @@ namespace assay::reports {
 // Writes two files for each case that was kept, OUT/slow/ID-CONFIGURATION-original.json and
 // -smallest.json, and a picture of the smaller one.
 Expected<void> write_slow_cases(const std::vector<properties::SlowCase>& cases,
-                                const std::filesystem::path& out, const DetectorWords& detector);
+                                const std::filesystem::path& out);
 
 // The trials without a verdict, then the slowest of the others, each with its processor time, the
 // line that replays it and, where one was kept, the smallest mesh and its picture.

@@ -65,9 +65,9 @@ static const int triangle_count = {}, vertex_count = {};
 static const double frames[][{}][3] = {{
 {}}};
 
-// From frame `from` to frame `to`. The first contact time t* is `lo` where lo and hi are one number,
-// else strictly between the two, which are adjacent doubles. Pairs that meet, with their first
-// times, begin at `first_pair`.
+// From frame `from` to frame `to`. The first contact time t* is `lo` where lo and hi are one
+// number, else strictly between the two, which are adjacent doubles. Pairs that meet, with their
+// first times, begin at `first_pair`.
 struct Step {{
   int from, to;
   bool collision;
@@ -96,7 +96,7 @@ struct Found {
   double time;  // its lower end, where it is an interval
 };
 
-// To be filled in: your detector's answer to a step. x_t0 and x_t1 are the vertices at its two ends.
+// To be filled in: your detector's answer to a step. x_t0 and x_t1 are the vertices at its ends.
 static Found ask_your_detector(const double (*x_t0)[3], const double (*x_t1)[3]) {
   (void)x_t0, (void)x_t1, (void)triangles, (void)triangle_count, (void)vertex_count;
   return {false, false, 0};
@@ -129,7 +129,7 @@ int main() {
 
 constexpr const char* plugin_text =
     R"(// The same case through a plug-in: ./case_plugin ./libmine.so
-// Needs detector/plugin/assay_detector.h: c++ -I FOLDER-OF-ASSAY case_plugin.cpp -ldl
+// Needs detector/plugin/assay_detector.h: c++ -I SOURCES-OF-ASSAY FOLDER/case_plugin.cpp -ldl
 #define CASE_ARRAYS_ONLY
 #include "case.cpp"
 

@@ -10,13 +10,13 @@
 
 namespace assay::reports {
 
-// A C++ file of its own: mesh, frames and, for each step, the exact answer, its time as decimals and
-// as fractions, and the pairs that count under the contract; a function that is left to be filled in,
-// and a main() that compares. Exit codes of the program: 0 right, 1 wrong, 2 not filled in.
+// A C++ file of its own: mesh, frames and, for each step, the exact answer, its time as decimals
+// and as fractions, and the pairs that count under the contract; a function that is left to be
+// filled in, and a main() that compares. Exit codes of it: 0 right, 1 wrong, 2 not filled in.
 std::string plain_case_text(const corpus::Case& c, const properties::Contract& contract,
                             const std::vector<oracle::StepJudgement>& truth);
 
-// A second file, which puts the same arrays to the assay_detector() of the library that it is given.
+// A second file, which puts the same arrays to the assay_detector() of a library that it is given.
 std::string plugin_case_text();
 
 // "5/8", "3/2^1060": a double in [0, 1] as the fraction that it is.

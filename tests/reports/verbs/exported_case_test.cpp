@@ -61,7 +61,7 @@ TEST_F(ExportedCase, FailsWhereTheDetectorDiffers) {
 TEST_F(ExportedCase, OfAPlugInIsPlainArrays) {
   const std::string library = plugin("by_contract");
   const auto exported = run_assay(
-      "replay tiny:1:closed-generic:19 --detector " + library + " --export " + (scratch / "case"),
+      "replay slow:1:closed-generic:19 --detector " + library + " --export " + (scratch / "case"),
       "ASSAY_BY_CONTRACT=miss-inside ");
   ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "case/case_test.cpp"));
