@@ -3,6 +3,13 @@
 namespace assay::properties {
 namespace {
 
+// squared: the sum over trials of the squares of their steps.
+Rate rate_of(std::uint64_t of, std::uint64_t in, std::uint64_t squared) {
+  const auto all = static_cast<double>(in);
+  const double independent = squared ? all * all / static_cast<double>(squared) : 0;
+  return {of, in, share_interval(static_cast<double>(of), all, independent)};
+}
+
 TimesOff times_off(const ByHowMuch& values, std::uint64_t steps_off, std::uint64_t all) {
   return {steps_off, quantile_of(values, all, 0.5), quantile_of(values, all, 0.99),
           worst_of(values)};
@@ -11,17 +18,11 @@ TimesOff times_off(const ByHowMuch& values, std::uint64_t steps_off, std::uint64
 }  // namespace
 
 Rate false_alarm_rate(const StepMeasures& m) {
-  const auto free = static_cast<double>(m.free_steps);
-  const double independent =
-      m.free_steps_squared ? free * free / static_cast<double>(m.free_steps_squared) : 0;
-  return {m.false_alarms, m.free_steps,
-          share_interval(static_cast<double>(m.false_alarms), free, independent)};
+  return rate_of(m.false_alarms, m.free_steps, m.free_steps_squared);
 }
 
 Rate miss_rate(const StepMeasures& m) {
-  const auto contacts = static_cast<double>(m.contact_steps);
-  return {m.answered_free, m.contact_steps,
-          share_interval(static_cast<double>(m.answered_free), contacts, contacts)};
+  return rate_of(m.answered_free, m.contact_steps, m.contact_steps_squared);
 }
 
 double spurious_pairs_a_step(const StepMeasures& m) {

@@ -16,7 +16,7 @@ struct Rate {
 // counts (sum of n)^2 / (sum of n^2) of them, n a trial's free steps, which are as many as the
 // trials where all have as many steps (Kish, Survey Sampling, 1965, 11.7).
 Rate false_alarm_rate(const StepMeasures& measures);
-// Steps with a contact that counts that were answered free.
+// Steps with a contact that counts that were answered free; its interval is made in the same way.
 Rate miss_rate(const StepMeasures& measures);
 // 0 without steps.
 double spurious_pairs_a_step(const StepMeasures& measures);

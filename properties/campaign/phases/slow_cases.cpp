@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "properties/campaign/stored/count_names.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/worker/worker_process.h"
 
@@ -36,7 +35,7 @@ std::vector<SlowTrial> slowest_trials(const Store& store, double limit) {
     const bool is_undecided = undecided != std::string::npos;
     if (!is_undecided && seconds < near_share * limit) return;
     list.push_back({r.id, r.family, is_undecided ? undecided : 0, is_undecided,
-                    r.counts.contains(asleep_count), seconds});
+                    seconds < 0.5 * limit, seconds});
   });
   std::sort(list.begin(), list.end(), is_before);
   if (list.size() > slow_cases_kept) list.resize(slow_cases_kept);
@@ -73,7 +72,8 @@ class SlowCases {
     if (!trial.is_undecided || trial.is_asleep || seconds_left() <= 0) return;
     if (progress) progress(trial.id);
     const ReduceLimits bounded{std::min(limits_.seconds, seconds_left()), limits_.calls};
-    const auto judge = judge_of_slowness(request_.detector, configuration, *worker_);
+    const auto judge = judge_of_slowness(request_.detector, configuration, *worker_,
+                                         2 * request_.plan.case_seconds);
     const auto reduction = reduce(*planned.seen, judge, bounded, [&](const corpus::Case& better) {
       slow.smallest = corpus::case_text(better);
       store_.set(to_row(slow));
@@ -99,15 +99,17 @@ class SlowCases {
 }  // namespace
 
 Judge judge_of_slowness(const DetectorUnderTest& detector, const Configuration& configuration,
-                        WorkerProcess& worker) {
-  return [&detector, configuration, &worker](const corpus::Case& c) -> std::optional<Finding> {
+                        WorkerProcess& worker, double seconds) {
+  return [&detector, configuration, &worker,
+          seconds](const corpus::Case& c) -> std::optional<Finding> {
     const auto seen = contracted(c, detector.contract);
     if (!seen) return std::nullopt;
     int slow = 0, quick = 0;
     while (slow < 2 && quick < 2) {
       const auto run = worker.run(*seen, {&configuration, 1}).front();
       if (run.end == RunEnd::not_run) throw std::runtime_error(run.what);
-      ++(run.end == RunEnd::hung ? slow : quick);
+      const bool is_slow = run.end == RunEnd::hung && run.processor_seconds >= seconds;
+      ++(is_slow ? slow : quick);
     }
     if (slow < 2) return std::nullopt;
     return Finding{"slow", {}, 0};

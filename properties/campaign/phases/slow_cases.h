@@ -23,9 +23,9 @@ inline constexpr std::size_t slow_cases_kept = 5;
 void keep_slow_cases(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const std::function<void(const std::string&)>& progress);
 
-// Finds a case that takes the worker at least twice `seconds`, by the median of three. REQUIRES a
-// worker whose limit is that.
+// Finds a case that takes at least `seconds` of processor time, by the median of three; one that
+// sleeps is none. REQUIRES a worker whose limit is that.
 Judge judge_of_slowness(const DetectorUnderTest& detector, const Configuration& configuration,
-                        WorkerProcess& worker);
+                        WorkerProcess& worker, double seconds);
 
 }  // namespace assay::properties

@@ -19,9 +19,6 @@ std::string tag_count(std::string_view tag);
 std::string contact_count(std::string_view sets);
 std::string first_contact_count(std::string_view sets);
 
-// Runs that were ended for sleeping: they used less than half of the processor time of a case.
-inline constexpr const char* asleep_count = "asleep";
-
 // 0 where there is none of this name.
 std::uint64_t count_of(const Counts& counts, std::string_view name);
 

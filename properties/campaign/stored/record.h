@@ -31,7 +31,7 @@ struct TrialRecord {
   std::uint64_t mesh = 0;  // hash of the case's triangles and frames: equal cases, equal hashes
   // How often a worker was killed from outside while it ran this trial, which was then run again.
   std::uint64_t disturbed = 0;
-  // The most processor time that a configuration took which ended before its limit.
+  // The most processor time that a configuration took, be it ended by its limit or before.
   std::uint64_t slowest_us = 0;
   bool has(Outcome outcome) const;  // in some configuration
 };

@@ -25,6 +25,7 @@ constexpr NamedMeasure named_measures[] = {
     {"measure:false-alarms", &StepMeasures::false_alarms},
     {"measure:free-steps-squared", &StepMeasures::free_steps_squared},
     {"measure:contact-steps", &StepMeasures::contact_steps},
+    {"measure:contact-steps-squared", &StepMeasures::contact_steps_squared},
     {"measure:answered-free", &StepMeasures::answered_free},
     {"measure:collisions", &StepMeasures::collisions},
     {"measure:without-time", &StepMeasures::without_time},
@@ -116,6 +117,7 @@ void count_measures(std::span<const StepDiff> diffs, std::span<const detector::S
   for (std::size_t s = 0; s < diffs.size(); ++s)
     count_step(diffs[s], results[s], truth[s], counts, sum);
   sum.free_steps_squared = sum.free_steps * sum.free_steps;
+  sum.contact_steps_squared = sum.contact_steps * sum.contact_steps;
   for (const auto& [name, member] : named_measures) {
     if (sum.*member > 0) counts[std::string(name)] += sum.*member;
   }

@@ -23,9 +23,10 @@ struct StepMeasures {
   std::uint64_t false_alarms = 0;  // of these, answered collision
   // The sum over trials of the square of their free steps: how much they hang together.
   std::uint64_t free_steps_squared = 0;
-  std::uint64_t contact_steps = 0;     // something that counts is in contact
-  std::uint64_t answered_free = 0;     // of these
-  std::uint64_t collisions = 0;        // of these, answered collision
+  std::uint64_t contact_steps = 0;          // something that counts is in contact
+  std::uint64_t contact_steps_squared = 0;  // over trials, as free_steps_squared
+  std::uint64_t answered_free = 0;          // of these
+  std::uint64_t collisions = 0;             // of these, answered collision
   std::uint64_t without_time = 0;      // of these collisions, with an interval that states no time
   std::uint64_t spurious_pairs = 0;    // in all steps
   std::uint64_t candidate_steps = 0;   // that candidates were given for

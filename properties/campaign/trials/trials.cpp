@@ -191,10 +191,6 @@ class Trials {
     for (const auto& one : runs) {
       if (one.end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, one.what);
       trial.record.disturbed += one.disturbances;
-      const bool is_hung = one.end == RunEnd::hung;
-      if (is_hung && one.processor_seconds < 0.5 * request_.plan.case_seconds)
-        ++trial.record.counts[asleep_count];
-      if (is_hung) continue;
       trial.record.slowest_us = std::max(trial.record.slowest_us,
                                          static_cast<std::uint64_t>(1e6 * one.processor_seconds));
     }
