@@ -101,7 +101,7 @@ void Tally::add(const TrialRecord& record) {
   properties::add(counts, record.counts);
   disturbances += record.disturbed;
   note_slow(record);
-  if (record.slowest_us < near_from_us || record.has(Outcome::undecided)) return;
+  if (record.slowest_us < near_from_us) return;
   near.push_back(record);
   near.back().counts.clear();
 }
