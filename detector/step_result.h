@@ -17,6 +17,19 @@ namespace doubt {
 inline constexpr std::uint8_t violated = 1, dirty = 2;
 }
 
+// Whether a step was made with views, and why not. A step without them tests every pair that its
+// boxes do not tell apart, so this is a matter of cost alone.
+enum class ViewUse : std::uint8_t {
+  used,
+  not_asked_for,      // by the culling, or the step was refused or stopped before
+  resting,            // views have not paid in the steps before
+  start_unknown,      // to verify the start takes as long as the step; the next one knows it (L15)
+  hopeless,           // of a few triangles, doubles can tell too few signs
+  saving_too_little,  // of one sign are too few triangles
+  among_ghosts,       // too many triangles are near ghosts
+  among_dirty,        // too few triangles are clean
+};
+
 struct StepResult {
   Answer answer = Answer::error;
   std::optional<Problem> problem;  // when answer is error
@@ -32,6 +45,7 @@ struct StepResult {
   std::size_t against_all = 0;  // Vv: violated, dirty, or both
   std::size_t violated = 0;     // touched by a ghost during the step
   std::size_t dirty = 0;        // carry doubt into this step
+  ViewUse views = ViewUse::not_asked_for;
 
   // By triangle of the mesh: doubt::violated, doubt::dirty.
   std::vector<std::uint8_t> doubts;

@@ -86,6 +86,18 @@ void choice_fields(Archive& archive, Choice& choice) {
   field(archive, choice.overhead);
 }
 
+// A flag for each component, in the form since the first build of version 1: it said that nothing
+// was known of the component. Its triangles are not clean then, which says the same by L15.
+void component_flags(Writer& out, const StepState& state) {
+  const std::vector<std::uint8_t> flags(state.inside.size(), 0);
+  plain_list(out, flags);
+}
+void component_flags(Reader& in, StepState& state) {
+  std::vector<std::uint8_t> flags;
+  plain_list(in, flags);
+  if (flags.size() != state.inside.size()) in.refuse();
+}
+
 template <class Archive, class Committed>
 void committed_fields(Archive& archive, Committed& state) {
   rows(archive, state.positions);
@@ -103,7 +115,7 @@ void committed_fields(Archive& archive, Committed& state) {
       for (auto& coordinate : end) field(archive, coordinate);
     }
   }
-  plain_list(archive, state.lost);
+  component_flags(archive, state);
   choice_fields(archive, state.choice);
 }
 

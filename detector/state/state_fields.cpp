@@ -33,7 +33,6 @@ bool fits(const StepState& state, const Surface& surface) {
   };
   return state.positions.rows() == surface.first_apex && state.positions.allFinite() &&
          state.clean.size() == triangles && state.inside.size() == components &&
-         state.lost.size() == components &&
          std::all_of(state.met.begin(), state.met.end(), is_pair);
 }
 

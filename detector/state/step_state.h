@@ -13,7 +13,8 @@ namespace assay::detector {
 struct StepState {
   Positions positions;  // at which the rest holds, in every bit
   // By triangle, by L8 alone: clean when the step began, in no contact with its own component and
-  // touched by no ghost. The next step releases (L9), when it is not free without.
+  // touched by no ghost. The next step releases (L9), when it is not free without. After a step
+  // without views no triangle of a component with ghosts is clean: nobody swept them (L15).
   std::vector<std::uint8_t> clean;
   // The pairs of one component in contact during the step, and whether that is all there were
   // (after a collision found by K alone it is not).
@@ -23,9 +24,6 @@ struct StepState {
   // 1 there. It keeps it while all triangles stay positive, so L5 need not count again.
   std::vector<std::optional<std::array<Point, 2>>> inside;
 
-  // By component: nothing is known of its triangles, all count as dirty. A step without views
-  // leaves this behind where it did not sweep the ghosts (L8 asks for that).
-  std::vector<std::uint8_t> lost;
   // From evaluation to evaluation this stays as it was committed.
   ViewChoice choice;
 

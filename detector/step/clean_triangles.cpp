@@ -7,23 +7,13 @@ namespace {
 
 constexpr std::uint64_t work_of_asking = 200;  // in box tests: of the least component
 
-bool is_known(const StepWork& work, std::size_t c) { return work.known && !work.known->lost[c]; }
-
 }  // namespace
 
-bool is_all_known(const StepWork& work) {
-  return work.known &&
-         std::find(work.known->lost.begin(), work.known->lost.end(), 1) == work.known->lost.end();
-}
-
 void take_clean_at_start(StepWork& work, Start start) {
-  work.lost.assign(work.surface.mesh.components.size(), 0);
-  for (std::size_t c = 0; c < work.lost.size(); ++c) {
-    const bool vouched = start == Start::clean && !work.known;
-    work.lost[c] = !vouched && !is_known(work, c);
-    for (const auto t : work.own_triangles(c)) {
-      work.clean[at(t)] = vouched ? 1 : work.lost[c] ? 0 : work.known->clean[at(t)];
-    }
+  if (work.known) {
+    work.clean = work.known->clean;
+  } else {
+    std::fill(work.clean.begin(), work.clean.end(), start == Start::clean ? 1 : 0);
   }
 }
 
@@ -35,14 +25,14 @@ bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start
   std::vector<std::int32_t> to_release, to_verify;
   for (std::size_t c = 0; c < work.free.size(); ++c) {
     bool all_clean = work.free[c] != 0;
-    if (!all_clean && is_known(work, c)) {
+    if (!all_clean && work.known) {
       all_clean = true;
       for (const auto t : work.own_triangles(c)) {
         work.clean[at(t)] = work.known->clean[at(t)];
         all_clean &= work.clean[at(t)] != 0;
       }
       if (!all_clean) to_release.push_back(static_cast<std::int32_t>(c));
-    } else if (!all_clean && start == Start::clean && !work.known) {
+    } else if (!all_clean && start == Start::clean) {
       all_clean = true;
     } else if (!all_clean && start != Start::unknown) {
       all_clean = release.released_at_start(work, c);
@@ -67,12 +57,9 @@ StepState state_at_end(const StepWork& work, const ReleaseRule& release,
     if (work.free[c]) state.inside[c] = {work.primitives[c].q0.t1, work.primitives[c].q1.t1};
   }
   release.settle(work, pairs, complete, state);
-  state.lost = work.lost;
-  state.lost.resize(state.inside.size(), 0);
   if (work.has_views()) return state;
-  for (std::size_t c = 0; c < state.lost.size(); ++c) {
-    if (!release.is_lost(work, pairs, c)) continue;
-    state.lost[c] = 1;
+  for (std::size_t c = 0; c < state.inside.size(); ++c) {
+    if (release.knows_clean(work, pairs, c)) continue;
     for (const auto t : work.own_triangles(c)) state.clean[at(t)] = 0;
   }
   return state;

@@ -11,11 +11,9 @@ namespace assay::detector {
 // stopped.
 bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start);
 
-// Whether the last commit tells of every component.
-bool is_all_known(const StepWork& work);
-
 // find_clean_at_start where the step has no views: what is known already, and nothing is looked at.
-// Of a component that nothing is known of all triangles are dirty, and it is lost.
+// Without a committed state, or the caller's word, all triangles are dirty. That is no loss: every
+// pair is tested, and with its pairs the next step releases what is clean (L15).
 void take_clean_at_start(StepWork& work, Start start);
 
 // `complete`: the pairs are all that are in contact in the step (L8). With all components free it

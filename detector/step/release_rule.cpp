@@ -117,7 +117,8 @@ bool ReleaseRule::release(StepWork& work, const std::vector<std::int32_t>& compo
     const FloatGrid grid(work.x_t0, work.x_t0);
     for (std::size_t i = 0; i < components.size(); ++i) {
       const auto c = at(components[i]);
-      if (!add_ghost_touches(work, grid, c, in_doubt[i], touched)) return false;
+      if (!add_ghost_touches(work, grid, c, may_touch_ghosts(work, in_doubt[i]), touched))
+        return false;
       if (work.pace.after(work_of_layers * in_doubt[i].size())) return false;
       work.counts.release.winding_numbers +=
           release_pieces({work.surface, work.x_t0, touched, arithmetic_}, c, in_doubt[i],
@@ -140,11 +141,14 @@ std::vector<std::int32_t> ReleaseRule::witnesses(const StepWork& work, std::size
   return layer_witnesses(work.surface.mesh, c, work.clean);
 }
 
-bool ReleaseRule::is_lost(const StepWork& work, const std::vector<PairContact>&,
-                          std::size_t c) const {
-  // Only view-auto keeps account of what is lost.
-  const bool was_lost = !work.lost.empty() && work.lost[c] != 0;
-  return was_lost || !work.ghosts(c).empty();
+bool ReleaseRule::knows_clean(const StepWork& work, const std::vector<PairContact>&,
+                              std::size_t c) const {
+  return work.ghosts(c).empty();
+}
+
+std::vector<std::int32_t> ReleaseRule::may_touch_ghosts(
+    const StepWork&, const std::vector<std::int32_t>& in_doubt) const {
+  return in_doubt;
 }
 
 void ReleaseRule::settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,

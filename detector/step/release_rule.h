@@ -50,10 +50,16 @@ class ReleaseRule {
   // The triangles that name the common layer of a component in `release`: clean at t=0 by L8.
   virtual std::vector<std::int32_t> witnesses(const StepWork& work, std::size_t component) const;
 
-  // L8 after a step without views: the ghosts of the component were not swept, so whatever the
-  // pairs were nothing is known of a component that has ghosts; nor of one that was lost before.
-  virtual bool is_lost(const StepWork& work, const std::vector<PairContact>& pairs,
-                       std::size_t component) const;
+  // L15: whether what settle says is clean is so, after a step without views. It is in a component
+  // that has no ghosts. Where it has some, nobody swept them, and none of it is clean, whatever the
+  // pairs were.
+  virtual bool knows_clean(const StepWork& work, const std::vector<PairContact>& pairs,
+                           std::size_t component) const;
+
+  // Those in doubt that may touch a ghost of their component at t=0, of a step that goes on from
+  // work.known: all of them. One that is in no pair may hang outside, with a ghost through it.
+  virtual std::vector<std::int32_t> may_touch_ghosts(
+      const StepWork& work, const std::vector<std::int32_t>& in_doubt) const;
 
  protected:
   Arithmetic arithmetic() const { return arithmetic_; }

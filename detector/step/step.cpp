@@ -79,6 +79,8 @@ class Step {
                           mesh_x_t1);  // whole or not at all, should memory fail
     if (next) next->choice = auto_.after(work_.counts, primitives.empty());
     result_.first = least_time(result_.pairs);
+    if (completed && uses_views(context_.options.culling))
+      result_.views = is_auto() ? auto_.use() : ViewUse::used;
     hand_over();
     return std::move(result_);
   }
@@ -109,7 +111,8 @@ class Step {
     work_.touched.assign(mesh_.triangles.size(), 0);
     work_.free.assign(mesh_.components.size(), 0);
     if (looks() && (!is_auto() || auto_.glances(work_)) && !classify_components()) return false;
-    if (is_auto() && !work_.all_free() && !(work_.has_views() && auto_.promises(work_))) {
+    if (is_auto() && !work_.all_free() &&
+        !(work_.has_views() && auto_.promises(work_, context_.options.start))) {
       drop_views();
       take_clean_at_start(work_, context_.options.start);
     }
@@ -161,7 +164,7 @@ class Step {
     Stopwatch watch(result_.times.ghosts);
     work_.tree.refit(mesh_, work_.x_t0, work_.x_t1);
     GhostSweep sweep{work_.surface, work_.tree,       work_.x_t0,
-                     work_.x_t1,    work_.elementary, !is_all_known(work_)};
+                     work_.x_t1,    work_.elementary, !work_.known};
     work_.near_ghosts.assign(mesh_.triangles.size(), 0);
     sweep.near = &work_.near_ghosts;
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {

@@ -21,7 +21,6 @@ struct StepWork {
 
   std::vector<ViewPrimitive> primitives = {};  // by component
   std::vector<ViewSign> signs = {};            // by triangle of the surface
-  std::vector<std::uint8_t> lost = {};         // by component: clean says nothing of it, at t=0
   std::vector<std::uint8_t> free = {};         // by component: by L5, over the whole step
   std::vector<std::uint8_t> clean = {};        // by triangle of the mesh, at t=0
   std::vector<std::uint8_t> touched = {};      // by triangle of the mesh: by a ghost, in the step

@@ -98,6 +98,12 @@ const std::vector<ViewAnchor>& ViewAuto::anchors(const std::vector<ViewAnchor>& 
   return choice_.anchors ? *choice_.anchors : first;
 }
 
+bool ViewAuto::does_without(ViewUse because) {
+  paid_ = false;
+  use_ = because;
+  return false;
+}
+
 std::uint64_t ViewAuto::expected_candidates() const {
   return std::max(adjacent_, choice_.candidates);
 }
@@ -129,27 +135,32 @@ bool ViewAuto::glances(const StepWork& work) {
     open += m * static_cast<double>(rungs.open) / seen_at_a_glance;
   }
   const double hoped = worth_of_saved * saved / count * static_cast<double>(expected_candidates());
-  paid_ = saved / count >= least_share && cost_of_open * open <= hoped;
-  if (!paid_) share_of_signs_ = share_ = saved / count;
-  return paid_;
+  if (saved / count >= least_share && cost_of_open * open <= hoped) return true;
+  share_of_signs_ = share_ = saved / count;
+  return does_without(ViewUse::hopeless);
 }
 
-bool ViewAuto::promises(StepWork& work) {
+bool ViewAuto::promises(StepWork& work, Start start) {
   share_of_signs_ = share_ = saved_share(work, true);
+  if (!work.known && start != Start::clean) {
+    use_ = ViewUse::start_unknown;  // nothing is said against views in the next step
+    return false;
+  }
   const double hoped = worth_of_saved * share_ * static_cast<double>(expected_candidates());
-  paid_ = share_ >= least_share && choice_.overhead <= hoped;
-  if (!paid_ || surface_.is_closed()) return paid_;
+  if (share_ < least_share || choice_.overhead > hoped)
+    return does_without(ViewUse::saving_too_little);
+  if (surface_.is_closed()) return true;
   work.tree.refit(surface_.mesh, work.x_t0, work.x_t1);
   const double saved = share_ * static_cast<double>(expected_candidates());
-  paid_ = !has_more_ghost_pairs(work, saved / cost_of_ghost_pair);
-  return paid_;
+  return !has_more_ghost_pairs(work, saved / cost_of_ghost_pair) ||
+         does_without(ViewUse::among_ghosts);
 }
 
 bool ViewAuto::pays(const StepWork& work) {
   share_ = saved_share(work, false);
-  paid_ = share_ >= least_share;
-  if (!paid_) overhead_ = cost_beside_k(work.counts);
-  return paid_;
+  if (share_ >= least_share) return true;
+  overhead_ = cost_beside_k(work.counts);
+  return does_without(ViewUse::among_dirty);
 }
 
 // In candidates; the closure not included.

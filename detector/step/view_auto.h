@@ -13,6 +13,7 @@
 
 #include "detector/state/view_choice.h"
 #include "detector/step/step_work.h"
+#include "detector/step_result.h"
 
 namespace assay::detector {
 
@@ -41,17 +42,25 @@ class ViewAuto {
   // Whether the signs leave out enough pairs, should all triangles be clean, to be worth what else
   // views took when last used, and the ghosts are few enough to be swept. Refits the tree of an
   // unclosed mesh.
-  bool promises(StepWork& work);
+  //
+  // Never where nothing is known of the start, for to verify it takes about a step of culling bvh.
+  // That step is made instead, and its pairs tell what is clean where the next one starts (L15).
+  bool promises(StepWork& work, Start start);
   // Whether enough is left once it is known what is clean.
   bool pays(const StepWork& work);
   // What the release, the sweep and the closure have cost is held against what was saved.
   // `candidates_of_k`: those before the closure.
   void weigh(const StepCounts& counts, std::uint64_t candidates_of_k);
 
+  // Whether views are used, as far as that is decided.
+  ViewUse use() const { return looks() ? use_ : ViewUse::resting; }
+
   // For the steps that follow. own: the detector's own primitives were used, not the caller's.
   ViewChoice after(const StepCounts& counts, bool own) const;
 
  private:
+  // Of a step that does without views because they would not pay; returns false.
+  bool does_without(ViewUse because);
   std::uint64_t expected_candidates() const;
   double cost_beside_k(const StepCounts& counts) const;
 
@@ -61,6 +70,7 @@ class ViewAuto {
   bool chose_ = false;
   double share_of_signs_ = 1, share_ = 1;  // a free step saves all
   bool paid_ = true;
+  ViewUse use_ = ViewUse::used;
   std::optional<double> overhead_;  // of this step
 };
 

@@ -64,11 +64,32 @@ struct FirstPairsAreAll : ReleaseRule {
   }
 };
 
-// A step without views loses an open component only where it found a contact.
+// After a step without views an open component is dirty only where that found a contact.
 struct LostByContactAlone : ReleaseRule {
-  bool is_lost(const StepWork& work, const std::vector<PairContact>& pairs,
-               std::size_t c) const override {
-    return !pairs.empty() && ReleaseRule::is_lost(work, pairs, c);
+  bool knows_clean(const StepWork& work, const std::vector<PairContact>& pairs,
+                   std::size_t c) const override {
+    return pairs.empty() || ReleaseRule::knows_clean(work, pairs, c);
+  }
+};
+
+// Clean bits are carried through a step without views as through any other, ghosts or not.
+struct CarriedPastGhosts : ReleaseRule {
+  bool knows_clean(const StepWork&, const std::vector<PairContact>&, std::size_t) const override {
+    return true;
+  }
+};
+
+// What the step before did not find in contact is not held against the ghosts either.
+struct OnlyMetAgainstGhosts : ReleaseRule {
+  std::vector<std::int32_t> may_touch_ghosts(
+      const StepWork& work, const std::vector<std::int32_t>& in_doubt) const override {
+    std::vector<std::int32_t> met;
+    const auto is_met = [&](std::int32_t t) {
+      return std::any_of(work.known->met.begin(), work.known->met.end(),
+                         [&](const auto& pair) { return pair.a == t || pair.b == t; });
+    };
+    std::copy_if(in_doubt.begin(), in_doubt.end(), std::back_inserter(met), is_met);
+    return met;
   }
 };
 
@@ -128,6 +149,13 @@ std::vector<Fault> state_faults() {
           "state/lost-by-contact-alone",
           "after a free step without views an open component is believed as clean as before", "L8",
           "F_views_dropped", 47, auto_views),
+      planted<CarriedPastGhosts>("state/carried-past-ghosts",
+                                 "what was clean is clean after a step that swept no ghosts", "L15",
+                                 "F_views_dropped", 47, auto_views),
+      planted<OnlyMetAgainstGhosts>(
+          "state/only-met-against-ghosts",
+          "only triangles of the pairs that were found are tested against ghosts at the next start",
+          "L15", "F_views_dropped", 47, auto_views),
       planted<KeptElsewhere>("state/kept-elsewhere",
                              "the state is kept although the step starts at other positions", "L8",
                              "F_start_elsewhere", 6),

@@ -28,7 +28,7 @@ struct LawTally {
 
 struct Law {
   std::string_view name;       // "L4_AllPositiveIsCollisionFree_Line"
-  std::string_view number;     // "L1" .. "L13"; "sets", "claim", "change" for what has no number
+  std::string_view number;     // "L1" .. "L15"; "sets", "claim", "change" for what has no number
   std::string_view statement;  // in one or two sentences
   std::string_view needs;      // of the oracle
   void (*check)(CaseFacts&, LawTally&);  // adds what it met in this case

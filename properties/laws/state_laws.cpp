@@ -1,4 +1,4 @@
-// L8 and L9: what is clean from step to step, and at a new start.
+// L8, L9 and L15: what is clean from step to step, and at a new start.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -63,9 +63,8 @@ Observation clean_and_untouched_stays_clean(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-Observation dirty_is_the_oracles_account(CaseFacts& facts, std::size_t s) {
-  const auto p = facts.known_from(s);
-  if (!p || !has_account(facts, s) || !any(in_doubt_after(facts, *p))) return not_met();
+// REQUIRES has_views(s) and has_account(s).
+Observation compare_with_account(CaseFacts& facts, std::size_t s) {
   const auto account = account_of_dirty(facts, s);
   const auto dirty = dirty_triangles(facts, s);
   for (std::size_t t = 0; t < dirty.size(); ++t) {
@@ -74,6 +73,21 @@ Observation dirty_is_the_oracles_account(CaseFacts& facts, std::size_t s) {
                        account[t] ? "dirty" : "clean");
   }
   return holds();
+}
+
+bool has_doubts_to_compare(CaseFacts& facts, std::size_t s) {
+  const auto p = facts.known_from(s);
+  return p && facts.has_views(s) && has_account(facts, s) && any(in_doubt_after(facts, *p));
+}
+
+Observation dirty_is_the_oracles_account(CaseFacts& facts, std::size_t s) {
+  return has_doubts_to_compare(facts, s) ? compare_with_account(facts, s) : not_met();
+}
+
+Observation steps_without_views_are_in_the_account(CaseFacts& facts, std::size_t s) {
+  const auto p = facts.known_from(s);
+  if (!p || facts.has_views(*p) || !has_doubts_to_compare(facts, s)) return not_met();
+  return compare_with_account(facts, s);
 }
 
 Observation new_start_is_the_oracles_layers(CaseFacts& facts, std::size_t s) {
@@ -150,6 +164,12 @@ constexpr Law state_law_table[] = {
      "Where all of S is positive at t=0 and has winding number 1 at the primitive, the component "
      "is clean, whatever came before.",
      "view signs at rest, winding number, layers", each_step<all_positive_at_the_start_releases>},
+    {"L15_StepsWithoutViewsAreInTheAccount", "L15",
+     "What starts as dirty after a step without views is what that step left in doubt, less what "
+     "is untouched and of the common layer now: after a first step of closed components what is "
+     "dirty by L9 at a verified start; of components with ghosts, all were in doubt.",
+     "pair set, triangles touched by ghosts, layers",
+     each_step<steps_without_views_are_in_the_account>},
 };
 
 }  // namespace

@@ -50,7 +50,8 @@ bool says_nothing_of_its_work(const StepResult& r) {
 bool says_nothing_of_views(const StepResult& r) {
   return r.view_positive + r.view_negative + r.view_zero + r.against_all + r.violated + r.dirty ==
              0 &&
-         r.doubts.empty() && r.signs.empty() && r.primitives.empty() && r.apexes.empty();
+         r.views == detector::ViewUse::not_asked_for && r.doubts.empty() && r.signs.empty() &&
+         r.primitives.empty() && r.apexes.empty();
 }
 
 std::string broken_rule(const StepResult& result, Eigen::Index triangles) {

@@ -63,6 +63,8 @@ inline constexpr auto last_of<StartRule> = StartRule::apart;
 template <>
 inline constexpr auto last_of<TestedFeatures> = TestedFeatures::edge_edge;
 template <>
+inline constexpr auto last_of<detector::ViewUse> = detector::ViewUse::among_dirty;
+template <>
 inline constexpr auto last_of<ProblemKind> = last_problem_kind;
 
 template <class Wire>
@@ -80,8 +82,8 @@ void fields(Wire& wire, detector::Problem& problem) {
 template <class Wire>
 void fields(Wire& wire, detector::StepResult& result) {
   auto& [answer, problem, first, pairs, positive, negative, zero, against_all, violated, dirty,
-         doubts, signs, primitives, apexes, counts, times] = result;
-  wire(answer, problem, first, pairs, positive, negative, zero, against_all, violated, dirty,
+         views, doubts, signs, primitives, apexes, counts, times] = result;
+  wire(answer, problem, first, pairs, positive, negative, zero, against_all, violated, dirty, views,
        doubts, signs, primitives, apexes, counts, times);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "detector/step_result.h"
+#include "reports/steps/view_use_words.h"
 
 namespace assay::reports {
 
@@ -67,14 +68,21 @@ std::string times_off_text(const properties::StepDiff& diff) {
                      is_late ? diff.first->late_by : diff.first->early_by);
 }
 
+// A step without views has no view sets: why it has none stands in their place.
+std::string sets_text(const detector::StepResult& result) {
+  if (result.views != detector::ViewUse::used)
+    return fmt::format("no views, {}", words_of(result.views));
+  return fmt::format("V+ {}  V- {}  V0 {}  violated {}  dirty {}", result.view_positive,
+                     result.view_negative, result.view_zero, result.violated, result.dirty);
+}
+
 std::string stages_text(const detector::StepResult& result, std::optional<double> create_ms) {
   return fmt::format(
-      "  sets: V+ {}  V- {}  V0 {}  violated {}  dirty {}\n"
+      "  sets: {}\n"
       "  work: {} box tests, {} candidate pairs, {} elementary tests, {} closure rounds\n"
       "  ms:   {}view test {:.1f}, start {:.1f}, broad phase {:.1f}, narrow phase {:.1f}, closure "
       "{:.1f}, detector {:.1f}",
-      result.view_positive, result.view_negative, result.view_zero, result.violated, result.dirty,
-      result.counts.search.box_tests, result.counts.search.candidate_pairs,
+      sets_text(result), result.counts.search.box_tests, result.counts.search.candidate_pairs,
       result.counts.narrow.elementary_tests, result.counts.closure_rounds,
       create_ms ? fmt::format("create {:.1f}, ", *create_ms) : "", result.times.view_test,
       result.times.start, result.times.broad_phase, result.times.narrow_phase, result.times.closure,

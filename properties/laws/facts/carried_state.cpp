@@ -48,17 +48,20 @@ bool has_account(CaseFacts& facts, std::size_t s) {
   if (facts.options().arithmetic != detector::Arithmetic::exact) return false;
   if (facts.options().release != detector::Release::pieces) return false;
   if (facts.options().ghost_test != detector::GhostTest::exact) return false;
-  if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return false;
+  if (!facts.is_judged(s) || !facts.is_trusted(s)) return false;
   const auto p = facts.known_from(s);
   return !p || has_account(facts, *p);
 }
 
 TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s) {
   TriangleFlags flags = account_of_dirty(facts, s);
-  const bool incomplete = facts.options().pairs != detector::Pairs::all &&
+  const bool has_views = facts.has_views(s);
+  const bool incomplete = has_views && facts.options().pairs != detector::Pairs::all &&
                           facts.judgement(s).answer == detector::Answer::collision;
   for (std::size_t t = 0; t < flags.size(); ++t) {
-    flags[t] |= incomplete | facts.own_contacts(s)[t] | facts.touched(s)[t];
+    const bool swept_clean =
+        has_views ? !facts.touched(s)[t] : !facts.has_ghosts(component_of(facts, t));
+    flags[t] |= incomplete | facts.own_contacts(s)[t] | !swept_clean;
   }
   return flags;
 }
@@ -67,6 +70,10 @@ TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s) {
   const std::size_t count = facts.surface().mesh.triangles.size();
   TriangleFlags dirty(count, 0);
   const auto p = facts.known_from(s);
+  if (!facts.has_views(s)) {
+    if (p) return in_doubt_after(facts, *p);
+    return TriangleFlags(count, facts.options().start != detector::Start::clean);
+  }
   if (!p) {
     for (std::size_t t = 0; t < count; ++t) {
       dirty[t] = facts.options().start == detector::Start::unknown

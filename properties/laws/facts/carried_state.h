@@ -20,17 +20,22 @@ std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& 
 // of the common layer (L9). REQUIRES has_views(s).
 TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags& in_question);
 
-// Whether the account below can be kept for step s: its steps have views, are judged, and trusted.
+// Whether the account below can be kept for step s: it and the steps that it goes on from are
+// judged, and trusted. A step without views has one too, although it shows no doubts.
 bool has_account(CaseFacts& facts, std::size_t s);
 
-// L8 and L9, by the oracle alone: what is dirty at the start of step s. At a new start its layers;
+// L8, L9 and L15, by the oracle alone: what is dirty at the start of step s. At a new start its layers;
 // then what was dirty by this account, or touched by a ghost or in contact with its own component
 // during the step before, and is not untouched and of the common layer now. That layer is the one
 // of the triangles not in doubt; in a component without any, that of most untouched triangles.
+//
+// A step without views releases nothing: at a new start all is dirty, unless the caller vouched for
+// it, and one that goes on has all that was in doubt after the step before.
 // REQUIRES has_account(s).
 TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s);
 // Dirty at the start, touched or in contact during step s; all after a collision of which not all
-// pairs were asked for. REQUIRES has_account(s).
+// pairs were asked for; of a component with ghosts all, where the step has no views and so swept
+// none. REQUIRES has_account(s).
 TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s);
 
 // The triangles with some or with no mark of doubt::dirty in the result of step s.

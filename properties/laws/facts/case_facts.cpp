@@ -82,6 +82,11 @@ bool CaseFacts::has_views(std::size_t s) const {
          r.apexes.size() == surface_.loops.size();
 }
 
+bool CaseFacts::has_ghosts(std::size_t component) const {
+  return surface_.all().components[component].triangles.size() >
+         surface_.mesh.components[component].triangles.size();
+}
+
 Positions CaseFacts::all_t0(std::size_t s) const {
   return oracle::with_apexes(x_t0(s), apex_rows(results_[s], false));
 }
@@ -123,8 +128,7 @@ const std::vector<std::uint8_t>& CaseFacts::touched(std::size_t s) {
   auto& touched = facts_[s].touched;
   if (touched) return *touched;
   touched.emplace(surface_.mesh.triangles.size(), 0);
-  // A step of view-auto without views sweeps no ghosts: what has any is unknown to the next one.
-  const bool is_new = !known_from_[s] || !has_views(*known_from_[s]);
+  const bool is_new = !known_from_[s];
   const Positions apexes_t0 = apex_rows(results_[s], false);
   const Positions apexes_t1 = apex_rows(results_[s], true);
   for (std::size_t c = 0; c < surface_.mesh.components.size(); ++c) {

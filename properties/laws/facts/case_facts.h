@@ -53,6 +53,7 @@ class CaseFacts {
   const std::optional<std::size_t>& known_from(std::size_t s) const { return known_from_[s]; }
   // The detector answered step s and tells its view sets.
   bool has_views(std::size_t s) const;
+  bool has_ghosts(std::size_t component) const;
   // The oracle has finished.
   bool is_judged(std::size_t s) const { return judgements_[s].complete; }
   // Premise of L3 to L8: outside Vv everything is clean at the start. A new start that the caller

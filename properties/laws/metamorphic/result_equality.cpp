@@ -67,6 +67,7 @@ std::string difference(const detector::StepResult& a, const detector::StepResult
   if (a.problem && a.problem->error != b.problem->error) return "problem";
   if (a.first != b.first) return "first time";
   if (!same_lists(a.pairs, b.pairs)) return "pairs";
+  if (a.views != b.views) return "use of views";
   if (a.doubts != b.doubts) return "doubts";
   if (a.signs != b.signs) return "signs";
   if (a.view_positive != b.view_positive || a.view_negative != b.view_negative ||

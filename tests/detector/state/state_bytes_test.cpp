@@ -87,7 +87,6 @@ TEST(StateBytes, AreTheSameStateAgain) {
   EXPECT_EQ(a.met_is_complete, b.met_is_complete);
   EXPECT_EQ(a.inside, b.inside);
   EXPECT_TRUE(std::signbit((*a.inside[0])[0][1]));
-  EXPECT_EQ(a.lost, b.lost);
   ASSERT_TRUE(a.choice.anchors);
   expect_equal(*a.choice.anchors, *b.choice.anchors);
   EXPECT_EQ(a.choice.is_worn, b.choice.is_worn);
@@ -218,7 +217,6 @@ TEST(StateBytes, WhatContradictsTheMeshIsRefused) {
   expect_damaged("positions", [](auto& s) { s.committed->positions.conservativeResize(5, 3); });
   expect_damaged("a position", [&](auto& s) { s.committed->positions(2, 1) = nan; });
   expect_damaged("clean", [](auto& s) { s.committed->clean.pop_back(); });
-  expect_damaged("lost", [](auto& s) { s.committed->lost.push_back(0); });
   expect_damaged("inside", [](auto& s) { s.committed->inside.clear(); });
   expect_damaged("a pair below", [](auto& s) { s.committed->met[0].a = -1; });
   expect_damaged("a pair above", [](auto& s) { s.committed->met[1].b = 7; });

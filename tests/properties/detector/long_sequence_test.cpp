@@ -46,7 +46,7 @@ struct Work {
             counts.ghosts.elementary_tests + counts.release.pairs + counts.release.elementary_tests;
     const StepState& kept = *saved.committed;
     state = static_cast<std::size_t>(kept.positions.size()) + kept.clean.size() + kept.met.size() +
-            kept.inside.size() + kept.lost.size() + saved.apex_rules.size() + saved.anchors.size();
+            kept.inside.size() + saved.apex_rules.size() + saved.anchors.size();
   }
   Work& operator+=(const Work& other) {
     against_all += other.against_all;

@@ -16,6 +16,7 @@ constexpr std::string_view carried_laws[] = {"L8_CarriedCleanIsClean",
                                              "L8_CleanAndUntouchedStaysClean",
                                              "L9_DirtyIsTheOraclesAccount",
                                              "L9_NewStartIsTheOraclesLayers",
+                                             "L15_StepsWithoutViewsAreInTheAccount",
                                              "L11_ViolatedIsWhatGhostsTouch",
                                              "L11_ApexesGoOnFromWhereTheyWere",
                                              "Change_RepeatedCall",
@@ -27,6 +28,25 @@ std::vector<corpus::Case> curated_cases() {
   std::vector<corpus::Case> cases;
   for (const auto& file : files.value()) cases.push_back(corpus::read_case(file).value());
   return cases;
+}
+
+// The case behind a step in which nothing moves. A first step of view-auto has no views unless all of
+// it is positive, so this lets every step of the case go on from a committed one.
+corpus::Case after_a_still_step(corpus::Case c) {
+  std::vector<corpus::CaseStep> script = {{0, 1, true}};
+  for (auto step : corpus::steps_of(c)) {
+    ++step.from;
+    ++step.to;
+    script.push_back(step);
+  }
+  c.script = std::move(script);
+  c.frames.insert(c.frames.begin(), c.frames.front());
+  if (c.view) {
+    for (auto* end : {&c.view->q0, &c.view->q1}) {
+      if (!end->empty()) end->insert(end->begin(), end->front());
+    }
+  }
+  return c;
 }
 
 struct Played {
@@ -44,7 +64,8 @@ TEST_P(CuratedLaws, OfWhatIsCarriedHold) {
     Setting setting;
     setting.options.culling = GetParam().culling;
     setting.options.pairs = GetParam().pairs;
-    const JudgedCase judged(c, setting);
+    const bool is_auto = GetParam().culling == detector::Culling::view_auto;
+    const JudgedCase judged(is_auto ? after_a_still_step(c) : c, setting);
     CaseFacts facts = judged.facts();
     for (const auto name : carried_laws) {
       LawTally tally;

@@ -29,6 +29,7 @@ inline Setting setting_of(std::string_view id) {
   if (random.one_in(8)) setting.options.pairs = detector::Pairs::first;
   if (random.one_in(16)) setting.options.start = detector::Start::unknown;
   if (random.one_in(16)) setting.options.start = detector::Start::clean;
+  if (random.one_in(4)) setting.options.culling = detector::Culling::view_auto;
   return setting;
 }
 
