@@ -23,7 +23,7 @@ enum class ViewUse : std::uint8_t {
   used,
   not_asked_for,      // by the culling, or the step was refused or stopped before
   resting,            // views have not paid in the steps before
-  start_unknown,      // to verify the start takes as long as the step; the next one knows it (L15)
+  start_unknown,      // too little of it is seen to be clean; the next step knows more (L15)
   hopeless,           // of a few triangles, doubles can tell too few signs
   saving_too_little,  // of one sign are too few triangles
   among_ghosts,       // too many triangles are near ghosts

@@ -17,7 +17,7 @@ void take_clean_at_start(StepWork& work, Start start) {
   }
 }
 
-bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start) {
+bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start, StartBy by) {
   if (work.all_free()) {
     std::fill(work.clean.begin(), work.clean.end(), 1);
     return true;
@@ -37,7 +37,8 @@ bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start
     } else if (!all_clean && start != Start::unknown) {
       all_clean = release.released_at_start(work, c);
       if (work.pace.after(work_of_asking)) return false;
-      if (!all_clean) to_verify.push_back(static_cast<std::int32_t>(c));
+      if (!all_clean && by == StartBy::view_and_layers)
+        to_verify.push_back(static_cast<std::int32_t>(c));
     }
     if (all_clean) {
       for (const auto t : work.own_triangles(c)) work.clean[at(t)] = 1;

@@ -9,7 +9,12 @@ namespace assay::detector {
 // the last commit (L8), of which the dirty ones may be released (L9), else what `start` says: at a
 // verified one it is looked at from the view primitive (L5), then by layers (L9). False when
 // stopped.
-bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start);
+//
+// Layers take about a step of culling bvh. With StartBy::view_alone they are left out: what is not
+// positive throughout stays dirty, and the pairs of the step tell the next one what is clean (L15).
+enum class StartBy : std::uint8_t { view_and_layers, view_alone };
+bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start,
+                         StartBy by = StartBy::view_and_layers);
 
 // find_clean_at_start where the step has no views: what is known already, and nothing is looked at.
 // Without a committed state, or the caller's word, all triangles are dirty. That is no loss: every

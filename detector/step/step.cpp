@@ -111,10 +111,8 @@ class Step {
     work_.touched.assign(mesh_.triangles.size(), 0);
     work_.free.assign(mesh_.components.size(), 0);
     if (looks() && (!is_auto() || auto_.glances(work_)) && !classify_components()) return false;
-    if (is_auto() && !work_.all_free() &&
-        !(work_.has_views() && auto_.promises(work_, context_.options.start))) {
+    if (is_auto() && !work_.all_free() && !(work_.has_views() && auto_.promises(work_))) {
       drop_views();
-      take_clean_at_start(work_, context_.options.start);
     }
     if (work_.has_views()) {
       if (!find_start()) return false;
@@ -129,8 +127,10 @@ class Step {
     return search();
   }
 
-  // What is left of the step is that of culling bvh.
+  // What is left of the step is that of culling bvh, and what is clean is what was known before it:
+  // who follows the account of a step without views has no view primitive to release from.
   void drop_views() {
+    take_clean_at_start(work_, context_.options.start);
     work_.signs.clear();
     work_.primitives.clear();
     std::fill(work_.free.begin(), work_.free.end(), 0);
@@ -156,7 +156,8 @@ class Step {
 
   bool find_start() {
     Stopwatch watch(result_.times.start);
-    return find_clean_at_start(work_, *context_.stages.release, context_.options.start);
+    return find_clean_at_start(work_, *context_.stages.release, context_.options.start,
+                               is_auto() ? StartBy::view_alone : StartBy::view_and_layers);
   }
 
   bool sweep_ghosts() {

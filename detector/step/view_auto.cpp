@@ -140,12 +140,8 @@ bool ViewAuto::glances(const StepWork& work) {
   return does_without(ViewUse::hopeless);
 }
 
-bool ViewAuto::promises(StepWork& work, Start start) {
+bool ViewAuto::promises(StepWork& work) {
   share_of_signs_ = share_ = saved_share(work, true);
-  if (!work.known && start != Start::clean) {
-    use_ = ViewUse::start_unknown;  // nothing is said against views in the next step
-    return false;
-  }
   const double hoped = worth_of_saved * share_ * static_cast<double>(expected_candidates());
   if (share_ < least_share || choice_.overhead > hoped)
     return does_without(ViewUse::saving_too_little);
@@ -159,6 +155,10 @@ bool ViewAuto::promises(StepWork& work, Start start) {
 bool ViewAuto::pays(const StepWork& work) {
   share_ = saved_share(work, false);
   if (share_ >= least_share) return true;
+  if (!work.known) {
+    use_ = ViewUse::start_unknown;
+    return false;
+  }
   overhead_ = cost_beside_k(work.counts);
   return does_without(ViewUse::among_dirty);
 }

@@ -42,11 +42,9 @@ class ViewAuto {
   // Whether the signs leave out enough pairs, should all triangles be clean, to be worth what else
   // views took when last used, and the ghosts are few enough to be swept. Refits the tree of an
   // unclosed mesh.
-  //
-  // Never where nothing is known of the start, for to verify it takes about a step of culling bvh.
-  // That step is made instead, and its pairs tell what is clean where the next one starts (L15).
-  bool promises(StepWork& work, Start start);
-  // Whether enough is left once it is known what is clean.
+  bool promises(StepWork& work);
+  // Whether enough is left once it is known what is clean. Where nothing was known of the start, and
+  // too little is left, nothing is said against views in the next step.
   bool pays(const StepWork& work);
   // What the release, the sweep and the closure have cost is held against what was saved.
   // `candidates_of_k`: those before the closure.

@@ -80,6 +80,7 @@ Observation components_are_clean_by_themselves(CaseFacts& facts, std::size_t s) 
     for (std::size_t i = 0; i < components[c].triangles.size(); ++i) {
       const auto t = components[c].triangles[i];
       const bool dirty = (facts.result(s).doubts[at(t)] & detector::doubt::dirty) != 0;
+      if (dirty && facts.starts_by_view_alone()) continue;
       if (dirty == (alone.clean[i] != 0)) {
         return fmt::format("triangle {} is {}, in its component alone {}", t,
                            dirty ? "dirty" : "clean", alone.clean[i] ? "clean" : "not");

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "oracle/view/view_sign.h"
 #include "properties/laws/facts/carried_state.h"
 #include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"
@@ -97,6 +96,7 @@ Observation new_start_is_the_oracles_layers(CaseFacts& facts, std::size_t s) {
   const auto& clean = facts.layers_at_start(s).clean;
   const auto dirty = dirty_triangles(facts, s);
   for (std::size_t t = 0; t < dirty.size(); ++t) {
+    if (dirty[t] && facts.starts_by_view_alone()) continue;
     if ((dirty[t] != 0) == (clean[t] != 0)) {
       return fmt::format("triangle {} is {}, by the oracle {}", t, dirty[t] ? "dirty" : "clean",
                          clean[t] ? "clean" : "not");
@@ -105,27 +105,12 @@ Observation new_start_is_the_oracles_layers(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component) {
-  auto still = facts.result(s).primitives[component];
-  still.q0.t1 = still.q0.t0;
-  still.q1.t1 = still.q1.t0;
-  const auto x = facts.all_t0(s);
-  const auto& surface = facts.surface().all();
-  const auto& triangles = surface.components[component].triangles;
-  return std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
-    const auto& v = surface.triangles[at(t)];
-    const auto corner = [&](std::size_t i) { return detector::moving_point(x, x, v[i]); };
-    return oracle::view_sign({corner(0), corner(1), corner(2)}, still) ==
-           detector::ViewSign::positive;
-  });
-}
-
 Observation all_positive_at_the_start_releases(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s)) return not_met();
   if (!facts.known_from(s) && facts.options().start == Start::unknown) return not_met();
   bool met = false;
   for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c) {
-    if (!is_positive_at_start(facts, s, c) || facts.winding_at_start(s, c) != 1) continue;
+    if (!is_free_by_view_at_start(facts, s, c)) continue;
     met = true;
     for (const auto t : facts.surface().mesh.components[c].triangles) {
       const auto i = at(t);
@@ -158,7 +143,8 @@ constexpr Law state_law_table[] = {
      "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>},
     {"L9_NewStartIsTheOraclesLayers", "L9",
      "At a new start that is verified, dirty is what touches something of S or is not of the "
-     "common layer of its component.",
+     "common layer of its component; under view-auto, which looks and asks for no layers, all of "
+     "that is dirty.",
      "layers", each_step<new_start_is_the_oracles_layers>},
     {"L9_AllPositiveAtTheStartReleases", "L9",
      "Where all of S is positive at t=0 and has winding number 1 at the primitive, the component "

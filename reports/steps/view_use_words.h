@@ -15,7 +15,7 @@ constexpr const char* words_of(detector::ViewUse use) {
     case ViewUse::resting:
       return "they have not paid in the steps before";
     case ViewUse::start_unknown:
-      return "the start is not known to be clean, and to verify it takes as long as the step";
+      return "too little is seen to be clean at a start that nothing is known of";
     case ViewUse::hopeless:
       return "of a few triangles doubles can tell too few signs";
     case ViewUse::saving_too_little:

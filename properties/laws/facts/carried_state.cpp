@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "oracle/view/view_sign.h"
+
 namespace assay::properties {
 
 using OptionalLayers = std::vector<std::optional<oracle::Layer>>;  // by component
@@ -12,7 +16,27 @@ std::size_t component_of(const CaseFacts& facts, std::size_t triangle) {
   return at(facts.component_of(static_cast<std::int32_t>(triangle)));
 }
 
+// Every triangle of S is positive where the step starts.
+bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component) {
+  auto still = facts.result(s).primitives[component];
+  still.q0.t1 = still.q0.t0;
+  still.q1.t1 = still.q1.t0;
+  const auto x = facts.all_t0(s);
+  const auto& surface = facts.surface().all();
+  const auto& triangles = surface.components[component].triangles;
+  return std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
+    const auto& v = surface.triangles[at(t)];
+    const auto corner = [&](std::size_t i) { return detector::moving_point(x, x, v[i]); };
+    return oracle::view_sign({corner(0), corner(1), corner(2)}, still) ==
+           detector::ViewSign::positive;
+  });
+}
+
 }  // namespace
+
+bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component) {
+  return is_positive_at_start(facts, s, component) && facts.winding_at_start(s, component) == 1;
+}
 
 std::string what_is_not_clean(const CaseFacts& facts, const oracle::LayerState& layers,
                               const TriangleFlags& held) {
@@ -66,6 +90,23 @@ TriangleFlags in_doubt_after(CaseFacts& facts, std::size_t s) {
   return flags;
 }
 
+TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s) {
+  const auto start = facts.options().start;
+  const bool looks_alone = facts.starts_by_view_alone();
+  TriangleFlags dirty;
+  if (!looks_alone && start != detector::Start::unknown) {
+    for (const auto clean : facts.layers_at_start(s).clean) dirty.push_back(clean == 0);
+    return dirty;
+  }
+  TriangleFlags free;
+  for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c)
+    free.push_back(facts.is_free_by_view(s, c) ||
+                   (looks_alone && is_free_by_view_at_start(facts, s, c)));
+  for (std::size_t t = 0; t < facts.surface().mesh.triangles.size(); ++t)
+    dirty.push_back(!free[component_of(facts, t)]);
+  return dirty;
+}
+
 TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s) {
   const std::size_t count = facts.surface().mesh.triangles.size();
   TriangleFlags dirty(count, 0);
@@ -75,12 +116,7 @@ TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s) {
     return TriangleFlags(count, facts.options().start != detector::Start::clean);
   }
   if (!p) {
-    for (std::size_t t = 0; t < count; ++t) {
-      dirty[t] = facts.options().start == detector::Start::unknown
-                     ? !facts.is_free_by_view(s, component_of(facts, t))
-                     : !facts.layers_at_start(s).clean[t];
-    }
-    return dirty;
+    return dirty_at_a_new_start(facts, s);
   }
   const TriangleFlags in_doubt = in_doubt_after(facts, *p);
   const auto& layers = facts.layers_at_start(s);

@@ -24,10 +24,18 @@ TriangleFlags may_be_clean(CaseFacts& facts, std::size_t s, const TriangleFlags&
 // judged, and trusted. A step without views has one too, although it shows no doubts.
 bool has_account(CaseFacts& facts, std::size_t s);
 
-// L8, L9 and L15, by the oracle alone: what is dirty at the start of step s. At a new start its layers;
-// then what was dirty by this account, or touched by a ghost or in contact with its own component
-// during the step before, and is not untouched and of the common layer now. That layer is the one
-// of the triangles not in doubt; in a component without any, that of most untouched triangles.
+// L5 where the step starts: all of S is positive there, and the winding number is 1. REQUIRES
+// has_views(s).
+bool is_free_by_view_at_start(CaseFacts& facts, std::size_t s, std::size_t component);
+
+// What is dirty where nothing is known of the start, by the oracle: by its layers, or, under
+// view-auto, which asks for none, all components that are not free by view. REQUIRES has_views(s).
+TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s);
+
+// L8, L9 and L15, by the oracle alone: what is dirty at the start of step s. At a new start see
+// above; then what was dirty by this account, or touched by a ghost or in contact with its own
+// component during the step before, and is not untouched and of the common layer now. That layer is
+// the one of the triangles not in doubt; in a component without any, that of most untouched triangles.
 //
 // A step without views releases nothing: at a new start all is dirty, unless the caller vouched for
 // it, and one that goes on has all that was in doubt after the step before.

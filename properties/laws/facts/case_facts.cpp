@@ -82,6 +82,11 @@ bool CaseFacts::has_views(std::size_t s) const {
          r.apexes.size() == surface_.loops.size();
 }
 
+bool CaseFacts::starts_by_view_alone() const {
+  return options_.start == detector::Start::verified &&
+         options_.culling == detector::Culling::view_auto;
+}
+
 bool CaseFacts::has_ghosts(std::size_t component) const {
   return surface_.all().components[component].triangles.size() >
          surface_.mesh.components[component].triangles.size();

@@ -54,6 +54,8 @@ class CaseFacts {
   // The detector answered step s and tells its view sets.
   bool has_views(std::size_t s) const;
   bool has_ghosts(std::size_t component) const;
+  // Whether a verified start is so by view alone (L5), as under view-auto, and not by layers (L9).
+  bool starts_by_view_alone() const;
   // The oracle has finished.
   bool is_judged(std::size_t s) const { return judgements_[s].complete; }
   // Premise of L3 to L8: outside Vv everything is clean at the start. A new start that the caller

@@ -97,6 +97,12 @@ std::optional<PinnedRun> pinned_run(const CaseFacts& facts) {
   }
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     if (!facts.has_views(s)) return std::nullopt;
+    // The other run, of view-line, asks for layers where this one did not.
+    const auto& doubts = facts.result(s).doubts;
+    const bool any_dirty = std::any_of(doubts.begin(), doubts.end(), [](std::uint8_t marks) {
+      return (marks & detector::doubt::dirty) != 0;
+    });
+    if (any_dirty && !facts.known_from(s) && facts.starts_by_view_alone()) return std::nullopt;
     run.script.push_back(facts.script(s));
     run.primitives.push_back(facts.result(s).primitives);
     run.apexes.push_back(facts.result(s).apexes);

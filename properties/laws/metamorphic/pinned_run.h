@@ -24,7 +24,8 @@ struct PinnedRun {
   std::vector<std::vector<detector::MovingPoint>> apexes;  // [step][loop]
 };
 
-// The run that gave the results; nothing where a step has no views, or no detector can be made.
+// The run that gave the results; nothing where a step has no views, where view-auto left something
+// dirty that it would have released by layers, or where no detector can be made.
 std::optional<PinnedRun> pinned_run(const CaseFacts& facts);
 
 // The options of the case, for a run of another mesh. Whether view-auto uses its views is a matter

@@ -30,8 +30,8 @@ std::vector<corpus::Case> curated_cases() {
   return cases;
 }
 
-// The case behind a step in which nothing moves. A first step of view-auto has no views unless all of
-// it is positive, so this lets every step of the case go on from a committed one.
+// The case behind a step in which nothing moves. Of a first step view-auto knows less than of later
+// ones, so this lets every step of the case go on from a committed one.
 corpus::Case after_a_still_step(corpus::Case c) {
   std::vector<corpus::CaseStep> script = {{0, 1, true}};
   for (auto step : corpus::steps_of(c)) {
