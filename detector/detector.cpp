@@ -24,7 +24,7 @@ std::vector<ViewAnchor> place_anchors(const Surface& surface,
   for (const auto& component : surface.all().components) {
     const Effort effort = effort_for(component, surface.mesh, Effort::thorough);
     if (pace.after(effort == Effort::least ? 400 : 20'000)) break;
-    if (culling == Culling::view_auto) {
+    if (chooses_views(culling)) {
       anchors.push_back(
           choose_view_anchor(surface.all(), component, surface.first_apex, x, effort, &pace));
     } else {

@@ -14,12 +14,17 @@ enum class Culling : std::uint8_t {
   normal_cone,  // the tree, less patches with a normal cone and a simple contour [VMT94]
   bvh,          // the tree alone
   none,         // every pair, no boxes: for small meshes and for comparison
+  automatic,    // view_auto and normal_cone in one descent, each only where it is expected to pay
 };
+
+// Whether each step decides by itself if its views are used.
+constexpr bool chooses_views(Culling culling) {
+  return culling == Culling::view_auto || culling == Culling::automatic;
+}
 
 // Whether steps may be seen from view primitives.
 constexpr bool uses_views(Culling culling) {
-  return culling == Culling::view_auto || culling == Culling::view_point ||
-         culling == Culling::view_line;
+  return chooses_views(culling) || culling == Culling::view_point || culling == Culling::view_line;
 }
 
 enum class Start : std::uint8_t {
@@ -47,7 +52,7 @@ enum class GhostTest : std::uint8_t {
 };
 
 struct Options {
-  Culling culling = Culling::view_auto;
+  Culling culling = Culling::automatic;
   Start start = Start::verified;
   Pairs pairs = Pairs::all;
   Arithmetic arithmetic = Arithmetic::exact;

@@ -22,6 +22,7 @@ static_assert(ASSAY_CULLING_VIEW_LINE == static_cast<int>(Culling::view_line));
 static_assert(ASSAY_CULLING_NORMAL_CONE == static_cast<int>(Culling::normal_cone));
 static_assert(ASSAY_CULLING_BVH == static_cast<int>(Culling::bvh));
 static_assert(ASSAY_CULLING_NONE == static_cast<int>(Culling::none));
+static_assert(ASSAY_CULLING_AUTO == static_cast<int>(Culling::automatic));
 static_assert(ASSAY_START_VERIFIED == static_cast<int>(Start::verified));
 static_assert(ASSAY_START_CLEAN == static_cast<int>(Start::clean));
 static_assert(ASSAY_START_UNKNOWN == static_cast<int>(Start::unknown));
@@ -79,7 +80,7 @@ bool choose(Enum& choice, std::int32_t number, Enum last) {
 // What is wrong, or null.
 const char* read_options(const assay_builtin_options& given, Options& options) {
   if (given.struct_size != sizeof given) return "struct_size is not the size of the options";
-  if (!choose(options.culling, given.culling, Culling::none)) return "no such culling";
+  if (!choose(options.culling, given.culling, Culling::automatic)) return "no such culling";
   if (!choose(options.start, given.start, Start::unknown)) return "no such start";
   if (!choose(options.pairs, given.pairs, Pairs::first)) return "no such choice of pairs";
   if (!choose(options.arithmetic, given.arithmetic, Arithmetic::single_precision))

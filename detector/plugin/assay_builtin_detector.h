@@ -58,7 +58,7 @@ typedef struct assay_builtin_error {
   char message[252]; /* one line for a user, cut where it is longer; ends with 0 */
 } assay_builtin_error;
 
-/* Options. The default is 0 in each. */
+/* Options. The default is ASSAY_CULLING_AUTO, and 0 in each other. */
 enum {
   ASSAY_CULLING_VIEW_AUTO = 0,  /* a point or a segment, whichever sees more; bvh where that does
                                    not pay */
@@ -66,7 +66,8 @@ enum {
   ASSAY_CULLING_VIEW_LINE = 2,  /* each component seen from a segment */
   ASSAY_CULLING_NORMAL_CONE = 3,
   ASSAY_CULLING_BVH = 4,
-  ASSAY_CULLING_NONE = 5 /* every pair, no boxes */
+  ASSAY_CULLING_NONE = 5, /* every pair, no boxes */
+  ASSAY_CULLING_AUTO = 6  /* the first and normal cones in one descent, each where it pays */
 };
 enum {
   ASSAY_START_VERIFIED = 0, /* what is clean is found out at each new start */
@@ -104,7 +105,7 @@ typedef struct assay_builtin_options {
 } assay_builtin_options;
 
 #define ASSAY_BUILTIN_DEFAULTS \
-  { sizeof(assay_builtin_options), 0, 0, 0, 0, 0, 0 }
+  { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 0, 0 }
 
 /* As the table's create. options: NULL for the defaults. *handle is left alone unless ASSAY_OK. */
 int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,

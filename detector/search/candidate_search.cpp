@@ -29,7 +29,16 @@ bool CandidateSearch::same_component(std::int32_t a, std::int32_t b) const {
   return mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
 }
 
-bool CandidateSearch::search(const PairTables& tables) {
+SearchInput CandidateSearch::input(const PairTables& tables, bool uses_proofs) const {
+  return {mesh_, tree_, memory_.marks, tables, memory_.kept.get(), &x_t0_, &x_t1_, uses_proofs};
+}
+
+double CandidateSearch::provable_share() const {
+  const PairTables none;
+  return stages_.search.provable_share(input(none, true));
+}
+
+bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
   const auto& types = memory_.marks.types;
   std::uint64_t pairs = 0;
   const auto sink = [&](std::int32_t a, std::int32_t b) {
@@ -41,14 +50,13 @@ bool CandidateSearch::search(const PairTables& tables) {
         !same_component(a, b);
     return contacts_.add_candidate(a, b, may_pierce, stop_);
   };
-  const SearchInput input{mesh_, tree_, memory_.marks, tables, memory_.kept.get(), &x_t0_, &x_t1_};
-  return stages_.search.search(input, counts_, sink) && contacts_.run(stop_);
+  return stages_.search.search(input(tables, uses_proofs), counts_, sink) && contacts_.run(stop_);
 }
 
-bool CandidateSearch::collect() {
+bool CandidateSearch::collect(bool uses_proofs) {
   const PairTables k = stages_.rule.candidates();
   contacts_.ask(AskedTypes::in_first_search(k));
-  return search(k);
+  return search(k, uses_proofs);
 }
 
 bool CandidateSearch::close() {
@@ -70,7 +78,7 @@ bool CandidateSearch::close() {
     if (grown.empty()) return true;
     change_types(grown);
     ++closure_rounds_;
-    if (!search(tables)) return false;
+    if (!search(tables, false)) return false;
     for (auto& [triangle, type] : grown) {
       type = type == TriangleType::positive_grown ? TriangleType::positive_joined
                                                   : TriangleType::negative_joined;

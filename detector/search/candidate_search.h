@@ -33,13 +33,16 @@ class CandidateSearch {
 
   // Brings the marks to the step: the types of all triangles, without those of the closure.
   void mark(std::span<const TriangleType> types);
-  // Finds the candidates and tests their feature pairs. This and `close` return false when `stop`
-  // ended it.
-  bool collect();
+  // Finds the candidates and tests their feature pairs; what the search can prove apart is left out
+  // where that is worth its cost. This and `close` return false when `stop` ended it.
+  bool collect(bool uses_proofs = true);
+  // See PairSearch.
+  double provable_share() const;
   // L7. H := the triangles found in contact with their own component (pairs of two components were
   // all tested, and layers count the own component only: L10). Tests (U,H), adds what is found,
   // until H is stable. V0 and Vv were looked at against everything already. A round costs what it
-  // looks at: marks, search and tests around the triangles that joined.
+  // looks at: marks, search and tests around the triangles that joined. Nothing is proved apart:
+  // that would cost more than a round.
   bool close();
 
   // See FeatureContacts.
@@ -51,7 +54,8 @@ class CandidateSearch {
   std::uint64_t closure_rounds() const { return closure_rounds_; }
 
  private:
-  bool search(const PairTables& tables);
+  bool search(const PairTables& tables, bool uses_proofs);
+  SearchInput input(const PairTables& tables, bool uses_proofs) const;
   void change_types(std::span<const Marking::Change> changes);
   bool same_component(std::int32_t a, std::int32_t b) const;
 

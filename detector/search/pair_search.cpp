@@ -5,13 +5,15 @@ namespace {
 
 class Descent {
  public:
-  Descent(const SearchInput& input, bool skips, SearchCounts& counts, const PairSink& sink)
+  Descent(const SearchInput& input, bool skips, PatchProofs* proofs, SearchCounts& counts,
+          const PairSink& sink)
       : tree_(input.tree),
         flags_(input.marks.node_flags.data()),
         within_(input.tables.within),
         across_(input.tables.across),
         either_(within_.joined_with(across_)),
         skips_(skips),
+        proofs_(proofs),
         counts_(counts),
         sink_(sink) {}
 
@@ -56,7 +58,7 @@ class Descent {
   void below(std::int32_t a, std::int32_t b, const PairTable& table) {
     if (stopped_ || !table.asks(flags(a), flags(b))) return;
     if (a == b) {
-      if (!tree_.is_leaf(a)) stack_.push_back({a, a});
+      enter_alone(a, table);
     } else {
       enter(a, b, table);
     }
@@ -74,11 +76,8 @@ class Descent {
 
   void split_one(std::int32_t node, const PairTable& table) {
     const auto l = tree_.child(node), r = l + 1;
-    for (const auto child : {r, l}) {
-      if (!tree_.is_leaf(child) && table.asks(flags(child), flags(child))) {
-        stack_.push_back({child, child});
-      }
-    }
+    enter_alone(r, table);
+    enter_alone(l, table);
     if (table.asks(flags(l), flags(r))) enter(l, r, table);
   }
 
@@ -93,6 +92,13 @@ class Descent {
     }
   }
 
+  // A node that may hold a pair: onto the stack, unless no two triangles below it meet.
+  void enter_alone(std::int32_t node, const PairTable& table) {
+    if (tree_.is_leaf(node) || !table.asks(flags(node), flags(node))) return;
+    if (proofs_ && proofs_->is_free(node)) return;
+    stack_.push_back({node, node});
+  }
+
   // Two nodes that may hold a pair: to the sink, or onto the stack, unless their boxes are apart.
   void enter(std::int32_t a, std::int32_t b, const PairTable& table) {
     if (skips_) {
@@ -101,6 +107,7 @@ class Descent {
     }
     ++counts_.box_tests;
     if (apart(tree_.box(a), tree_.box(b))) return;
+    if (proofs_ && tree_.component(a) == tree_.component(b) && proofs_->are_free(a, b)) return;
     if (!tree_.is_leaf(a) || !tree_.is_leaf(b)) {
       stack_.push_back({a, b});
       return;
@@ -127,6 +134,7 @@ class Descent {
   const std::uint8_t* flags_;
   const PairTable within_, across_, either_;
   const bool skips_;
+  PatchProofs* const proofs_;  // or null
   SearchCounts& counts_;
   const PairSink& sink_;
   std::vector<NodePair> stack_;  // of `below`: their boxes meet
@@ -137,7 +145,12 @@ class Descent {
 
 bool TreeSearch::search(const SearchInput& input, SearchCounts& counts,
                         const PairSink& sink) const {
-  return Descent(input, skipping_ == Skipping::on, counts, sink).run();
+  return descend(input, nullptr, counts, sink);
+}
+
+bool TreeSearch::descend(const SearchInput& input, PatchProofs* proofs, SearchCounts& counts,
+                         const PairSink& sink) const {
+  return Descent(input, skipping_ == Skipping::on, proofs, counts, sink).run();
 }
 
 bool ExhaustiveSearch::search(const SearchInput& input, SearchCounts& counts,

@@ -14,6 +14,17 @@ struct KeptBySearch {
   virtual ~KeptBySearch() = default;
 };
 
+// What is proved apart over the whole step besides by boxes (N of L14). Asked of nodes of one
+// component alone.
+class PatchProofs {
+ public:
+  virtual ~PatchProofs() = default;
+  // Whether no two triangles below the node are in contact during the step.
+  virtual bool is_free(std::int32_t node) = 0;
+  // Whether no two triangles below the two nodes together are, where the boxes meet.
+  virtual bool are_free(std::int32_t a, std::int32_t b) = 0;
+};
+
 // Takes a candidate pair (any order); false: stop the search.
 using PairSink = std::function<bool(std::int32_t, std::int32_t)>;
 
@@ -24,6 +35,7 @@ struct SearchInput {
   const PairTables& tables;
   KeptBySearch* kept = nullptr;  // of PairSearch::prepare
   const PositionsView *x_t0 = nullptr, *x_t1 = nullptr;
+  bool uses_proofs = true;  // where the search has any: whether they are worth their cost
 };
 
 // A stage of the detector; returns false when the sink stopped it.
@@ -41,6 +53,9 @@ class PairSearch {
   }
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;
+  // Of a few small patches of the mesh, the share that its proofs tell free over the step: an
+  // estimate from a fixed choice of them. 0 where it has no proofs.
+  virtual double provable_share(const SearchInput&) const { return 0; }
 };
 
 // Descends the tree against itself, along the partial trees that hold partners: (V+,V-), (U,V0),
@@ -49,11 +64,18 @@ class PairSearch {
 // Where only one child of a node may hold a partner of the other node, the search goes on with that
 // child before any box is tested: its box lies inside, so the test would have told less. With a
 // marking that is one child with the flag, the compact vBVH of the thesis.
+//
+// What patch proofs tell apart is left out (L14). They are asked where a pair may lie below, for
+// they cost more than a look at flags and boxes.
 class TreeSearch : public PairSearch {
  public:
   enum class Skipping : std::uint8_t { on, off };
   explicit TreeSearch(Skipping skipping = Skipping::on) : skipping_(skipping) {}
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
+
+ protected:
+  bool descend(const SearchInput& input, PatchProofs* proofs, SearchCounts& counts,
+               const PairSink& sink) const;
 
  private:
   Skipping skipping_;

@@ -122,7 +122,7 @@ void committed_fields(Archive& archive, Committed& state) {
 template <class Archive, class State>
 void state_fields(Archive& archive, State& state) {
   field(archive, state.mesh);
-  kind(archive, state.culling, Culling::none);
+  kind(archive, state.culling, Culling::automatic);
   if (there_is(archive, state.committed)) committed_fields(archive, *state.committed);
   length(archive, state.apex_rules, word);
   for (auto& rule : state.apex_rules) field(archive, rule.height);

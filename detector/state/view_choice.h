@@ -1,4 +1,4 @@
-// What view-auto keeps from step to step: where it looks from, and whether looking has paid.
+// What culling automatic and view_auto keep from step to step: where it looks from, and whether looking has paid.
 #pragma once
 
 #include <memory>

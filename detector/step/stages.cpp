@@ -14,7 +14,7 @@ Stages standard_stages(const Options& options) {
   stages.marking = std::make_shared<Marking>();
   if (culling == Culling::none) {
     stages.pair_search = std::make_shared<ExhaustiveSearch>();
-  } else if (culling == Culling::normal_cone) {
+  } else if (culling == Culling::normal_cone || culling == Culling::automatic) {
     stages.pair_search = std::make_shared<NormalConeSearch>();
   } else {
     stages.pair_search = std::make_shared<TreeSearch>();

@@ -86,7 +86,7 @@ class Step {
   }
 
  private:
-  bool is_auto() const { return context_.options.culling == Culling::view_auto; }
+  bool is_auto() const { return chooses_views(context_.options.culling); }
   bool looks() const {
     return uses_views(context_.options.culling) && !(is_auto() && !auto_.looks());
   }
@@ -200,7 +200,7 @@ class Step {
     {
       Stopwatch watch(times.broad_phase);
       candidates.mark(types);
-      completed = candidates.collect();
+      completed = candidates.collect(worth_proving(candidates));
     }
     // The tests are made as candidates come up.
     times.narrow_phase = candidates.test_time();
@@ -217,6 +217,12 @@ class Step {
     work_.counts.closure_rounds = candidates.closure_rounds();
     if (is_auto() && work_.has_views()) auto_.weigh(work_.counts, candidates_of_k);
     return completed;
+  }
+
+  // Whether patches are proved apart in this search (L14).
+  bool worth_proving(const CandidateSearch& candidates) const {
+    return context_.options.culling != Culling::automatic ||
+           auto_.proofs_pay(candidates.provable_share(), mesh_.triangles.size());
   }
 
   // Whether the pairs found are all there are.
@@ -247,7 +253,7 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
       known && context.stages.release->still_holds(*known, x_t0) ? &*known : nullptr;
   const Culling culling = context.options.culling;
   ViewAuto view_auto(context.surface, context.adjacent_pairs, known ? known->choice : ViewChoice{});
-  const bool may_look = uses_views(culling) && (culling != Culling::view_auto || view_auto.looks());
+  const bool may_look = uses_views(culling) && (!chooses_views(culling) || view_auto.looks());
   double total = 0;
   StepResult result;
   {

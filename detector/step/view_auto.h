@@ -1,4 +1,5 @@
-// view-auto: from where a step is looked at, and whether its views are worth using.
+// Culling automatic and view_auto: from where a step is looked at, whether its views are worth using,
+// and whether its search is worth proving patches apart (automatic alone).
 //
 // Everything is decided from the numbers of triangles and pairs of this step and of the steps
 // committed before, never from a clock: same input, same bytes. What is decided is a matter of
@@ -49,6 +50,10 @@ class ViewAuto {
   // What the release, the sweep and the closure have cost is held against what was saved.
   // `candidates_of_k`: those before the closure.
   void weigh(const StepCounts& counts, std::uint64_t candidates_of_k);
+
+  // Whether normal cones and contours are worth their cost in the search of this step (L14).
+  // provable: of small patches, the share that they tell free.
+  bool proofs_pay(double provable, std::size_t triangles) const;
 
   // Whether views are used, as far as that is decided.
   ViewUse use() const { return looks() ? use_ : ViewUse::resting; }

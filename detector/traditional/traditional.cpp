@@ -11,17 +11,17 @@
 //     +   the directions that it faces at every t of the step      faced_directions
 //       for each internal node, upward: merge the normal cones
 //         of its two children, while they can be merged
-//     +   the directions that both face                            Descent::merge_cones
-//       self-test (root), where self-test (node) is:               Descent::self_test
+//     +   the directions that both face                            PatchCones::merge_cones
+//       self-test (root), where self-test (node) is:               TreeSearch, PatchCones::is_free
 //         if the node has a normal cone, of normal V: project its contour onto a plane
 //           perpendicular to V; if it does not cross itself, return: self-collision free
 //     +     at every t, along one of the directions                MovingContour
 //         self-test both children
 //         pair-test (first child, second child)
-//       pair-test (a, b):                                          Descent::pair_test
+//       pair-test (a, b):                                          TreeSearch
 //         if the boxes are apart, return
 //         if a and b are adjacent and have together a normal cone and a contour that does not
-//           cross itself, return
+//           cross itself, return                                   PatchCones::are_free
 //         if both are leaves: elementary tests
 //         else pair-test their children with each other
 //
@@ -36,6 +36,8 @@
 //   here it is wherever its triangles do not cancel, and L13 counts with that.
 #include "detector/traditional/traditional.h"
 
+#include <algorithm>
+
 namespace assay::detector {
 namespace {
 
@@ -49,37 +51,39 @@ struct Kept : KeptBySearch {
         cones(tree.node_count()) {}
 };
 
-class Descent {
+class PatchCones : public PatchProofs {
  public:
-  Descent(const NormalConeSearch& scheme, const SearchInput& input, SearchCounts& counts,
-          const PairSink& sink)
+  PatchCones(const NormalConeSearch& scheme, const SearchInput& input, SearchCounts& counts)
       : scheme_(scheme),
-        mesh_(input.mesh),
-        tree_(input.tree),
         kept_(static_cast<Kept&>(*input.kept)),
-        x_t0_(*input.x_t0),
-        x_t1_(*input.x_t1),
-        moving_(x_t0_, x_t1_),
-        counts_(counts),
-        sink_(sink) {}
+        moving_(*input.x_t0, *input.x_t1),
+        counts_(counts) {
+    merge_cones(input.mesh, input.tree, *input.x_t0, *input.x_t1);
+  }
 
-  // False when the sink stopped it.
-  bool run() {
-    merge_cones();
-    return self_test(BoundingVolumeTree::root);
+  bool is_free(std::int32_t node) override {
+    return is_free(kept_.cones[at(node)], kept_.contours.of(node));
+  }
+
+  bool are_free(std::int32_t a, std::int32_t b) override {
+    const DirectionSet cone = kept_.cones[at(a)] & kept_.cones[at(b)];
+    if (cone == 0) return false;
+    const Contour of_a = kept_.contours.of(a), of_b = kept_.contours.of(b);
+    return !of_a.empty() && !of_b.empty() && is_free(cone, kept_.joined.join(of_a, of_b));
   }
 
  private:
-  void merge_cones() {
-    for (std::size_t n = tree_.node_count(); n-- > 0;) {
+  void merge_cones(const Topology& mesh, const BoundingVolumeTree& tree, const PositionsView& x_t0,
+                   const PositionsView& x_t1) {
+    for (std::size_t n = tree.node_count(); n-- > 0;) {
       const auto node = static_cast<std::int32_t>(n);
-      if (tree_.is_leaf(node)) {
-        const auto& corners = mesh_.triangles[at(tree_.triangle(node))];
-        kept_.cones[n] = scheme_.faced({moving_point(x_t0_, x_t1_, corners[0]),
-                                        moving_point(x_t0_, x_t1_, corners[1]),
-                                        moving_point(x_t0_, x_t1_, corners[2])});
+      if (tree.is_leaf(node)) {
+        const auto& corners = mesh.triangles[at(tree.triangle(node))];
+        kept_.cones[n] = scheme_.faced({moving_point(x_t0, x_t1, corners[0]),
+                                        moving_point(x_t0, x_t1, corners[1]),
+                                        moving_point(x_t0, x_t1, corners[2])});
       } else {
-        const auto child = at(tree_.child(node));
+        const auto child = at(tree.child(node));
         kept_.cones[n] = kept_.cones[child] & kept_.cones[child + 1];
       }
     }
@@ -91,47 +95,62 @@ class Descent {
     return scheme_.stays_simple(moving_, contour, nearest_direction(cone, moving_.area(contour)));
   }
 
-  bool self_test(std::int32_t node) {
-    if (tree_.is_leaf(node) || is_free(kept_.cones[at(node)], kept_.contours.of(node))) return true;
-    const auto child = tree_.child(node);
-    return self_test(child) && self_test(child + 1) && pair_test(child, child + 1);
-  }
-
-  bool are_free(std::int32_t a, std::int32_t b) {
-    const DirectionSet cone = kept_.cones[at(a)] & kept_.cones[at(b)];
-    if (cone == 0) return false;
-    const Contour of_a = kept_.contours.of(a), of_b = kept_.contours.of(b);
-    return !of_a.empty() && !of_b.empty() && is_free(cone, kept_.joined.join(of_a, of_b));
-  }
-
-  bool pair_test(std::int32_t a, std::int32_t b) {
-    ++counts_.box_tests;
-    if (apart(tree_.box(a), tree_.box(b)) || are_free(a, b)) return true;
-    const bool splits_a = !tree_.is_leaf(a), splits_b = !tree_.is_leaf(b);
-    if (!splits_a && !splits_b) {
-      ++counts_.candidate_pairs;
-      return sink_(tree_.triangle(a), tree_.triangle(b));
-    }
-    const auto first_a = splits_a ? tree_.child(a) : a, first_b = splits_b ? tree_.child(b) : b;
-    for (auto i = first_a; i <= first_a + splits_a; ++i) {
-      for (auto j = first_b; j <= first_b + splits_b; ++j) {
-        if (!pair_test(i, j)) return false;
-      }
-    }
-    return true;
-  }
-
   const NormalConeSearch& scheme_;
-  const Topology& mesh_;
-  const BoundingVolumeTree& tree_;
   Kept& kept_;
-  const PositionsView &x_t0_, &x_t1_;
   MovingContour moving_;
   SearchCounts& counts_;
-  const PairSink& sink_;
 };
 
+// The node of at most `most` triangles that lies at `place` in [0, 1) of the tree, from its left to
+// its right.
+std::int32_t patch_at(const BoundingVolumeTree& tree, double place, std::size_t triangles,
+                      std::size_t most) {
+  std::int32_t node = BoundingVolumeTree::root;
+  for (; triangles > most && !tree.is_leaf(node); triangles = (triangles + 1) / 2) {
+    place *= 2;
+    const bool is_second = place >= 1;
+    if (is_second) place -= 1;
+    node = tree.child(node) + (is_second ? 1 : 0);
+  }
+  return node;
+}
+
+DirectionSet cone_below(const NormalConeSearch& scheme, const SearchInput& input,
+                        std::int32_t node) {
+  if (!input.tree.is_leaf(node)) {
+    const auto child = input.tree.child(node);
+    const DirectionSet first = cone_below(scheme, input, child);
+    return first == 0 ? first : first & cone_below(scheme, input, child + 1);
+  }
+  const auto& corners = input.mesh.triangles[at(input.tree.triangle(node))];
+  return scheme.faced({moving_point(*input.x_t0, *input.x_t1, corners[0]),
+                       moving_point(*input.x_t0, *input.x_t1, corners[1]),
+                       moving_point(*input.x_t0, *input.x_t1, corners[2])});
+}
+
 }  // namespace
+
+double NormalConeSearch::provable_share(const SearchInput& input) const {
+  const std::size_t triangles = input.mesh.triangles.size();
+  const auto& contours = static_cast<const Kept&>(*input.kept).contours;
+  MovingContour moving(*input.x_t0, *input.x_t1);
+  const auto share_of = [&](std::size_t patches, std::size_t most) {
+    std::size_t free = 0;
+    for (std::size_t i = 0; i < patches; ++i) {
+      const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(patches);
+      const auto node = patch_at(input.tree, place, triangles, most);
+      const Contour contour = contours.of(node);
+      const DirectionSet cone = contour.empty() ? 0 : cone_below(*this, input, node);
+      if (cone == 0) continue;
+      free += moving.stays_simple(contour, nearest_direction(cone, moving.area(contour)));
+    }
+    return static_cast<double>(free) / static_cast<double>(patches);
+  };
+  constexpr std::size_t small = 16, large = 256;
+  const double of_small = share_of(std::clamp<std::size_t>(triangles / 512, 4, 32), small);
+  if (triangles < 16 * large || of_small >= 0.5) return of_small;
+  return std::max(of_small, share_of(std::clamp<std::size_t>(triangles / (32 * large), 1, 8), large));
+}
 
 std::unique_ptr<KeptBySearch> NormalConeSearch::prepare(const Topology& mesh,
                                                         const BoundingVolumeTree& tree) const {
@@ -141,7 +160,9 @@ std::unique_ptr<KeptBySearch> NormalConeSearch::prepare(const Topology& mesh,
 
 bool NormalConeSearch::search(const SearchInput& input, SearchCounts& counts,
                               const PairSink& sink) const {
-  return Descent(*this, input, counts, sink).run();
+  if (!input.uses_proofs) return descend(input, nullptr, counts, sink);
+  PatchCones cones(*this, input, counts);
+  return descend(input, &cones, counts, sink);
 }
 
 }  // namespace assay::detector

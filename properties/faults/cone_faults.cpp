@@ -119,6 +119,10 @@ std::vector<Fault> cone_faults() {
                          "F_cone_contour_at_end", 5),
       cone<JoinedAtVertex>("cone/joined-at-a-vertex", "patches that share a vertex only are merged",
                            "F_cone_joined_at_vertex", 4),
+      planted<NormalsAtEnd>("auto/normals-at-end",
+                            "what culling auto leaves out faces one direction at t=1 alone", "L14",
+                            "F_auto_normals_at_end", 49,
+                            {detector::Culling::automatic, detector::Start::verified}),
   };
 }
 

@@ -98,8 +98,8 @@ class CaseChecker {
   // The detector's own signs against the oracle, at the primitives that it used.
   void check_signs(const std::string& where, std::size_t s, const detector::StepResult& result) {
     if (result.answer == Answer::error) return;
-    // A step of view-auto that fell back has none.
-    if (options_.culling == Culling::view_auto && result.signs.empty()) return;
+    // A step that chose to do without views has none.
+    if (detector::chooses_views(options_.culling) && result.signs.empty()) return;
     const auto& mesh = player_->detector().topology();
     for (std::size_t c = 0; c < mesh.components.size(); ++c) {
       for (const auto t : mesh.components[c].triangles) {

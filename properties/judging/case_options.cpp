@@ -15,8 +15,8 @@ using detector::Start;
 
 namespace {
 
-constexpr const char* cullings[] = {"view-auto",   "view-point", "view-line",
-                                    "normal-cone", "bvh",        "none"};
+constexpr const char* cullings[] = {"view-auto", "view-point", "view-line", "normal-cone",
+                                    "bvh",       "none",       "auto"};
 constexpr const char* starts[] = {"verified", "clean", "unknown"};
 constexpr const char* choices_of_pairs[] = {"all", "first"};
 constexpr const char* arithmetics[] = {"exact", "bounded", "double", "float"};

@@ -1,6 +1,8 @@
-// L13: patches that face one direction and have a simple contour, and the search that rests on
+// L13, L14: patches that face one direction and have a simple contour, and the search that rests on
 // them.
 #include <fmt/format.h>
+
+#include <set>
 
 #include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"
@@ -40,6 +42,24 @@ Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
+// The contacts of L3 and L7 are those of K without N as well.
+Observation no_contact_is_among_what_is_proved(CaseFacts& facts, std::size_t s) {
+  const auto& options = facts.options();
+  if (options.culling != detector::Culling::automatic || options.pairs != detector::Pairs::all ||
+      options.arithmetic != detector::Arithmetic::exact)
+    return not_met();
+  if (!has_certified_patch(facts, s) || facts.result(s).counts.search.contour_tests == 0)
+    return not_met();
+  std::set<detector::TrianglePair> found;
+  for (const auto& contact : facts.result(s).pairs) found.insert(contact.pair);
+  for (const auto& contact : facts.judgement(s).pairs) {
+    if (!found.contains(contact.pair))
+      return fmt::format("({}, {}) is in contact, and was left out", contact.pair.a,
+                         contact.pair.b);
+  }
+  return holds();
+}
+
 constexpr Law normal_cone_law_table[] = {
     {"L13_CertifiedPatchesAreFree", "L13",
      "No two triangles of a patch are in contact in a step throughout which all of its triangles "
@@ -49,6 +69,10 @@ constexpr Law normal_cone_law_table[] = {
      "In a step with such a patch the search by normal cones, which leaves patches out, still "
      "comes to every pair in contact.",
      "pair set", each_step<every_contact_is_a_candidate, is_nearly_edge_on>},
+    {"L14_NoContactIsAmongWhatIsProved", "L14",
+     "In a step of culling auto that leaves out what normal cones and contours prove apart, with "
+     "views or without, every pair in contact is found.",
+     "pair set", each_step<no_contact_is_among_what_is_proved, is_nearly_edge_on>},
 };
 
 }  // namespace

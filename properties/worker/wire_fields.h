@@ -37,7 +37,7 @@ struct TravelsAsBytes<detector::StepTimes> : std::true_type {};
 template <>
 struct TravelsAsBytes<corpus::CaseStep> : std::true_type {};
 template <>
-inline constexpr auto last_of<detector::Culling> = detector::Culling::none;
+inline constexpr auto last_of<detector::Culling> = detector::Culling::automatic;
 template <>
 inline constexpr auto last_of<detector::Start> = detector::Start::unknown;
 template <>

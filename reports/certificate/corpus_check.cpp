@@ -183,8 +183,8 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
   if (!cases) return Refusal(cases.error());
   int hung = 0;
   if (request.detector.built_in) {
-    for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
-                               Culling::normal_cone, Culling::bvh})
+    for (const auto culling : {Culling::automatic, Culling::view_auto, Culling::view_point,
+                               Culling::view_line, Culling::normal_cone, Culling::bvh})
       on_row(check_facts(cases.value(), culling, request.jobs));
   } else {
     JudgedRows judged(request, "curated cases", on_failure, hung);

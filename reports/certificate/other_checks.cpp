@@ -45,13 +45,13 @@ void check_oracle(std::uint64_t queries, int jobs, const OnSelfTestRow& on_famil
 
 void measure_speed(const OnSpeedFigure& on_figure) {
   constexpr int free_triangles = 20'480, search_triangles = 4'000, frames = 3;
-  const auto exact = bench_options(Culling::view_auto), bvh = bench_options(Culling::bvh);
+  const auto exact = bench_options(Culling::automatic), bvh = bench_options(Culling::bvh);
   const auto sphere = bench_scene("breathing-sphere", free_triangles, frames);
   on_figure(figure_of(properties::speed_figures[0], sphere, exact, bvh));
   // The scene most like the step for which that limit is stated (rod-twist).
   const auto twist = bench_scene("twist", search_triangles, frames);
   on_figure(figure_of(properties::speed_figures[2], twist, exact,
-                      bench_options(Culling::view_auto, Arithmetic::double_precision)));
+                      bench_options(Culling::automatic, Arithmetic::double_precision)));
   const auto contact = step_at_first_contact("pinching-torus", search_triangles);
   if (contact) on_figure(figure_of(properties::speed_figures[1], *contact, exact, bvh));
 }

@@ -28,11 +28,9 @@ struct Mark {
   Culling culling;
   int point_type;  // of gnuplot: all filled
 };
-constexpr Mark marks[] = {{Culling::view_auto, 7},
-                          {Culling::view_point, 9},
-                          {Culling::view_line, 11},
-                          {Culling::normal_cone, 13},
-                          {Culling::bvh, 5}};
+constexpr Mark marks[] = {{Culling::automatic, 15},   {Culling::view_auto, 7},
+                          {Culling::view_point, 9},   {Culling::view_line, 11},
+                          {Culling::normal_cone, 13}, {Culling::bvh, 5}};
 
 bool is_drawn(const VariantSummary& v) {
   return v.variant.pairs == Pairs::all && v.variant.culling != Culling::none;

@@ -276,8 +276,8 @@ void add_options(Verb& verb, CheckRequest& request) {
   auto& built_in = request.built_in;
   plugin
       .excludes(add_choice(verb, "--culling", built_in.culling,
-                           "view-auto, view-point, view-line, normal-cone, bvh, none",
-                           properties::culling_named, "How the detector culls (default view-auto)"))
+                           "auto, view-auto, view-point, view-line, normal-cone, bvh, none",
+                           properties::culling_named, "How the detector culls (default auto)"))
       .excludes(add_choice(verb, "--start", built_in.start, "verified, clean, unknown",
                            properties::start_named,
                            "What is known of the first frame (default verified)"))

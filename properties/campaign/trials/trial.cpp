@@ -21,8 +21,9 @@ Claims DetectorUnderTest::claims_in(const Configuration& configuration) const {
 DetectorUnderTest built_in_detector() {
   DetectorUnderTest detector;
   detector.name = "built-in";
-  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
-                             Culling::normal_cone, Culling::bvh, Culling::none}) {
+  for (const auto culling :
+       {Culling::automatic, Culling::view_auto, Culling::view_point, Culling::view_line,
+        Culling::normal_cone, Culling::bvh, Culling::none}) {
     detector.configurations.push_back({name_of(culling), {culling, Start::verified, Pairs::all}});
   }
   // With first pairs a step ends with K, which is the same for lines.

@@ -82,7 +82,7 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
 
 detector::Options options_with_views(const CaseFacts& facts) {
   auto options = facts.options();
-  if (options.culling == detector::Culling::view_auto) {
+  if (detector::chooses_views(options.culling)) {
     options.culling = detector::Culling::view_line;
   }
   return options;

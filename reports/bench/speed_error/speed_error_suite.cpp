@@ -71,20 +71,20 @@ void add_families_without_error(std::span<const FamilySummary> families, BenchRe
 }
 
 void add_ratios(std::span<const FamilySummary> families, BenchReport& report) {
-  const Variant chosen{Arithmetic::exact, Culling::view_auto, Pairs::all};
+  const Variant chosen{Arithmetic::exact, Culling::automatic, Pairs::all};
   const Variant cones{Arithmetic::exact, Culling::normal_cone, Pairs::all};
-  const Variant doubles{Arithmetic::double_precision, Culling::view_auto, Pairs::all};
+  const Variant doubles{Arithmetic::double_precision, Culling::automatic, Pairs::all};
   for (const auto& family : families) {
     if (family.variant != chosen) continue;
     const std::string& name = family.family;
     // A tiny mesh is no place to judge times: a step is over in some microseconds.
     const bool large = family.kind == "scene" || family.kind == "real";
     const std::string note = fmt::format("{:.0f} ns a triangle", family.ns_a_triangle.value);
-    report.add("view-auto over bvh, " + name, "times", family.over_reference,
+    report.add("auto over bvh, " + name, "times", family.over_reference,
                wanted_if(large, wanted::view_auto_over_bvh), note);
-    report.add("view-auto over normal-cone, " + name, "times",
+    report.add("auto over normal-cone, " + name, "times",
                time_over(families, name, chosen, cones));
-    report.add("exact over double, view-auto, " + name, "times",
+    report.add("exact over double, auto, " + name, "times",
                time_over(families, name, chosen, doubles),
                wanted_if(large, wanted::exact_over_double));
   }

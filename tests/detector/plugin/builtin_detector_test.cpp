@@ -86,7 +86,7 @@ TEST_F(BuiltinDetector, ReleaseAndGhostTestReachTheDetector) {
 TEST_F(BuiltinDetector, WrongOptionsAreRefusedByName) {
   using Member = std::int32_t assay_builtin_options::*;
   const std::vector<std::pair<Member, std::int32_t>> past_the_last = {
-      {&assay_builtin_options::culling, 6}, {&assay_builtin_options::start, 3},
+      {&assay_builtin_options::culling, 7}, {&assay_builtin_options::start, 3},
       {&assay_builtin_options::pairs, 2},   {&assay_builtin_options::arithmetic, 4},
       {&assay_builtin_options::release, 3}, {&assay_builtin_options::ghost_test, 2}};
   for (const auto& [member, wrong] : past_the_last) {

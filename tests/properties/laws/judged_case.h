@@ -29,7 +29,9 @@ inline Setting setting_of(std::string_view id) {
   if (random.one_in(8)) setting.options.pairs = detector::Pairs::first;
   if (random.one_in(16)) setting.options.start = detector::Start::unknown;
   if (random.one_in(16)) setting.options.start = detector::Start::clean;
-  if (random.one_in(4)) setting.options.culling = detector::Culling::view_auto;
+  if (random.one_in(4))
+    setting.options.culling =
+        random.one_in(2) ? detector::Culling::view_auto : detector::Culling::automatic;
   return setting;
 }
 

@@ -164,6 +164,7 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
        {[](JudgedCase&) {}, with_cone_fault("cone/no-contour-test")}},
       {"L13_EveryContactIsACandidate",
        {[](JudgedCase&) {}, with_cone_fault("cone/normals-at-end")}},
+      {"L14_NoContactIsAmongWhatIsProved", {no_pairs}},
       {"L15_StepsWithoutViewsAreInTheAccount", {all_dirty}},
       {"Change_VertexNumbers", {late}},
       {"Change_TriangleOrder", {no_pairs}},

@@ -13,7 +13,7 @@ TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
   EXPECT_EQ(first.exit_code, 0) << first.out << first.err;
   EXPECT_EQ(first.err, "");
   for (const std::string word :
-       {"campaign tiny, seed 5, shard 1/1: 32 trials of 3 families, 9 configurations; 2 jobs; "
+       {"campaign tiny, seed 5, shard 1/1: 32 trials of 3 families, 10 configurations; 2 jobs; "
         "until",
         "writes ", "canary pair/zero-zero-dropped: found after", "32 trials in", "stratum",
         "closed-generic           each of 9               16      16       0         0",
