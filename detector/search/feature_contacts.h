@@ -23,12 +23,14 @@ namespace assay::detector {
 class FeatureContacts {
  public:
   // The references and views must outlive this object. With these types (feature_pairs.h) or, where
-  // all triangles are of one type and all pairs are asked for, without.
+  // all triangles are of one type and all pairs are asked for, without. Of no use where `pace` was
+  // stopped.
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
                   const ElementaryTest& elementary, Want want,
-                  const Representatives& representatives, const std::vector<TriangleType>& types);
+                  const Representatives& representatives, const std::vector<TriangleType>& types,
+                  PacedStop* pace = nullptr);
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const ElementaryTest& elementary, Want want);
+                  const ElementaryTest& elementary, Want want, PacedStop* pace = nullptr);
   ~FeatureContacts();
   FeatureContacts(const FeatureContacts&) = delete;
   FeatureContacts& operator=(const FeatureContacts&) = delete;
@@ -58,7 +60,8 @@ class FeatureContacts {
  private:
   struct OneType;  // what the short constructor makes for itself
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const ElementaryTest& elementary, Want want, std::unique_ptr<OneType> own);
+                  const ElementaryTest& elementary, Want want, std::unique_ptr<OneType> own,
+                  PacedStop* pace);
   void test(FeatureKey key);
   void add(std::int32_t a, std::int32_t b, const TimeEnclosure& time, const Feature& feature) {
     contacts_.add({{std::min(a, b), std::max(a, b)}, time, feature});

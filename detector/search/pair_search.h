@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_counts.h"
 #include "detector/search/marking.h"
 
@@ -24,20 +25,23 @@ struct SearchInput {
   const PairTables& tables;
   KeptBySearch* kept = nullptr;  // of PairSearch::prepare
   const PositionsView *x_t0 = nullptr, *x_t1 = nullptr;
+  PacedStop* pace = nullptr;  // asked for what is done before and between the pairs; null: never
 };
 
-// A stage of the detector; returns false when the sink stopped it.
+// A stage of the detector; returns false when it was stopped, by the sink or by `pace`.
 class PairSearch {
  public:
   virtual ~PairSearch() = default;
-  // In preprocessing; null where the tree is all that a search needs.
-  virtual std::unique_ptr<KeptBySearch> prepare(const Topology&, const BoundingVolumeTree&) const {
+  // In preprocessing; null where the tree is all that a search needs. Of no use where `pace` was
+  // stopped.
+  virtual std::unique_ptr<KeptBySearch> prepare(const Topology&, const BoundingVolumeTree&,
+                                                PacedStop&) const {
     return nullptr;
   }
   // Brings the tree to a step, before the searches of that step.
-  virtual void fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-                   const PositionsView& x_t1) const {
-    tree.refit(mesh, x_t0, x_t1);
+  virtual bool fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+                   const PositionsView& x_t1, PacedStop& pace) const {
+    return tree.refit(mesh, x_t0, x_t1, pace);
   }
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;
@@ -62,8 +66,10 @@ class TreeSearch : public PairSearch {
 // Looks at every pair, without boxes. O(M^2).
 class ExhaustiveSearch : public PairSearch {
  public:
-  void fit(BoundingVolumeTree&, const Topology&, const PositionsView&,
-           const PositionsView&) const override {}
+  bool fit(BoundingVolumeTree&, const Topology&, const PositionsView&, const PositionsView&,
+           PacedStop&) const override {
+    return true;
+  }
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
 };
 

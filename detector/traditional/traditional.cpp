@@ -39,6 +39,9 @@
 namespace assay::detector {
 namespace {
 
+// In box tests: the cone of a triangle, at half of all nodes; a vertex of a contour.
+constexpr std::uint64_t work_of_cone = 12, work_of_vertex = 6, work_to_join = 3;
+
 struct Kept : KeptBySearch {
   PatchContours contours;
   ContourUnion joined;
@@ -60,18 +63,20 @@ class Descent {
         x_t0_(*input.x_t0),
         x_t1_(*input.x_t1),
         moving_(x_t0_, x_t1_),
+        pace_(input.pace),
         counts_(counts),
-        sink_(sink) {}
-
-  // False when the sink stopped it.
-  bool run() {
-    merge_cones();
-    return self_test(BoundingVolumeTree::root);
+        sink_(sink) {
+    moving_.ask(pace_);
   }
 
+  // False when it was stopped.
+  bool run() { return merge_cones() && self_test(BoundingVolumeTree::root); }
+
  private:
-  void merge_cones() {
-    for (std::size_t n = tree_.node_count(); n-- > 0;) {
+  bool merge_cones() {
+    const std::size_t last = tree_.node_count() - 1;
+    return for_each_paced(tree_.node_count(), work_of_cone, pace_, [&](std::size_t i) {
+      const std::size_t n = last - i;
       const auto node = static_cast<std::int32_t>(n);
       if (tree_.is_leaf(node)) {
         const auto& corners = mesh_.triangles[at(tree_.triangle(node))];
@@ -82,16 +87,20 @@ class Descent {
         const auto child = at(tree_.child(node));
         kept_.cones[n] = kept_.cones[child] & kept_.cones[child + 1];
       }
-    }
+    });
   }
+
+  bool has_to_end(std::uint64_t work) { return pace_ && pace_->after(work); }
 
   bool is_free(DirectionSet cone, Contour contour) {
     if (cone == 0 || contour.empty()) return false;
     ++counts_.contour_tests;
+    if (has_to_end(work_of_vertex * contour.size())) return false;
     return scheme_.stays_simple(moving_, contour, nearest_direction(cone, moving_.area(contour)));
   }
 
   bool self_test(std::int32_t node) {
+    if (has_to_end(1)) return false;
     if (tree_.is_leaf(node) || is_free(kept_.cones[at(node)], kept_.contours.of(node))) return true;
     const auto child = tree_.child(node);
     return self_test(child) && self_test(child + 1) && pair_test(child, child + 1);
@@ -101,12 +110,16 @@ class Descent {
     const DirectionSet cone = kept_.cones[at(a)] & kept_.cones[at(b)];
     if (cone == 0) return false;
     const Contour of_a = kept_.contours.of(a), of_b = kept_.contours.of(b);
-    return !of_a.empty() && !of_b.empty() && is_free(cone, kept_.joined.join(of_a, of_b));
+    if (of_a.empty() || of_b.empty()) return false;
+    if (has_to_end(work_to_join * (of_a.size() + of_b.size()))) return false;
+    return is_free(cone, kept_.joined.join(of_a, of_b));
   }
 
   bool pair_test(std::int32_t a, std::int32_t b) {
     ++counts_.box_tests;
+    if (has_to_end(1)) return false;
     if (apart(tree_.box(a), tree_.box(b)) || are_free(a, b)) return true;
+    if (has_to_end(0)) return false;
     const bool splits_a = !tree_.is_leaf(a), splits_b = !tree_.is_leaf(b);
     if (!splits_a && !splits_b) {
       ++counts_.candidate_pairs;
@@ -127,6 +140,7 @@ class Descent {
   Kept& kept_;
   const PositionsView &x_t0_, &x_t1_;
   MovingContour moving_;
+  PacedStop* pace_;
   SearchCounts& counts_;
   const PairSink& sink_;
 };
@@ -134,9 +148,10 @@ class Descent {
 }  // namespace
 
 std::unique_ptr<KeptBySearch> NormalConeSearch::prepare(const Topology& mesh,
-                                                        const BoundingVolumeTree& tree) const {
+                                                        const BoundingVolumeTree& tree,
+                                                        PacedStop& pace) const {
   const auto maker = contour_maker(mesh);
-  return std::make_unique<Kept>(PatchContours(mesh, tree, *maker), mesh, tree);
+  return std::make_unique<Kept>(PatchContours(mesh, tree, *maker, &pace), mesh, tree);
 }
 
 bool NormalConeSearch::search(const SearchInput& input, SearchCounts& counts,

@@ -17,8 +17,8 @@ namespace assay::detector {
 class NormalConeSearch : public PairSearch {
  public:
   // The contours of all nodes: they are of the mesh alone.
-  std::unique_ptr<KeptBySearch> prepare(const Topology& mesh,
-                                        const BoundingVolumeTree& tree) const override;
+  std::unique_ptr<KeptBySearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
+                                        PacedStop& pace) const override;
   // 0.1 us a triangle for the cones, besides the descent.
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
 
