@@ -103,6 +103,7 @@ bool FeatureContacts::run(const StopFunction& stop) {
   constexpr std::size_t tests_between_stops = 256;
   for (std::size_t i = 0; i < untested_.size(); ++i) {
     if (i % tests_between_stops == 0 && stop && stop()) return false;
+    if (contacts_.is_nearly_full() && !contacts_.make_room(stop)) return false;
     test(untested_[i]);
   }
   untested_.clear();

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -48,7 +49,7 @@ class FeatureContacts {
   bool run(const StopFunction& stop);
 
   // Triangle pairs in contact that were found since this was last asked, each once.
-  std::vector<TrianglePair> take_new_pairs() { return contacts_.take_new_pairs(); }
+  std::deque<TrianglePair> take_new_pairs() { return contacts_.take_new_pairs(); }
   const NarrowCounts& counts() const { return counts_; }
   // Of the tests, in milliseconds.
   double test_time() const { return test_time_; }
