@@ -75,16 +75,16 @@ Expected<Detector> Detector::create(const TrianglesView& triangles, const Positi
 
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop) {
-  if (auto problem = check_triangles(triangles, positions.rows())) return std::move(*problem);
-  if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
   PacedStop pace(stop);
+  if (auto problem = check_triangles(triangles, positions.rows(), pace)) return std::move(*problem);
+  if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
   // Once it has said so it is not asked again.
   const StopFunction paced = [&] { return pace.now(); };
   const auto stopped = [] {
     return Problem{InputError::stopped, "stopped while the detector was created"};
   };
   if (pace.now()) return stopped();
-  Surface surface = stages.boundary->close_up(triangles, positions.rows());
+  Surface surface = stages.boundary->close_up(triangles, positions.rows(), pace);
   if (pace.now()) return stopped();
   const bool views = uses_views(options.culling);
   // Before the tree, where no apex has to be chosen with its help: what the search for a place
@@ -93,7 +93,7 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   if (views && surface.is_closed())
     anchors = place_anchors(surface, {}, options.culling, positions, pace);
   if (pace.stopped()) return stopped();
-  BoundingVolumeTree tree(surface.mesh, positions, paced);
+  BoundingVolumeTree tree(surface.mesh, positions, &pace);
   if (pace.now()) return stopped();
   std::vector<ApexRule> rules;
   if (views && !surface.is_closed()) {
@@ -102,8 +102,10 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
     anchors = place_anchors(surface, rules, options.culling, positions, pace);
   }
   if (pace.now()) return stopped();
-  SearchMemory search(surface.mesh, tree);
-  search.kept = stages.pair_search->prepare(surface.mesh, tree);
+  SearchMemory search(surface.mesh, tree, &pace);
+  if (pace.stopped()) return stopped();
+  search.kept = stages.pair_search->prepare(surface.mesh, tree, pace);
+  if (pace.now()) return stopped();
   StepContext context{options,           std::move(stages),  std::move(surface), std::move(tree),
                       std::move(search), std::move(anchors), std::move(rules),   0};
   if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);

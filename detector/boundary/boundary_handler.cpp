@@ -6,8 +6,9 @@
 
 namespace assay::detector {
 
-Surface BoundaryHandler::close_up(const TrianglesView& triangles, Eigen::Index vertex_count) const {
-  return make_surface(triangles, vertex_count);
+Surface BoundaryHandler::close_up(const TrianglesView& triangles, Eigen::Index vertex_count,
+                                  PacedStop& pace) const {
+  return make_surface(triangles, vertex_count, pace);
 }
 
 std::vector<ApexRule> BoundaryHandler::choose_apexes(const Surface& surface,
@@ -16,7 +17,8 @@ std::vector<ApexRule> BoundaryHandler::choose_apexes(const Surface& surface,
                                                      const ElementaryTest& elementary,
                                                      const StopFunction& stop) const {
   if (surface.is_closed()) return {};
-  tree.refit(surface.mesh, x, x);
+  PacedStop pace(stop);
+  if (!tree.refit(surface.mesh, x, x, pace)) return std::vector<ApexRule>(surface.loops.size());
   return ApexChoice(surface, tree, x, elementary, stop).run().rules;
 }
 

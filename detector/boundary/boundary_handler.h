@@ -11,7 +11,9 @@ class BoundaryHandler {
   explicit BoundaryHandler(GhostTest test = GhostTest::exact) : test_(test) {}
   virtual ~BoundaryHandler() = default;
 
-  virtual Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count) const;
+  // Of no use where `pace` was stopped.
+  virtual Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count,
+                           PacedStop& pace) const;
 
   // The rule of each loop, for the life of a detector: one whose ghosts touch few triangles at x
   // (apex_choice.h). Of no use where `stop` asked for an end.

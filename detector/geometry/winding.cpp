@@ -25,6 +25,9 @@ namespace {
 
 constexpr int reach = 1000;
 
+// Of a triangle and of a ray, in box tests.
+constexpr std::uint64_t work_of_size = 1, work_of_cast = 2, work_of_aim = 10;
+
 // From a fixed recurrence: the same on every machine, never parallel to many edges.
 RayDirection direction_number(int n) {
   std::uint32_t state = 0x9e3779b9u * static_cast<std::uint32_t>(n + 1);
@@ -75,14 +78,14 @@ struct Ray {
 class Crossings {
  public:
   Crossings(const Topology& mesh, std::span<const std::int32_t> triangles, const PositionsView& x,
-            Arithmetic arithmetic)
-      : mesh_(mesh), triangles_(triangles), x_(x), arithmetic_(arithmetic) {
+            Arithmetic arithmetic, PacedStop* pace)
+      : mesh_(mesh), triangles_(triangles), x_(x), arithmetic_(arithmetic), pace_(pace) {
     Point largest = {0, 0, 0};
-    for (const auto t : triangles) {
-      for (const auto& corner : corners(t)) {
+    for_each_paced(triangles.size(), work_of_size, pace_, [&](std::size_t i) {
+      for (const auto& corner : corners(triangles_[i])) {
         for (std::size_t k = 0; k < 3; ++k) largest[k] = std::max(largest[k], std::abs(corner[k]));
       }
-    }
+    });
     constexpr double scale = 0x1p-20 * reach;
     margin_ = 0x1p-50 * (largest[0] * scale + largest[1] * scale + largest[2] * scale) + 0x1p-1071;
   }
@@ -92,11 +95,14 @@ class Crossings {
     return {point_of(x_, v[0]), point_of(x_, v[1]), point_of(x_, v[2])};
   }
 
+  bool was_stopped() const { return pace_ && pace_->stopped(); }
+
   // Answers those of the rays that this direction can answer; the others are left in `rays`.
   void answer(const RayDirection& r, std::vector<Ray*>& rays) const {
     std::vector<Ray*> tried;
     const Plane plane(r);
     for (Ray* ray : rays) {
+      if (pace_ && pace_->after(work_of_aim)) return;
       ray->met_edge = !aim(r, *ray);
       if (ray->met_edge) continue;
       ray->shadow = plane.of(ray->origin);
@@ -104,7 +110,8 @@ class Crossings {
     }
     std::sort(tried.begin(), tried.end(),
               [](const Ray* a, const Ray* b) { return a->shadow.u < b->shadow.u; });
-    for (const auto t : triangles_) cast(r, plane, t, tried);
+    const auto cast_one = [&](std::size_t i) { cast(r, plane, triangles_[i], tried); };
+    if (!for_each_paced(triangles_.size(), work_of_cast, pace_, cast_one)) return;
     for (Ray* ray : tried) {
       if (!ray->met_edge && !ray->on_surface) ray->winding = ray->sum;
     }
@@ -173,6 +180,7 @@ class Crossings {
   std::span<const std::int32_t> triangles_;
   const PositionsView& x_;
   Arithmetic arithmetic_;
+  PacedStop* pace_;
   double margin_ = 0;
 };
 
@@ -180,7 +188,8 @@ void count_crossings(const Crossings& surface, std::vector<Ray>& rays, Arithmeti
   const int directions = arithmetic == Arithmetic::exact ? 100 : 16;
   std::vector<Ray*> open;
   for (Ray& ray : rays) open.push_back(&ray);
-  for (int n = 0; n < directions && !open.empty(); ++n) surface.answer(direction_number(n), open);
+  for (int n = 0; n < directions && !open.empty() && !surface.was_stopped(); ++n)
+    surface.answer(direction_number(n), open);
 }
 
 }  // namespace
@@ -209,11 +218,11 @@ bool has_equal_corners(const Topology& mesh, const PositionsView& x, std::int32_
 }
 
 std::optional<int> winding_number(const Topology& mesh, std::span<const std::int32_t> triangles,
-                                  const PositionsView& x, const Point& point,
-                                  Arithmetic arithmetic) {
+                                  const PositionsView& x, const Point& point, Arithmetic arithmetic,
+                                  PacedStop* pace) {
   std::vector<Ray> ray(1);
   ray[0].origin = {point, point, point};
-  count_crossings({mesh, triangles, x, arithmetic}, ray, arithmetic);
+  count_crossings({mesh, triangles, x, arithmetic, pace}, ray, arithmetic);
   return ray[0].winding;
 }
 
@@ -221,8 +230,8 @@ std::vector<std::optional<int>> winding_numbers_outside(const Topology& mesh,
                                                         std::span<const std::int32_t> triangles,
                                                         const PositionsView& x,
                                                         std::span<const std::int32_t> asked,
-                                                        Arithmetic arithmetic) {
-  const Crossings surface(mesh, triangles, x, arithmetic);
+                                                        Arithmetic arithmetic, PacedStop* pace) {
+  const Crossings surface(mesh, triangles, x, arithmetic, pace);
   std::vector<Ray> rays(asked.size());
   for (std::size_t i = 0; i < asked.size(); ++i) {
     rays[i].origin = surface.corners(asked[i]);

@@ -9,16 +9,19 @@
 #include <vector>
 
 #include "detector/mesh/arithmetic.h"
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/topology.h"
 
 namespace assay::detector {
 
 // Winding number of the cycle formed by `triangles` around `point`; outward spheres have 1 inside.
 // Nothing when the point lies on the surface. About 10 ns a triangle, once for each ray tried: a
-// ray that meets an edge or a corner is given up; the first one nearly always does.
+// ray that meets an edge or a corner is given up; the first one nearly always does. Nothing too
+// where `pace` was stopped; so below.
 std::optional<int> winding_number(const Topology& mesh, std::span<const std::int32_t> triangles,
                                   const PositionsView& x, const Point& point,
-                                  Arithmetic arithmetic = Arithmetic::exact);
+                                  Arithmetic arithmetic = Arithmetic::exact,
+                                  PacedStop* pace = nullptr);
 
 // Winding numbers just outside each of the triangles `asked` (on the side of its normal), which
 // must touch no other triangle of `triangles` beyond shared vertices: the layer of the triangle is
@@ -29,7 +32,8 @@ std::vector<std::optional<int>> winding_numbers_outside(const Topology& mesh,
                                                         std::span<const std::int32_t> triangles,
                                                         const PositionsView& x,
                                                         std::span<const std::int32_t> asked,
-                                                        Arithmetic arithmetic = Arithmetic::exact);
+                                                        Arithmetic arithmetic = Arithmetic::exact,
+                                                        PacedStop* pace = nullptr);
 
 // Whether the triangle is a point or a segment at x. Exact.
 bool has_zero_area(const Topology& mesh, const PositionsView& x, std::int32_t triangle);

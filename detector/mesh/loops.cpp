@@ -1,51 +1,69 @@
 #include "detector/mesh/loops.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "detector/mesh/paced_sort.h"
 
 namespace assay::detector {
 namespace {
 
+constexpr std::uint64_t work_of_edge = 2;  // in box tests
+
 struct LoopEdge {
   std::int32_t from, to;
-  friend auto operator<=>(const LoopEdge&, const LoopEdge&) = default;
 };
 
-std::vector<LoopEdge> unmatched_edges(const Topology& mesh) {
-  std::vector<std::int32_t> surplus(mesh.edges.size(), 0);  // ascending less descending uses
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const auto u = mesh.triangles[t][(corner + 1) % 3], v = mesh.triangles[t][(corner + 2) % 3];
-      surplus[static_cast<std::size_t>(mesh.triangle_edges[t][corner])] += u < v ? 1 : -1;
-    }
-  }
-  std::vector<LoopEdge> unmatched;
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+// Ascending by where they begin, then by where they end.
+std::vector<LoopEdge> unmatched_edges(const Topology& mesh, PacedStop& pace) {
+  std::vector<LoopEdge> unmatched, room;
+  std::vector<std::int32_t> surplus;
+  if (!count_surplus(mesh, surplus, pace)) return {};
+  const auto take = [&](std::size_t e) {
     const auto [u, v] = mesh.edges[e];
     for (std::int32_t k = 0; k < surplus[e]; ++k) unmatched.push_back({u, v});
     for (std::int32_t k = 0; k < -surplus[e]; ++k) unmatched.push_back({v, u});
+  };
+  if (!for_each_paced(mesh.edges.size(), work_of_edge, pace, take) || unmatched.empty()) return {};
+  const std::size_t vertices = mesh.vertex_triangles.starts.size();
+  const auto to = [](const LoopEdge& edge) { return edge.to; };
+  const auto from = [](const LoopEdge& edge) { return edge.from; };
+  if (!sort_by_key(unmatched, room, vertices, to, pace) ||
+      !sort_by_key(unmatched, room, vertices, from, pace)) {
+    return {};
   }
-  std::sort(unmatched.begin(), unmatched.end());
   return unmatched;
 }
 
 }  // namespace
 
 std::vector<Loop> boundary_loops(const Topology& mesh) {
-  const auto edges = unmatched_edges(mesh);
+  PacedStop pace(never_stops);
+  return boundary_loops(mesh, pace);
+}
+
+std::vector<Loop> boundary_loops(const Topology& mesh, PacedStop& pace) {
+  const auto edges = unmatched_edges(mesh, pace);
   // The edges that leave a vertex are consecutive; those before `next[v]` are used.
   std::vector<std::size_t> next(mesh.vertex_triangles.starts.size(), edges.size());
-  for (std::size_t e = edges.size(); e-- > 0;) next[static_cast<std::size_t>(edges[e].from)] = e;
+  const auto begin_at = [&](std::size_t i) {
+    const std::size_t e = edges.size() - 1 - i;
+    next[at(edges[e].from)] = e;
+  };
+  if (!for_each_paced(edges.size(), work_of_edge, pace, begin_at)) return {};
   const auto take_from = [&](std::int32_t vertex) -> const LoopEdge* {
-    auto& e = next[static_cast<std::size_t>(vertex)];
+    auto& e = next[at(vertex)];
     return e < edges.size() && edges[e].from == vertex ? &edges[e++] : nullptr;
   };
   std::vector<Loop> loops;
   for (const auto& [start, ignored] : edges) {
+    if (pace.after(work_of_edge)) return {};
     Loop loop;
     for (const auto* edge = take_from(start); edge; edge = take_from(edge->to)) {
       loop.push_back(edge->from);
     }
-    if (!loop.empty()) loops.push_back(std::move(loop));
+    if (loop.empty()) continue;
+    if (pace.after(work_of_edge * loop.size())) return {};
+    loops.push_back(std::move(loop));
   }
   return loops;
 }

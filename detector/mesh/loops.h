@@ -15,7 +15,9 @@ using Loop = std::vector<std::int32_t>;
 // enter a vertex as leave it, whatever the triangles are, so they split into closed walks: a walk
 // starts at the lowest unused unmatched edge and goes on with the lowest unused one as long as
 // there is one. Any split would do (L12, detector/README.md); this one is the same on every
-// machine. Empty for a cycle. O(M log M).
+// machine. Empty for a cycle. O(N + M).
 std::vector<Loop> boundary_loops(const Topology& mesh);
+// The same; of no use where `pace` was stopped.
+std::vector<Loop> boundary_loops(const Topology& mesh, PacedStop& pace);
 
 }  // namespace assay::detector

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "detector/mesh/paced_sort.h"
+
 namespace assay::detector {
 namespace {
 
@@ -23,19 +25,26 @@ bool all_finite(const double* values, std::size_t count) {
 std::string at_triangle(Eigen::Index t) { return "triangle " + std::to_string(t); }
 
 struct SortedTriangle {
-  std::array<std::int32_t, 3> vertices;
-  Eigen::Index triangle;
-  friend auto operator<=>(const SortedTriangle&, const SortedTriangle&) = default;
+  std::array<std::int32_t, 3> vertices;  // ascending
+  std::int32_t triangle;
 };
 
-std::optional<Problem> find_same_vertices(const TrianglesView& triangles) {
-  std::vector<SortedTriangle> sorted(static_cast<std::size_t>(triangles.rows()));
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    auto& entry = sorted[static_cast<std::size_t>(t)];
-    entry = {{triangles(t, 0), triangles(t, 1), triangles(t, 2)}, t};
-    std::sort(entry.vertices.begin(), entry.vertices.end());
+Problem stopped_at_checks() { return {InputError::stopped, "stopped while the mesh was checked"}; }
+
+std::optional<Problem> find_same_vertices(const TrianglesView& triangles, std::size_t vertex_count,
+                                          PacedStop& pace) {
+  constexpr std::uint64_t work_to_copy = 2;
+  std::vector<SortedTriangle> sorted(static_cast<std::size_t>(triangles.rows())), room;
+  const auto copy = [&](std::size_t i) {
+    const auto t = static_cast<Eigen::Index>(i);
+    sorted[i] = {{triangles(t, 0), triangles(t, 1), triangles(t, 2)}, static_cast<std::int32_t>(t)};
+    std::sort(sorted[i].vertices.begin(), sorted[i].vertices.end());
+  };
+  if (!for_each_paced(sorted.size(), work_to_copy, pace, copy)) return stopped_at_checks();
+  for (const std::size_t k : {2, 1, 0}) {
+    const auto vertex = [k](const SortedTriangle& entry) { return entry.vertices[k]; };
+    if (!sort_by_key(sorted, room, vertex_count, vertex, pace)) return stopped_at_checks();
   }
-  std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].vertices == sorted[i - 1].vertices) {
       return Problem{InputError::same_vertices_twice,
@@ -49,6 +58,12 @@ std::optional<Problem> find_same_vertices(const TrianglesView& triangles) {
 }  // namespace
 
 std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count) {
+  PacedStop pace(never_stops);
+  return check_triangles(triangles, vertex_count, pace);
+}
+
+std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count,
+                                       PacedStop& pace) {
   if (triangles.rows() == 0) return Problem{InputError::no_triangles, "the mesh has no triangles"};
   if (triangles.rows() > most_triangles || vertex_count > most_vertices) {
     return Problem{InputError::mesh_too_large,
@@ -72,7 +87,7 @@ std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::In
       return Problem{InputError::repeated_index, at_triangle(t) + " names a vertex twice"};
     }
   }
-  return find_same_vertices(triangles);
+  return find_same_vertices(triangles, static_cast<std::size_t>(vertex_count), pace);
 }
 
 std::optional<Problem> check_positions(const PositionsView& positions, Eigen::Index vertex_count) {

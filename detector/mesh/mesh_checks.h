@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/problem.h"
 #include "detector/mesh/types.h"
 
@@ -17,8 +18,10 @@ inline constexpr Eigen::Index most_triangles = ((std::int64_t{1} << 31) - 1) / 1
 inline constexpr Eigen::Index most_vertices = (std::int64_t{1} << 31) - 1 - most_triangles;
 
 // no_triangles, mesh_too_large, index_out_of_range, repeated_index or same_vertices_twice; the
-// first in that order, at the lowest triangle. O(M log M).
+// first in that order, at the lowest triangle. Or stopped. O(N + M).
 std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count);
+std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count,
+                                       PacedStop& pace);
 
 // wrong_frame_size or non_finite_coordinate. O(N).
 std::optional<Problem> check_positions(const PositionsView& positions, Eigen::Index vertex_count);

@@ -5,11 +5,16 @@
 // not asked again.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "detector/mesh/step_types.h"
 
 namespace assay::detector {
+
+// Of work that nobody wants to end.
+inline const StopFunction never_stops;
 
 class PacedStop {
  public:
@@ -37,5 +42,23 @@ class PacedStop {
   std::uint64_t interval_, done_ = 0;
   bool stopped_ = false;
 };
+
+// body(i) for i = 0 .. count - 1, each so much work. The loop is cut into pieces, so that asking
+// costs the body nothing. False when it was ended in between; without a pace it never is.
+template <class Body>
+bool for_each_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, Body body) {
+  constexpr std::size_t of_a_piece = 1024;
+  for (std::size_t begin = 0; begin < count;) {
+    const std::size_t end = begin + std::min(of_a_piece, count - begin);
+    const std::uint64_t work = (end - begin) * work_of_each;
+    for (; begin < end; ++begin) body(begin);
+    if (pace && pace->after(work)) return false;
+  }
+  return true;
+}
+template <class Body>
+bool for_each_paced(std::size_t count, std::uint64_t work_of_each, PacedStop& pace, Body body) {
+  return for_each_paced(count, work_of_each, &pace, body);
+}
 
 }  // namespace assay::detector

@@ -17,18 +17,24 @@ constexpr std::size_t least_room = 1024;
 
 std::size_t with_room(std::size_t size) { return size + std::max(size / 4, least_room); }
 
-template <class T>
-void append(std::vector<T>& list, const T& item) {
-  if (list.size() == list.capacity()) list.reserve(with_room(list.size()));
-  list.push_back(item);
-}
-
 }  // namespace
 
-void PairContacts::make_room() {
+bool PairContacts::make_room(const StopFunction& stop) {
   settle();
   // With less than a fifth of it free there would be too much sorting.
-  if (all_.capacity() < with_room(all_.size())) all_.reserve(with_room(all_.size()));
+  const std::size_t wanted = with_room(all_.size());
+  if (all_.capacity() >= wanted) return true;
+  constexpr std::size_t at_once = 16'384;  // 768 KB
+  std::vector<PairContact> larger;
+  larger.reserve(wanted);
+  for (auto next = all_.begin(); next != all_.end();) {
+    const auto end = next + std::min<std::ptrdiff_t>(at_once, all_.end() - next);
+    larger.insert(larger.end(), next, end);
+    next = end;
+    if (stop && stop()) return false;
+  }
+  std::swap(all_, larger);
+  return true;
 }
 
 // The late ones are sorted, those of pairs that are settled taken in there, the others merged.
@@ -42,19 +48,34 @@ void PairContacts::settle() {
     place = std::lower_bound(place, late, next->pair,
                              [](const PairContact& x, TrianglePair pair) { return x.pair < pair; });
     if (place == late || place->pair != next->pair) {
-      append(new_, next->pair);
+      new_.push_back(next->pair);
       *kept++ = *next;
     } else if (is_before(*next, *place)) {
       *place = *next;
     }
   }
   all_.erase(kept, all_.end());
-  std::inplace_merge(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(settled_), all_.end(),
-                     is_before);
+  merge_late(all_.size() - settled_);
   settled_ = all_.size();
 }
 
-std::vector<TrianglePair> PairContacts::take_new_pairs() {
+// From the end, into the room that the late ones leave when they are put aside.
+void PairContacts::merge_late(std::size_t count) {
+  if (late_.capacity() < count) {
+    late_ = {};
+    late_.reserve(with_room(count));
+  }
+  late_.assign(all_.end() - static_cast<std::ptrdiff_t>(count), all_.end());
+  auto place = all_.end();
+  auto settled = all_.begin() + static_cast<std::ptrdiff_t>(settled_);
+  for (auto late = late_.end(); late != late_.begin();) {
+    const bool is_later =
+        settled != all_.begin() && is_before(*std::prev(late), *std::prev(settled));
+    *--place = is_later ? *--settled : *--late;
+  }
+}
+
+std::deque<TrianglePair> PairContacts::take_new_pairs() {
   settle();
   return std::exchange(new_, {});
 }
@@ -63,6 +84,7 @@ std::vector<PairContact> PairContacts::take() {
   settle();
   settled_ = 0;
   new_ = {};
+  late_ = {};
   return std::exchange(all_, {});
 }
 

@@ -5,11 +5,18 @@
 namespace assay::detector {
 
 Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count) {
+  PacedStop pace(never_stops);
+  return make_surface(triangles, vertex_count, pace);
+}
+
+Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace) {
+  constexpr std::uint64_t work_of_ghost = 4;
   Surface surface;
-  surface.mesh = make_topology(triangles, vertex_count);
-  surface.loops = boundary_loops(surface.mesh);
+  surface.mesh = make_topology(triangles, vertex_count, pace);
+  if (pace.stopped()) return surface;
+  surface.loops = boundary_loops(surface.mesh, pace);
   surface.first_apex = static_cast<std::int32_t>(vertex_count);
-  if (surface.is_closed()) return surface;
+  if (pace.stopped() || surface.is_closed()) return surface;
   std::size_t ghosts = 0;
   for (const auto& loop : surface.loops) ghosts += loop.size();
   Triangles all(triangles.rows() + static_cast<Eigen::Index>(ghosts), 3);
@@ -21,12 +28,13 @@ Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count) 
     for (std::size_t i = 0; i < loop.size(); ++i) {
       all.row(row++) << loop[(i + 1) % loop.size()], loop[i], apex;
     }
+    if (pace.after(work_of_ghost * loop.size())) return surface;
   }
   surface.with_ghosts =
-      make_topology(all, vertex_count + static_cast<Eigen::Index>(surface.loops.size()));
+      make_topology(all, vertex_count + static_cast<Eigen::Index>(surface.loops.size()), pace);
   // A loop stays within one component, and its apex has the highest indices: no component is
   // joined with another or changes its place.
-  assert(surface.with_ghosts.components.size() == surface.mesh.components.size());
+  assert(pace.stopped() || surface.with_ghosts.components.size() == surface.mesh.components.size());
   return surface;
 }
 

@@ -21,7 +21,9 @@ struct Surface {
   std::size_t ghost_count() const { return all().triangles.size() - mesh.triangles.size(); }
 };
 
-// triangles have passed check_triangles. O(M log M).
+// triangles have passed check_triangles. O(N + M).
 Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count);
+// The same; of no use where `pace` was stopped.
+Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace);
 
 }  // namespace assay::detector

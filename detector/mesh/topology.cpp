@@ -1,49 +1,62 @@
 #include "detector/mesh/topology.h"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
+
+#include "detector/mesh/paced_sort.h"
 
 namespace assay::detector {
 namespace {
 
-// (row, item) lists to one array, items of a row in the order given.
-template <class ForEachEntry>
-Incidence make_incidence(std::size_t rows, ForEachEntry for_each_entry) {
-  Incidence out;
+// What is done to a triangle, a corner or a vertex, in box tests.
+constexpr std::uint64_t work_of_corner = 2, work_of_triangle = 3 * work_of_corner;
+
+// Rows that hold each triangle, by three a triangle; triangles of a row ascend.
+bool make_incidence(const std::vector<std::array<std::int32_t, 3>>& lists, std::size_t rows,
+                    Incidence& out, PacedStop& pace) {
   out.starts.assign(rows + 1, 0);
-  for_each_entry([&](std::int32_t row, std::int32_t) { ++out.starts[at(row) + 1]; });
-  std::partial_sum(out.starts.begin(), out.starts.end(), out.starts.begin());
+  const auto count = [&](std::size_t t) {
+    for (const auto row : lists[t]) ++out.starts[at(row) + 1];
+  };
+  if (!for_each_paced(lists.size(), work_of_triangle, pace, count)) return false;
+  const auto add = [&](std::size_t row) { out.starts[row + 1] += out.starts[row]; };
+  if (!for_each_paced(rows, 1, pace, add)) return false;
   out.items.resize(at(out.starts.back()));
   std::vector<std::int32_t> next(out.starts.begin(), out.starts.end() - 1);
-  for_each_entry(
-      [&](std::int32_t row, std::int32_t item) { out.items[at(next[at(row)]++)] = item; });
-  return out;
+  const auto place = [&](std::size_t t) {
+    for (const auto row : lists[t]) out.items[at(next[at(row)]++)] = static_cast<std::int32_t>(t);
+  };
+  return for_each_paced(lists.size(), work_of_triangle, pace, place);
 }
 
-void make_edges(Topology& mesh) {
-  struct Use {
-    std::array<std::int32_t, 2> edge;
-    std::int32_t triangle;
-    int corner;
-    auto operator<=>(const Use&) const = default;
-  };
-  std::vector<Use> uses;
+// An edge of a triangle. 12 corners of a mesh stand in one list of 31-bit numbers (mesh_checks.h).
+struct EdgeUse {
+  std::array<std::int32_t, 2> edge;  // ascending
+  std::int32_t corner;               // opposite to it: 3 times the triangle, and its place there
+};
+
+bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
+  std::vector<EdgeUse> uses, room;
   uses.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int corner = 0; corner < 3; ++corner) {
-      const auto u = mesh.triangles[t][at((corner + 1) % 3)];
-      const auto v = mesh.triangles[t][at((corner + 2) % 3)];
-      uses.push_back({{std::min(u, v), std::max(u, v)}, static_cast<std::int32_t>(t), corner});
+  const auto use = [&](std::size_t t) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const auto u = mesh.triangles[t][(corner + 1) % 3];
+      const auto v = mesh.triangles[t][(corner + 2) % 3];
+      uses.push_back({{std::min(u, v), std::max(u, v)}, static_cast<std::int32_t>(3 * t + corner)});
     }
+  };
+  if (!for_each_paced(mesh.triangles.size(), work_of_triangle, pace, use)) return false;
+  for (const std::size_t end : {1, 0}) {
+    const auto vertex = [end](const EdgeUse& of) { return of.edge[end]; };
+    if (!sort_by_key(uses, room, vertex_count, vertex, pace)) return false;
   }
-  std::sort(uses.begin(), uses.end());
   mesh.triangle_edges.resize(mesh.triangles.size());
-  for (const Use& use : uses) {
-    if (mesh.edges.empty() || mesh.edges.back() != use.edge) mesh.edges.push_back(use.edge);
-    mesh.triangle_edges[at(use.triangle)][at(use.corner)] =
+  return for_each_paced(uses.size(), work_of_corner, pace, [&](std::size_t i) {
+    const auto& [edge, corner] = uses[i];
+    if (mesh.edges.empty() || mesh.edges.back() != edge) mesh.edges.push_back(edge);
+    mesh.triangle_edges[at(corner / 3)][at(corner % 3)] =
         static_cast<std::int32_t>(mesh.edges.size()) - 1;
-  }
+  });
 }
 
 std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
@@ -54,73 +67,82 @@ std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
   return v;
 }
 
-void make_components(Topology& mesh, std::size_t vertex_count) {
+bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
   std::vector<std::int32_t> parent(vertex_count);
   std::iota(parent.begin(), parent.end(), 0);
-  for (const auto& t : mesh.triangles) {
-    for (int corner = 1; corner < 3; ++corner) {
-      const auto a = root_of(parent, t[0]), b = root_of(parent, t[at(corner)]);
+  const auto join = [&](std::size_t t) {
+    const auto& corners = mesh.triangles[t];
+    for (std::size_t corner = 1; corner < 3; ++corner) {
+      const auto a = root_of(parent, corners[0]), b = root_of(parent, corners[corner]);
       parent[at(std::max(a, b))] = std::min(a, b);
     }
-  }
+  };
+  if (!for_each_paced(mesh.triangles.size(), work_of_triangle, pace, join)) return false;
   // Components are numbered by lowest vertex; vertices of no triangle belong to none.
   std::vector<std::int32_t> number(vertex_count, -1);
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    if (mesh.vertex_triangles.row(static_cast<std::int32_t>(v)).empty()) continue;
+  const auto take_vertex = [&](std::size_t v) {
+    if (mesh.vertex_triangles.row(static_cast<std::int32_t>(v)).empty()) return;
     const auto root = root_of(parent, static_cast<std::int32_t>(v));
     if (number[at(root)] < 0) {
       number[at(root)] = static_cast<std::int32_t>(mesh.components.size());
       mesh.components.emplace_back();
     }
     mesh.components[at(number[at(root)])].vertices.push_back(static_cast<std::int32_t>(v));
-  }
+  };
+  if (!for_each_paced(vertex_count, work_of_triangle, pace, take_vertex)) return false;
   mesh.component_of_triangle.resize(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  return for_each_paced(mesh.triangles.size(), work_of_triangle, pace, [&](std::size_t t) {
     const auto c = number[at(root_of(parent, mesh.triangles[t][0]))];
     mesh.component_of_triangle[t] = c;
     mesh.components[at(c)].triangles.push_back(static_cast<std::int32_t>(t));
-  }
+  });
 }
 
-void find_cycles(Topology& mesh) {
-  // Uses of an edge in ascending direction less uses in descending direction: 0 at every edge.
-  std::vector<std::int32_t> surplus(mesh.edges.size(), 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int corner = 0; corner < 3; ++corner) {
-      const auto u = mesh.triangles[t][at((corner + 1) % 3)];
-      const auto v = mesh.triangles[t][at((corner + 2) % 3)];
-      surplus[at(mesh.triangle_edges[t][at(corner)])] += u < v ? 1 : -1;
-    }
-  }
+bool find_cycles(Topology& mesh, PacedStop& pace) {
+  std::vector<std::int32_t> surplus;
+  if (!count_surplus(mesh, surplus, pace)) return false;
   for (auto& component : mesh.components) component.is_cycle = true;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  return for_each_paced(mesh.triangles.size(), work_of_triangle, pace, [&](std::size_t t) {
     for (const auto e : mesh.triangle_edges[t]) {
       if (surplus[at(e)] != 0) mesh.components[at(mesh.component_of_triangle[t])].is_cycle = false;
     }
-  }
+  });
 }
 
 }  // namespace
 
-Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count) {
-  Topology mesh;
-  mesh.triangles.resize(static_cast<std::size_t>(triangles.rows()));
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    mesh.triangles[static_cast<std::size_t>(t)] = {triangles(t, 0), triangles(t, 1),
-                                                   triangles(t, 2)};
-  }
-  make_edges(mesh);
-  const auto for_each_of = [&mesh](const auto& lists, auto visit) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      for (const auto row : lists[t]) visit(row, static_cast<std::int32_t>(t));
+bool count_surplus(const Topology& mesh, std::vector<std::int32_t>& surplus, PacedStop& pace) {
+  surplus.assign(mesh.edges.size(), 0);
+  return for_each_paced(mesh.triangles.size(), work_of_triangle, pace, [&](std::size_t t) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const auto u = mesh.triangles[t][(corner + 1) % 3];
+      const auto v = mesh.triangles[t][(corner + 2) % 3];
+      surplus[at(mesh.triangle_edges[t][corner])] += u < v ? 1 : -1;
     }
+  });
+}
+
+Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count) {
+  PacedStop pace(never_stops);
+  return make_topology(triangles, vertex_count, pace);
+}
+
+Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace) {
+  Topology mesh;
+  const auto vertices = static_cast<std::size_t>(vertex_count);
+  mesh.triangles.resize(static_cast<std::size_t>(triangles.rows()));
+  const auto copy = [&](std::size_t i) {
+    const auto t = static_cast<Eigen::Index>(i);
+    mesh.triangles[i] = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};
   };
-  mesh.vertex_triangles = make_incidence(static_cast<std::size_t>(vertex_count),
-                                         [&](auto visit) { for_each_of(mesh.triangles, visit); });
-  mesh.edge_triangles = make_incidence(
-      mesh.edges.size(), [&](auto visit) { for_each_of(mesh.triangle_edges, visit); });
-  make_components(mesh, static_cast<std::size_t>(vertex_count));
-  find_cycles(mesh);
+  // Each goes on from what those before it have made.
+  if (for_each_paced(mesh.triangles.size(), work_of_corner, pace, copy) &&
+      make_edges(mesh, vertices, pace) &&
+      make_incidence(mesh.triangles, vertices, mesh.vertex_triangles, pace) &&
+      make_incidence(mesh.triangle_edges, mesh.edges.size(), mesh.edge_triangles, pace) &&
+      make_components(mesh, vertices, pace)) {
+    find_cycles(mesh, pace);
+  }
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/types.h"
 
 namespace assay::detector {
@@ -38,7 +39,13 @@ struct Topology {
   std::vector<std::int32_t> component_of_triangle;
 };
 
-// triangles have passed check_triangles. O(M log M).
+// triangles have passed check_triangles. O(N + M).
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count);
+// The same; of no use where `pace` was stopped.
+Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace);
+
+// By edge: its uses in ascending direction less those in descending direction. False where `pace`
+// was stopped.
+bool count_surplus(const Topology& mesh, std::vector<std::int32_t>& surplus, PacedStop& pace);
 
 }  // namespace assay::detector

@@ -16,14 +16,18 @@ struct BoundingVolumeTree::Builder {
   const Topology& mesh;
   std::vector<Point> triangle_centres, component_centres;
   std::vector<std::int32_t> order;  // of the triangles of one component
-  PacedStop pace;
+  PacedStop* pace;
 
-  Builder(BoundingVolumeTree& grown, const Topology& of, const PositionsView& x,
-          const StopFunction& stop)
-      : tree(grown), mesh(of), pace(stop) {
+  Builder(BoundingVolumeTree& grown, const Topology& of, const PositionsView& x, PacedStop* asked)
+      : tree(grown), mesh(of), pace(asked) {
+    constexpr std::uint64_t work_of_centre = 3;
     triangle_centres.reserve(mesh.triangles.size());
-    for (const auto& triangle : mesh.triangles) triangle_centres.push_back(centre(triangle, x));
+    const auto add = [&](std::size_t t) {
+      triangle_centres.push_back(centre(mesh.triangles[t], x));
+    };
+    if (!for_each_paced(mesh.triangles.size(), work_of_centre, pace, add)) return;
     for (const auto& component : mesh.components) {
+      if (has_to_end(component.triangles.size())) return;
       // Of the box: any place that tells components apart will do.
       Point lo = triangle_centres[at(component.triangles.front())], hi = lo;
       for (const auto t : component.triangles) widen(lo, hi, triangle_centres[at(t)]);
@@ -65,8 +69,9 @@ struct BoundingVolumeTree::Builder {
     return middle;
   }
 
+  bool has_to_end(std::uint64_t work) { return pace && pace->after(work); }
   // A split looks at each item some eight times.
-  bool has_to_end(Items items) { return pace.after(8 * items.size()); }
+  bool has_to_end(Items items) { return has_to_end(8 * items.size()); }
 
   std::int32_t add_children(std::int32_t node) {
     const auto first = static_cast<std::int32_t>(tree.child_.size());
@@ -108,7 +113,7 @@ struct BoundingVolumeTree::Builder {
 };
 
 BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView& x,
-                                       const StopFunction& stop) {
+                                       PacedStop* pace) {
   const std::size_t nodes = 2 * mesh.triangles.size() - 1;
   child_.reserve(nodes);
   component_.reserve(nodes);
@@ -117,10 +122,14 @@ BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView
   component_.resize(1);
   leaf_.resize(mesh.triangles.size());
   component_root_.resize(mesh.components.size());
-  boxes_.resize(nodes);
+  boxes_.reserve(nodes);
+  constexpr std::uint64_t work_of_room = 5;  // the system clears it
+  const auto add_box = [this](std::size_t) { boxes_.emplace_back(); };
+  if (!for_each_paced(nodes, work_of_room, pace, add_box)) return;
   std::vector<std::int32_t> components(mesh.components.size());
   std::iota(components.begin(), components.end(), 0);
-  Builder(*this, mesh, x, stop).grow_over_components(root, components);
+  Builder builder(*this, mesh, x, pace);
+  if (!(pace && pace->stopped())) builder.grow_over_components(root, components);
 }
 
 MovingBox BoundingVolumeTree::box_of_triangle(const std::array<std::int32_t, 3>& corners,
@@ -132,12 +141,21 @@ MovingBox BoundingVolumeTree::box_of_triangle(const std::array<std::int32_t, 3>&
 
 void BoundingVolumeTree::refit(const Topology& mesh, const PositionsView& x_t0,
                                const PositionsView& x_t1) {
-  points_.assign(x_t0, x_t1);
-  for (std::size_t n = child_.size(); n-- > 0;) {
+  PacedStop pace(never_stops);
+  refit(mesh, x_t0, x_t1, pace);
+}
+
+bool BoundingVolumeTree::refit(const Topology& mesh, const PositionsView& x_t0,
+                               const PositionsView& x_t1, PacedStop& pace) {
+  constexpr std::uint64_t work_of_node = 4;
+  if (!points_.assign(x_t0, x_t1, pace)) return false;
+  const std::size_t last = child_.size() - 1;
+  return for_each_paced(child_.size(), work_of_node, pace, [&](std::size_t i) {
+    const std::size_t n = last - i;
     const std::int32_t child = child_[n];
     boxes_[n] = child < 0 ? points_.box(mesh.triangles[at(~child)])
                           : join(boxes_[at(child)], boxes_[at(child) + 1]);
-  }
+  });
 }
 
 }  // namespace assay::detector

@@ -21,8 +21,8 @@ class BoundingVolumeTree {
  public:
   // Splits components, then triangles, at the median of their centres along the longest side of
   // those. A leaf holds one triangle. O(M log M).
-  // Where `stop` asks for an end the tree is of no use.
-  BoundingVolumeTree(const Topology& mesh, const PositionsView& x, const StopFunction& stop = {});
+  // Where `pace` is stopped the tree is of no use.
+  BoundingVolumeTree(const Topology& mesh, const PositionsView& x, PacedStop* pace = nullptr);
 
   static constexpr std::int32_t root = 0;
   std::size_t node_count() const { return child_.size(); }
@@ -46,6 +46,9 @@ class BoundingVolumeTree {
 
   // Boxes of the triangles as they move. O(M): a pass over the nodes from the last to the first.
   void refit(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1);
+  // The same; false where `pace` was stopped: then some boxes are those of another step.
+  bool refit(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
+             PacedStop& pace);
 
  private:
   struct Builder;

@@ -12,28 +12,45 @@ CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mes
       x_t0_(x_t0),
       x_t1_(x_t1),
       stop_(stop),
+      pace_(stop),
       contacts_(mesh, x_t0, x_t1, stages.elementary, Want::first_time, memory.representatives,
-                memory.marks.types) {}
+                memory.marks.types, &pace_) {}
 
-void CandidateSearch::mark(std::span<const TriangleType> types) {
+bool CandidateSearch::mark(std::span<const TriangleType> types) {
+  if (pace_.stopped()) return false;
+  if (!memory_.is_whole) {
+    memory_.marks = Marks(tree_);
+    memory_.representatives = Representatives(mesh_, &pace_);
+    if (pace_.stopped()) return false;
+  }
+  memory_.is_whole = false;
   stages_.marking.bring_to(types, tree_, memory_.marks, marking_counts_);
-  memory_.representatives.update(mesh_, memory_.marks.types, memory_.marks.changed);
+  return follow_marks();
 }
 
-void CandidateSearch::change_types(std::span<const Marking::Change> changes) {
+bool CandidateSearch::change_types(std::span<const Marking::Change> changes) {
+  memory_.is_whole = false;
   stages_.marking.change(changes, tree_, memory_.marks, marking_counts_);
-  memory_.representatives.update(mesh_, memory_.marks.types, memory_.marks.changed);
+  return follow_marks();
+}
+
+bool CandidateSearch::follow_marks() {
+  constexpr std::uint64_t work_of_mark = 8;  // in box tests
+  const auto& [types, flags, changed] = memory_.marks;
+  if (pace_.after(work_of_mark * changed.size())) return false;
+  return memory_.is_whole = memory_.representatives.update(mesh_, types, changed, &pace_);
 }
 
 bool CandidateSearch::same_component(std::int32_t a, std::int32_t b) const {
   return mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
 }
 
-SearchInput CandidateSearch::input(const PairTables& tables, bool uses_proofs) const {
-  return {mesh_, tree_, memory_.marks, tables, memory_.kept.get(), &x_t0_, &x_t1_, uses_proofs};
+SearchInput CandidateSearch::input(const PairTables& tables, bool uses_proofs) {
+  return {mesh_,  tree_,  memory_.marks, tables,     memory_.kept.get(),
+          &x_t0_, &x_t1_, &pace_,        uses_proofs};
 }
 
-double CandidateSearch::provable_share() const {
+double CandidateSearch::provable_share() {
   const PairTables none;
   return stages_.search.provable_share(input(none, true));
 }
@@ -76,14 +93,14 @@ bool CandidateSearch::close() {
       }
     }
     if (grown.empty()) return true;
-    change_types(grown);
+    if (!change_types(grown)) return false;
     ++closure_rounds_;
     if (!search(tables, false)) return false;
     for (auto& [triangle, type] : grown) {
       type = type == TriangleType::positive_grown ? TriangleType::positive_joined
                                                   : TriangleType::negative_joined;
     }
-    change_types(grown);
+    if (!change_types(grown)) return false;
   }
 }
 

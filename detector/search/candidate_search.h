@@ -17,10 +17,12 @@ struct SearchStages {
 // What is kept from one search to the next: it depends on the types last marked alone, or on the
 // mesh.
 struct SearchMemory {
-  SearchMemory(const Topology& mesh, const BoundingVolumeTree& tree)
-      : marks(tree), representatives(mesh) {}
+  // Of no use where `pace` was stopped.
+  SearchMemory(const Topology& mesh, const BoundingVolumeTree& tree, PacedStop* pace = nullptr)
+      : marks(tree), representatives(mesh, pace) {}
   Marks marks;
   Representatives representatives;
+  bool is_whole = true;  // not stopped in between: marks and representatives are of the same types
   std::unique_ptr<KeptBySearch> kept;  // of PairSearch::prepare
 };
 
@@ -31,13 +33,14 @@ class CandidateSearch {
                   SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop);
 
-  // Brings the marks to the step: the types of all triangles, without those of the closure.
-  void mark(std::span<const TriangleType> types);
+  // Brings the marks to the step: the types of all triangles, without those of the closure. This,
+  // `collect` and `close` return false when `stop` ended it.
+  bool mark(std::span<const TriangleType> types);
   // Finds the candidates and tests their feature pairs; what the search can prove apart is left out
-  // where that is worth its cost. This and `close` return false when `stop` ended it.
+  // where that is worth its cost.
   bool collect(bool uses_proofs = true);
   // See PairSearch.
-  double provable_share() const;
+  double provable_share();
   // L7. H := the triangles found in contact with their own component (pairs of two components were
   // all tested, and layers count the own component only: L10). Tests (U,H), adds what is found,
   // until H is stable. V0 and Vv were looked at against everything already. A round costs what it
@@ -55,8 +58,10 @@ class CandidateSearch {
 
  private:
   bool search(const PairTables& tables, bool uses_proofs);
-  SearchInput input(const PairTables& tables, bool uses_proofs) const;
-  void change_types(std::span<const Marking::Change> changes);
+  SearchInput input(const PairTables& tables, bool uses_proofs);
+  bool change_types(std::span<const Marking::Change> changes);
+  // The representatives, after the marks.
+  bool follow_marks();
   bool same_component(std::int32_t a, std::int32_t b) const;
 
   SearchStages stages_;
@@ -65,6 +70,7 @@ class CandidateSearch {
   SearchMemory& memory_;
   const PositionsView x_t0_, x_t1_;
   const StopFunction& stop_;
+  PacedStop pace_;
   FeatureContacts contacts_;
   SearchCounts counts_;
   MarkingCounts marking_counts_;

@@ -11,14 +11,18 @@ FloatLanes diagonals(const Point& y) {
 
 }  // namespace
 
-FeaturePoints::FeaturePoints(const PositionsView& x_t0, const PositionsView& x_t1)
-    : points_(static_cast<std::size_t>(x_t0.rows())) {
-  const FloatGrid f(x_t0, x_t1);
-  for (std::size_t v = 0; v < points_.size(); ++v) {
+FeaturePoints::FeaturePoints(const PositionsView& x_t0, const PositionsView& x_t1,
+                             PacedStop* pace) {
+  constexpr std::uint64_t work_of_vertex = 8;
+  const FloatGrid f(x_t0, x_t1, pace);
+  if (pace && pace->stopped()) return;
+  const auto count = static_cast<std::size_t>(x_t0.rows());
+  points_.reserve(count);
+  for_each_paced(count, work_of_vertex, pace, [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);
-    points_[v] = {f(x_t0, x_t1, vertex),
-                  {diagonals(f.scaled(x_t0, vertex)), diagonals(f.scaled(x_t1, vertex))}};
-  }
+    points_.push_back({f(x_t0, x_t1, vertex),
+                       {diagonals(f.scaled(x_t0, vertex)), diagonals(f.scaled(x_t1, vertex))}});
+  });
 }
 
 }  // namespace assay::detector

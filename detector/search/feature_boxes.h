@@ -51,7 +51,8 @@ inline bool apart(const FeatureBox& a, const FeatureBox& b) {
 // All vertices of a step. 32 bytes a triangle.
 class FeaturePoints {
  public:
-  FeaturePoints(const PositionsView& x_t0, const PositionsView& x_t1);
+  // Of no use where `pace` was stopped.
+  FeaturePoints(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop* pace = nullptr);
   const FeaturePoint& operator[](std::int32_t vertex) const {
     return points_[static_cast<std::size_t>(vertex)];
   }

@@ -19,31 +19,31 @@ struct FeatureContacts::OneType {
 FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
                                  const PositionsView& x_t1, const ElementaryTest& elementary,
                                  Want want, const Representatives& representatives,
-                                 const std::vector<TriangleType>& types)
+                                 const std::vector<TriangleType>& types, PacedStop* pace)
     : mesh_(mesh),
       x_t0_(x_t0),
       x_t1_(x_t1),
       elementary_(elementary),
       want_(want),
-      pairs_(mesh, x_t0, x_t1, representatives, types) {
+      pairs_(mesh, x_t0, x_t1, representatives, types, pace) {
   untested_.reserve(tests_at_once + FeaturePairs::max_keys);
 }
 
 FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
                                  const PositionsView& x_t1, const ElementaryTest& elementary,
-                                 Want want, std::unique_ptr<OneType> own)
-    : FeatureContacts(mesh, x_t0, x_t1, elementary, want, own->representatives, own->types) {
+                                 Want want, std::unique_ptr<OneType> own, PacedStop* pace)
+    : FeatureContacts(mesh, x_t0, x_t1, elementary, want, own->representatives, own->types, pace) {
   own_ = std::move(own);
 }
 
 FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
                                  const PositionsView& x_t1, const ElementaryTest& elementary,
-                                 Want want)
-    : FeatureContacts(
-          mesh, x_t0, x_t1, elementary, want,
-          std::unique_ptr<OneType>(new OneType{
-              Representatives(mesh), std::vector(mesh.triangles.size(), TriangleType::positive)})) {
-}
+                                 Want want, PacedStop* pace)
+    : FeatureContacts(mesh, x_t0, x_t1, elementary, want,
+                      std::unique_ptr<OneType>(
+                          new OneType{Representatives(mesh, pace),
+                                      std::vector(mesh.triangles.size(), TriangleType::positive)}),
+                      pace) {}
 
 FeatureContacts::~FeatureContacts() = default;
 
@@ -103,6 +103,7 @@ bool FeatureContacts::run(const StopFunction& stop) {
   constexpr std::size_t tests_between_stops = 256;
   for (std::size_t i = 0; i < untested_.size(); ++i) {
     if (i % tests_between_stops == 0 && stop && stop()) return false;
+    if (contacts_.is_nearly_full() && !contacts_.make_room(stop)) return false;
     test(untested_[i]);
   }
   untested_.clear();

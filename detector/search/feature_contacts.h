@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -23,12 +24,14 @@ namespace assay::detector {
 class FeatureContacts {
  public:
   // The references and views must outlive this object. With these types (feature_pairs.h) or, where
-  // all triangles are of one type and all pairs are asked for, without.
+  // all triangles are of one type and all pairs are asked for, without. Of no use where `pace` was
+  // stopped.
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
                   const ElementaryTest& elementary, Want want,
-                  const Representatives& representatives, const std::vector<TriangleType>& types);
+                  const Representatives& representatives, const std::vector<TriangleType>& types,
+                  PacedStop* pace = nullptr);
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const ElementaryTest& elementary, Want want);
+                  const ElementaryTest& elementary, Want want, PacedStop* pace = nullptr);
   ~FeatureContacts();
   FeatureContacts(const FeatureContacts&) = delete;
   FeatureContacts& operator=(const FeatureContacts&) = delete;
@@ -46,7 +49,7 @@ class FeatureContacts {
   bool run(const StopFunction& stop);
 
   // Triangle pairs in contact that were found since this was last asked, each once.
-  std::vector<TrianglePair> take_new_pairs() { return contacts_.take_new_pairs(); }
+  std::deque<TrianglePair> take_new_pairs() { return contacts_.take_new_pairs(); }
   const NarrowCounts& counts() const { return counts_; }
   // Of the tests, in milliseconds.
   double test_time() const { return test_time_; }
@@ -58,7 +61,8 @@ class FeatureContacts {
  private:
   struct OneType;  // what the short constructor makes for itself
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const ElementaryTest& elementary, Want want, std::unique_ptr<OneType> own);
+                  const ElementaryTest& elementary, Want want, std::unique_ptr<OneType> own,
+                  PacedStop* pace);
   void test(FeatureKey key);
   void add(std::int32_t a, std::int32_t b, const TimeEnclosure& time, const Feature& feature) {
     contacts_.add({{std::min(a, b), std::max(a, b)}, time, feature});

@@ -18,10 +18,12 @@ namespace assay::detector {
 
 class FeaturePairs {
  public:
-  // The references must outlive this object. types: by triangle, those of `representatives`.
+  // The references must outlive this object. types: by triangle, those of `representatives`. Of no
+  // use where `pace` was stopped.
   FeaturePairs(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
-               const Representatives& representatives, const std::vector<TriangleType>& types)
-      : mesh_(mesh), representatives_(representatives), types_(types), points_(x_t0, x_t1) {}
+               const Representatives& representatives, const std::vector<TriangleType>& types,
+               PacedStop* pace = nullptr)
+      : mesh_(mesh), representatives_(representatives), types_(types), points_(x_t0, x_t1, pace) {}
 
   // The searches to come ask for these. At first: for everything, nothing was asked before.
   void ask(const AskedTypes& asked);

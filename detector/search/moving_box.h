@@ -13,6 +13,7 @@
 
 #include <vector>
 
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/types.h"
 #ifdef __SSE__
 #include <xmmintrin.h>
@@ -78,7 +79,8 @@ class FloatGrid {
   FloatGrid() = default;
   // For a step: the middle of all positions, and the power of two that brings them near 1. Where a
   // mesh lies and how large it is then costs no accuracy. O(N).
-  FloatGrid(const PositionsView& x_t0, const PositionsView& x_t1);
+  // Of no use where `pace` was stopped.
+  FloatGrid(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop* pace = nullptr);
 
   FloatLanes operator()(const PositionsView& x, std::int32_t vertex) const {
     const auto f = [&](int k) {
@@ -107,8 +109,12 @@ class FloatGrid {
 class RoundedPositions {
  public:
   RoundedPositions() = default;
-  RoundedPositions(const PositionsView& x_t0, const PositionsView& x_t1) { assign(x_t0, x_t1); }
-  void assign(const PositionsView& x_t0, const PositionsView& x_t1);
+  RoundedPositions(const PositionsView& x_t0, const PositionsView& x_t1) {
+    PacedStop pace(never_stops);
+    assign(x_t0, x_t1, pace);
+  }
+  // False where `pace` was stopped: not all of them are those of the step.
+  bool assign(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop& pace);
 
   const FloatGrid& grid() const { return grid_; }
   const RoundedPoint& operator[](std::int32_t vertex) const {

@@ -20,7 +20,7 @@ class Descent {
   // False when the sink stopped it.
   bool run() {
     below_mixed(BoundingVolumeTree::root, BoundingVolumeTree::root);
-    return !stopped_;
+    return !stopped_ && !(proofs_ && proofs_->is_stopped());
   }
 
  private:
@@ -62,7 +62,7 @@ class Descent {
     } else {
       enter(a, b, table);
     }
-    while (!stack_.empty() && !stopped_) {
+    while (!stack_.empty() && !stopped_ && !(proofs_ && proofs_->is_stopped())) {
       const NodePair p = stack_.back();
       stack_.pop_back();
       if (p.a == p.b) {

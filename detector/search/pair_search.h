@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_counts.h"
 #include "detector/search/marking.h"
 
@@ -23,6 +24,8 @@ class PatchProofs {
   virtual bool is_free(std::int32_t node) = 0;
   // Whether no two triangles below the two nodes together are, where the boxes meet.
   virtual bool are_free(std::int32_t a, std::int32_t b) = 0;
+  // Whether the search has to end; the two above say false then.
+  virtual bool is_stopped() const { return false; }
 };
 
 // Takes a candidate pair (any order); false: stop the search.
@@ -35,21 +38,24 @@ struct SearchInput {
   const PairTables& tables;
   KeptBySearch* kept = nullptr;  // of PairSearch::prepare
   const PositionsView *x_t0 = nullptr, *x_t1 = nullptr;
-  bool uses_proofs = true;  // where the search has any: whether they are worth their cost
+  PacedStop* pace = nullptr;  // asked for what is done before and between the pairs; null: never
+  bool uses_proofs = true;    // where the search has any: whether they are worth their cost
 };
 
-// A stage of the detector; returns false when the sink stopped it.
+// A stage of the detector; returns false when it was stopped, by the sink or by `pace`.
 class PairSearch {
  public:
   virtual ~PairSearch() = default;
-  // In preprocessing; null where the tree is all that a search needs.
-  virtual std::unique_ptr<KeptBySearch> prepare(const Topology&, const BoundingVolumeTree&) const {
+  // In preprocessing; null where the tree is all that a search needs. Of no use where `pace` was
+  // stopped.
+  virtual std::unique_ptr<KeptBySearch> prepare(const Topology&, const BoundingVolumeTree&,
+                                                PacedStop&) const {
     return nullptr;
   }
   // Brings the tree to a step, before the searches of that step.
-  virtual void fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-                   const PositionsView& x_t1) const {
-    tree.refit(mesh, x_t0, x_t1);
+  virtual bool fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+                   const PositionsView& x_t1, PacedStop& pace) const {
+    return tree.refit(mesh, x_t0, x_t1, pace);
   }
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;
@@ -84,8 +90,10 @@ class TreeSearch : public PairSearch {
 // Looks at every pair, without boxes. O(M^2).
 class ExhaustiveSearch : public PairSearch {
  public:
-  void fit(BoundingVolumeTree&, const Topology&, const PositionsView&,
-           const PositionsView&) const override {}
+  bool fit(BoundingVolumeTree&, const Topology&, const PositionsView&, const PositionsView&,
+           PacedStop&) const override {
+    return true;
+  }
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
 };
 

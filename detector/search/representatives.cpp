@@ -1,32 +1,41 @@
 #include "detector/search/representatives.h"
 
 namespace assay::detector {
+namespace {
 
-Representatives::Representatives(const Topology& mesh)
+// Of a corner or an edge of a triangle, in box tests: around it lie some six triangles, or two.
+constexpr std::uint64_t work_of_triangle = 24, work_of_vertex = 6, work_of_edge = 3;
+
+}  // namespace
+
+Representatives::Representatives(const Topology& mesh, PacedStop* pace)
     : features_(mesh.triangles.size()),
       vertex_types_(mesh.vertex_triangles.starts.size() - 1),
       edge_types_(mesh.edges.size()) {
   const std::vector<TriangleType> types(mesh.triangles.size(), TriangleType::positive);
-  for (std::size_t v = 0; v < vertex_types_.size(); ++v) {
+  const auto around_vertex = [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);
     vertex_types_[v] = choose(mesh.triangles, mesh.vertex_triangles.row(vertex), vertex, 0, types);
-  }
-  for (std::size_t e = 0; e < edge_types_.size(); ++e) {
+  };
+  const auto around_edge = [&](std::size_t e) {
     const auto edge = static_cast<std::int32_t>(e);
     edge_types_[e] = choose(mesh.triangle_edges, mesh.edge_triangles.row(edge), edge, 3, types);
-  }
+  };
+  if (for_each_paced(vertex_types_.size(), work_of_vertex, pace, around_vertex))
+    for_each_paced(edge_types_.size(), work_of_edge, pace, around_edge);
 }
 
-void Representatives::update(const Topology& mesh, const std::vector<TriangleType>& types,
-                             std::span<const std::int32_t> changed) {
-  for (const auto t : changed) {
+bool Representatives::update(const Topology& mesh, const std::vector<TriangleType>& types,
+                             std::span<const std::int32_t> changed, PacedStop* pace) {
+  return for_each_paced(changed.size(), work_of_triangle, pace, [&](std::size_t i) {
+    const auto t = changed[i];
     for (const auto v : mesh.triangles[at(t)]) {
       vertex_types_[at(v)] = choose(mesh.triangles, mesh.vertex_triangles.row(v), v, 0, types);
     }
     for (const auto e : mesh.triangle_edges[at(t)]) {
       edge_types_[at(e)] = choose(mesh.triangle_edges, mesh.edge_triangles.row(e), e, 3, types);
     }
-  }
+  });
 }
 
 TypeSet Representatives::choose(const std::vector<std::array<std::int32_t, 3>>& lists,

@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/topology.h"
 #include "detector/search/triangle_type.h"
 
@@ -35,12 +36,13 @@ constexpr bool represents_edge(RepresentedFeatures features, std::size_t i) {
 
 class Representatives {
  public:
-  // All triangles V+.
-  explicit Representatives(const Topology& mesh);
+  // All triangles V+. Of no use where `pace` was stopped.
+  explicit Representatives(const Topology& mesh, PacedStop* pace = nullptr);
 
-  // Brings what lies around the changed triangles up to their types. Allocates nothing.
-  void update(const Topology& mesh, const std::vector<TriangleType>& types,
-              std::span<const std::int32_t> changed);
+  // Brings what lies around the changed triangles up to their types. Allocates nothing. False where
+  // `pace` was stopped: then they are those of no types.
+  bool update(const Topology& mesh, const std::vector<TriangleType>& types,
+              std::span<const std::int32_t> changed, PacedStop* pace = nullptr);
 
   RepresentedFeatures of(std::int32_t triangle) const { return features_[at(triangle)]; }
   // The types of the triangles that hold a feature.

@@ -30,7 +30,9 @@ class Flood {
     const auto ghosts_begin = static_cast<std::int32_t>(instant_.surface.mesh.triangles.size());
     Piece piece{{seed}, false};
     seen_[at(seed)] = 1;
+    constexpr std::uint64_t work_of_triangle = 4;  // in box tests
     for (std::size_t next = 0; next < piece.triangles.size(); ++next) {
+      if (instant_.pace && instant_.pace->after(work_of_triangle)) break;
       const auto t = piece.triangles[next];
       for (const auto edge : all.triangle_edges[at(t)]) {
         const auto around = all.edge_triangles.row(edge);
@@ -91,7 +93,7 @@ std::vector<std::optional<int>> windings_outside(
     }
     if (asked.empty()) break;
     const auto found = winding_numbers_outside(all, all.components[c].triangles, instant.x, asked,
-                                               instant.arithmetic);
+                                               instant.arithmetic, instant.pace);
     for (std::size_t k = 0; k < open.size(); ++k) winding[open[k]] = found[k];
   }
   return winding;

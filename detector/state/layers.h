@@ -17,6 +17,7 @@ struct TouchedSurface {
   PositionsView x;
   const std::vector<std::uint8_t>& touched;
   Arithmetic arithmetic = Arithmetic::exact;
+  PacedStop* pace = nullptr;  // where it was stopped, what is said to be clean is of no use
 };
 
 // Clean triangles of the mesh's component `c`, a few of them, ascending: any one names the common

@@ -11,8 +11,8 @@
 namespace assay::detector {
 namespace {
 
-// In box tests: pieces and their winding numbers, a triangle; what a component takes at least.
-constexpr std::uint64_t work_of_layers = 12, work_of_component = 200;
+// In box tests: marking, a triangle; what a component takes at least.
+constexpr std::uint64_t work_of_mark = 4, work_of_component = 200;
 
 // Triangles of the components that meet another one of their own at t=0.
 bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& components,
@@ -25,8 +25,10 @@ bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& compo
   Marks marks(work.tree);
   MarkingCounts marking;
   Marking().bring_to(types, work.tree, marks, marking);
+  if (work.pace.after(work_of_mark * types.size())) return false;
   const PairTables tables = {PairTable().add(flag::violated, flag::violated), {}};
-  FeatureContacts contacts(mesh, work.x_t0, work.x_t0, work.elementary, Want::yes_no);
+  FeatureContacts contacts(mesh, work.x_t0, work.x_t0, work.elementary, Want::yes_no, &work.pace);
+  if (work.pace.stopped()) return false;
   SearchCounts counts;
   std::uint64_t pairs = 0;
   const auto sink = [&](std::int32_t a, std::int32_t b) {
@@ -54,8 +56,8 @@ bool ReleaseRule::is_free(StepWork& work, std::size_t c) const {
   const std::array<Point, 2> start = {primitive.q0.t0, primitive.q1.t0};
   if (work.known && work.known->inside[c] == start) return true;
   ++work.counts.winding_numbers;
-  return winding_number(work.surface.all(), triangles, work.x_t0, primitive.q0.t0, arithmetic_) ==
-         1;
+  return winding_number(work.surface.all(), triangles, work.x_t0, primitive.q0.t0, arithmetic_,
+                        &work.pace) == 1;
 }
 
 bool ReleaseRule::released_at_start(const StepWork& work, std::size_t c) const {
@@ -64,11 +66,11 @@ bool ReleaseRule::released_at_start(const StepWork& work, std::size_t c) const {
   return all_positive_at(work.surface.all(), component, work.x_t0, primitive.q0.t0, primitive.q1.t0,
                          arithmetic_, &work.pace) &&
          winding_number(work.surface.all(), component.triangles, work.x_t0, primitive.q0.t0,
-                        arithmetic_) == 1;
+                        arithmetic_, &work.pace) == 1;
 }
 
 bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& components) const {
-  work.tree.refit(work.surface.mesh, work.x_t0, work.x_t0);
+  if (!work.tree.refit(work.surface.mesh, work.x_t0, work.x_t0, work.pace)) return false;
   std::vector<std::uint8_t> touched(work.surface.mesh.triangles.size(), 0);
   if (!find_static_contacts(work, components, touched)) return false;
   const GhostSweep still{work.surface, work.tree, work.x_t0, work.x_t0, work.elementary, true};
@@ -79,10 +81,11 @@ bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& 
   }
   std::vector<std::uint8_t> seen(work.surface.all().triangles.size(), 0);
   for (const auto c : components) {
-    if (work.pace.after(work_of_layers * work.component(at(c)).triangles.size())) return false;
-    mark_clean_by_layers({work.surface, work.x_t0, touched, arithmetic_}, at(c), seen, work.clean);
+    if (work.pace.after(work_of_component)) return false;
+    mark_clean_by_layers({work.surface, work.x_t0, touched, arithmetic_, &work.pace}, at(c), seen,
+                         work.clean);
   }
-  return true;
+  return !work.pace.stopped();
 }
 
 // By L5 where it applies; else, and where it is not all that may be asked, by layers.
@@ -119,11 +122,12 @@ bool ReleaseRule::release(StepWork& work, const std::vector<std::int32_t>& compo
       const auto c = at(components[i]);
       if (!add_ghost_touches(work, grid, c, may_touch_ghosts(work, in_doubt[i]), touched))
         return false;
-      if (work.pace.after(work_of_layers * in_doubt[i].size())) return false;
+      if (work.pace.after(work_of_component)) return false;
       work.counts.release.winding_numbers +=
-          release_pieces({work.surface, work.x_t0, touched, arithmetic_}, c, in_doubt[i],
-                         witnesses(work, c), seen, work.clean);
+          release_pieces({work.surface, work.x_t0, touched, arithmetic_, &work.pace}, c,
+                         in_doubt[i], witnesses(work, c), seen, work.clean);
     }
+    if (work.pace.stopped()) return false;
   }
   for (const auto& triangles : in_doubt) {
     const auto released = std::count_if(triangles.begin(), triangles.end(),

@@ -96,7 +96,9 @@ class Step {
     if (given.empty()) {
       const auto& first = context_.anchors;
       const auto& anchors = is_auto() ? auto_.anchors(first, work_.x_t0, work_.pace) : first;
+      constexpr std::uint64_t work_of_anchor = 10;
       for (const auto& anchor : anchors) {
+        if (work_.pace.after(work_of_anchor)) return;
         work_.primitives.push_back(place_view(anchor, x_t0, x_t1));
       }
     } else if (given.size() == 1) {
@@ -149,6 +151,7 @@ class Step {
       }
       if (work_.pace.after(work_of_signs(before, work_.counts.view))) return false;
       work_.free[c] = context_.stages.release->is_free(work_, c);
+      if (work_.pace.stopped()) return false;
       work_.counts.free_components += work_.free[c];
     }
     return true;
@@ -163,7 +166,7 @@ class Step {
   bool sweep_ghosts() {
     if (work_.surface.is_closed()) return true;
     Stopwatch watch(result_.times.ghosts);
-    work_.tree.refit(mesh_, work_.x_t0, work_.x_t1);
+    if (!work_.tree.refit(mesh_, work_.x_t0, work_.x_t1, work_.pace)) return false;
     GhostSweep sweep{work_.surface, work_.tree,       work_.x_t0,
                      work_.x_t1,    work_.elementary, !work_.known};
     work_.near_ghosts.assign(mesh_.triangles.size(), 0);
@@ -192,15 +195,16 @@ class Step {
                                      *stages.elementary};
     {
       Stopwatch watch(times.broad_phase);
-      stages.pair_search->fit(work_.tree, mesh_, work_.x_t0, work_.x_t1);
+      if (!stages.pair_search->fit(work_.tree, mesh_, work_.x_t0, work_.x_t1, work_.pace)) {
+        return false;
+      }
     }
     CandidateSearch candidates(search_stages, mesh_, work_.tree, context_.search, work_.x_t0,
                                work_.x_t1, work_.stop);
     bool completed = true;
     {
       Stopwatch watch(times.broad_phase);
-      candidates.mark(types);
-      completed = candidates.collect(worth_proving(candidates));
+      completed = candidates.mark(types) && candidates.collect(worth_proving(candidates));
     }
     // The tests are made as candidates come up.
     times.narrow_phase = candidates.test_time();
@@ -220,7 +224,7 @@ class Step {
   }
 
   // Whether patches are proved apart in this search (L14).
-  bool worth_proving(const CandidateSearch& candidates) const {
+  bool worth_proving(CandidateSearch& candidates) const {
     return context_.options.culling != Culling::automatic ||
            auto_.proofs_pay(candidates.provable_share(), mesh_.triangles.size());
   }
@@ -240,6 +244,12 @@ class Step {
   StepWork work_;
   StepResult result_;
 };
+
+StepResult undecided() {
+  StepResult result;
+  result.answer = Answer::undecided;
+  return result;
+}
 
 }  // namespace
 
@@ -261,9 +271,13 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
     if (context.surface.is_closed() || !may_look) {
       result = Step(context, state, x_t0, x_t1, view_auto, stop).run(x_t0, x_t1, primitives, next);
     } else {
+      PacedStop pace(stop);
+      constexpr std::uint64_t work_of_ghost = 10, work_of_vertex = 3;
       auto apexes =
           context.stages.boundary->place_apexes(context.surface, context.apex_rules, x_t0, x_t1);
+      if (pace.after(work_of_ghost * context.surface.ghost_count())) return undecided();
       const Positions all_t0 = with_apexes(x_t0, apexes, false);
+      if (pace.after(work_of_vertex * at(context.surface.first_apex))) return undecided();
       const Positions all_t1 = with_apexes(x_t1, apexes, true);
       result =
           Step(context, state, all_t0, all_t1, view_auto, stop).run(x_t0, x_t1, primitives, next);

@@ -42,13 +42,16 @@ constexpr double worth_of_saved = 1.0 / 3;
 bool has_more_ghost_pairs(const StepWork& work, double limit) {
   SearchCounts counts;
   double pairs = 0;
+  constexpr std::uint64_t work_of_box = 10;
   const auto count = [&](std::int32_t) { return ++pairs <= limit; };
   for (std::size_t c = 0; c < work.primitives.size(); ++c) {
     if (work.free[c]) continue;
     for (const auto ghost : work.ghosts(c)) {
       const auto box =
           work.tree.box_of_triangle(work.surface.all().triangles[at(ghost)], work.x_t0, work.x_t1);
+      const std::uint64_t before = counts.box_tests;
       if (!search_box(work.tree, box, counts, count)) return true;
+      if (work.pace.after(work_of_box + counts.box_tests - before)) return true;
     }
   }
   return false;
@@ -150,7 +153,7 @@ bool ViewAuto::promises(StepWork& work) {
   if (share_ < least_share || choice_.overhead > hoped)
     return does_without(ViewUse::saving_too_little);
   if (surface_.is_closed()) return true;
-  work.tree.refit(surface_.mesh, work.x_t0, work.x_t1);
+  if (!work.tree.refit(surface_.mesh, work.x_t0, work.x_t1, work.pace)) return paid_ = false;
   const double saved = share_ * static_cast<double>(expected_candidates());
   return !has_more_ghost_pairs(work, saved / cost_of_ghost_pair) ||
          does_without(ViewUse::among_ghosts);

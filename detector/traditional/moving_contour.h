@@ -37,6 +37,9 @@ class MovingContour {
   // Of the area that it encloses at t=0.5, as computed: only the choice of a direction rests on it.
   Vector area(Contour contour) const;
 
+  // Asks it during long contours; what was stopped is not proved simple.
+  void ask(PacedStop* pace) { pace_ = pace; }
+
  private:
   // Bounds along the two axes of the plane, at t=0 and at t=1.
   struct Box {
@@ -64,6 +67,7 @@ class MovingContour {
   std::size_t next(std::size_t i) const { return i + 1 == contour_.size() ? 0 : i + 1; }
 
   const PositionsView &x_t0_, &x_t1_;
+  PacedStop* pace_ = nullptr;
   // Of the call at hand.
   Contour contour_;
   Direction d_ = {0, 0, 0};

@@ -42,8 +42,9 @@ class ContourMaker {
 // Of the triangles below each node of a tree. Memory: about 50 bytes a triangle on even meshes.
 class PatchContours {
  public:
-  // O(M log M), more where partial boundaries are long.
-  PatchContours(const Topology& mesh, const BoundingVolumeTree& tree, ContourMaker& maker);
+  // O(M log M), more where partial boundaries are long. Of no use where `pace` was stopped.
+  PatchContours(const Topology& mesh, const BoundingVolumeTree& tree, ContourMaker& maker,
+                PacedStop* pace = nullptr);
 
   // Empty where the node has none.
   Contour of(std::int32_t node) const {

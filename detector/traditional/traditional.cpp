@@ -41,6 +41,9 @@
 namespace assay::detector {
 namespace {
 
+// In box tests: the cone of a triangle, at half of all nodes; a vertex of a contour.
+constexpr std::uint64_t work_of_cone = 12, work_of_vertex = 6, work_to_join = 3;
+
 struct Kept : KeptBySearch {
   PatchContours contours;
   ContourUnion joined;
@@ -57,25 +60,35 @@ class PatchCones : public PatchProofs {
       : scheme_(scheme),
         kept_(static_cast<Kept&>(*input.kept)),
         moving_(*input.x_t0, *input.x_t1),
+        pace_(input.pace),
         counts_(counts) {
-    merge_cones(input.mesh, input.tree, *input.x_t0, *input.x_t1);
+    moving_.ask(pace_);
+    is_stopped_ = !merge_cones(input.mesh, input.tree, *input.x_t0, *input.x_t1);
   }
 
   bool is_free(std::int32_t node) override {
-    return is_free(kept_.cones[at(node)], kept_.contours.of(node));
+    return !has_to_end(1) && is_free(kept_.cones[at(node)], kept_.contours.of(node));
   }
 
   bool are_free(std::int32_t a, std::int32_t b) override {
+    if (has_to_end(1)) return false;
     const DirectionSet cone = kept_.cones[at(a)] & kept_.cones[at(b)];
     if (cone == 0) return false;
     const Contour of_a = kept_.contours.of(a), of_b = kept_.contours.of(b);
-    return !of_a.empty() && !of_b.empty() && is_free(cone, kept_.joined.join(of_a, of_b));
+    if (of_a.empty() || of_b.empty()) return false;
+    if (has_to_end(work_to_join * (of_a.size() + of_b.size()))) return false;
+    return is_free(cone, kept_.joined.join(of_a, of_b));
   }
 
+  bool is_stopped() const override { return is_stopped_; }
+
  private:
-  void merge_cones(const Topology& mesh, const BoundingVolumeTree& tree, const PositionsView& x_t0,
+  // False when it was stopped.
+  bool merge_cones(const Topology& mesh, const BoundingVolumeTree& tree, const PositionsView& x_t0,
                    const PositionsView& x_t1) {
-    for (std::size_t n = tree.node_count(); n-- > 0;) {
+    const std::size_t last = tree.node_count() - 1;
+    return for_each_paced(tree.node_count(), work_of_cone, pace_, [&](std::size_t i) {
+      const std::size_t n = last - i;
       const auto node = static_cast<std::int32_t>(n);
       if (tree.is_leaf(node)) {
         const auto& corners = mesh.triangles[at(tree.triangle(node))];
@@ -86,18 +99,25 @@ class PatchCones : public PatchProofs {
         const auto child = at(tree.child(node));
         kept_.cones[n] = kept_.cones[child] & kept_.cones[child + 1];
       }
-    }
+    });
+  }
+
+  bool has_to_end(std::uint64_t work) {
+    return is_stopped_ = is_stopped_ || (pace_ && pace_->after(work));
   }
 
   bool is_free(DirectionSet cone, Contour contour) {
     if (cone == 0 || contour.empty()) return false;
     ++counts_.contour_tests;
+    if (has_to_end(work_of_vertex * contour.size())) return false;
     return scheme_.stays_simple(moving_, contour, nearest_direction(cone, moving_.area(contour)));
   }
 
   const NormalConeSearch& scheme_;
   Kept& kept_;
   MovingContour moving_;
+  PacedStop* pace_;
+  bool is_stopped_ = false;
   SearchCounts& counts_;
 };
 
@@ -149,19 +169,22 @@ double NormalConeSearch::provable_share(const SearchInput& input) const {
   constexpr std::size_t small = 16, large = 256;
   const double of_small = share_of(std::clamp<std::size_t>(triangles / 512, 4, 32), small);
   if (triangles < 16 * large || of_small >= 0.5) return of_small;
-  return std::max(of_small, share_of(std::clamp<std::size_t>(triangles / (32 * large), 1, 8), large));
+  return std::max(of_small,
+                  share_of(std::clamp<std::size_t>(triangles / (32 * large), 1, 8), large));
 }
 
 std::unique_ptr<KeptBySearch> NormalConeSearch::prepare(const Topology& mesh,
-                                                        const BoundingVolumeTree& tree) const {
+                                                        const BoundingVolumeTree& tree,
+                                                        PacedStop& pace) const {
   const auto maker = contour_maker(mesh);
-  return std::make_unique<Kept>(PatchContours(mesh, tree, *maker), mesh, tree);
+  return std::make_unique<Kept>(PatchContours(mesh, tree, *maker, &pace), mesh, tree);
 }
 
 bool NormalConeSearch::search(const SearchInput& input, SearchCounts& counts,
                               const PairSink& sink) const {
   if (!input.uses_proofs) return descend(input, nullptr, counts, sink);
   PatchCones cones(*this, input, counts);
+  if (cones.is_stopped()) return false;
   return descend(input, &cones, counts, sink);
 }
 

@@ -18,8 +18,8 @@ namespace assay::detector {
 class NormalConeSearch : public TreeSearch {
  public:
   // The contours of all nodes: they are of the mesh alone.
-  std::unique_ptr<KeptBySearch> prepare(const Topology& mesh,
-                                        const BoundingVolumeTree& tree) const override;
+  std::unique_ptr<KeptBySearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
+                                        PacedStop& pace) const override;
   // 0.1 us a triangle for the cones, besides the descent; a TreeSearch where proofs are not used.
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
   // Of 4 to 32 patches of about twelve triangles, 3 us each. Where few of them are free also of 1 to

@@ -41,6 +41,8 @@ struct CampaignPlan {
   double seconds = 0;
   // Processor time of one case in one configuration; then it hangs: undecided.
   double case_seconds = 10;
+  // Address space of a process that runs cases; then memory fails there. 0: no limit.
+  std::uint64_t case_bytes = std::uint64_t{4} << 30;
   std::uint64_t laws_every = 1;    // every k-th case of a family goes through the laws
   std::uint64_t law_premises = 0;  // each law's premise must hold at least so often
   std::uint64_t fault_cases = 0;   // a planted fault must show within so many cases of a seed

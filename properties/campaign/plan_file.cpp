@@ -40,6 +40,7 @@ class PlanReader {
     BOOST_OUTCOME_TRY(read_strata());
     BOOST_OUTCOME_TRY(read_seconds());
     BOOST_OUTCOME_TRY(read_number("case_seconds", plan_.case_seconds));
+    BOOST_OUTCOME_TRY(read_bytes("case_bytes", plan_.case_bytes));
     BOOST_OUTCOME_TRY(read_number("tetrahedron_seconds", plan_.tetrahedron_seconds));
     BOOST_OUTCOME_TRY(read_number("shrink_share", plan_.shrink_share));
     BOOST_OUTCOME_TRY(read_count("laws_every", plan_.laws_every));
@@ -163,14 +164,35 @@ class PlanReader {
     return boost::outcome_v2::success();
   }
 
+  // As much as --memory takes.
+  corpus::Expected<void> read_bytes(const char* key, std::uint64_t& value) {
+    if (!top_.has(key)) return boost::outcome_v2::success();
+    BOOST_OUTCOME_TRY(field, top_.at(key));
+    constexpr std::uint64_t most = std::uint64_t{1} << 60;
+    if (!field.json().is_number_unsigned() || field.json().get<std::uint64_t>() > most)
+      return field.problem("a whole number of bytes expected");
+    value = field.json().get<std::uint64_t>();
+    return boost::outcome_v2::success();
+  }
+
   static constexpr std::int64_t most_cases = 1'000'000'000;
   static constexpr const char* name_letters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-  static constexpr const char* keys[] = {"schema",       "name",          "about",
-                                         "strata",       "seconds",       "case_seconds",
-                                         "laws_every",   "law_premises",  "fault_cases",
-                                         "fault_seeds",  "shrink_faults", "tetrahedron_seconds",
-                                         "shrink_share", "policy"};
+  static constexpr const char* keys[] = {"schema",
+                                         "name",
+                                         "about",
+                                         "strata",
+                                         "seconds",
+                                         "case_seconds",
+                                         "case_bytes",
+                                         "laws_every",
+                                         "law_premises",
+                                         "fault_cases",
+                                         "fault_seeds",
+                                         "shrink_faults",
+                                         "tetrahedron_seconds",
+                                         "shrink_share",
+                                         "policy"};
   corpus::JsonField top_;
   CampaignPlan plan_;
 };
@@ -216,6 +238,7 @@ std::string plan_text(const CampaignPlan& plan) {
       {"strata", std::move(list)},
       {"seconds", plan.seconds > 0 ? nlohmann::ordered_json(plan.seconds) : nullptr},
       {"case_seconds", plan.case_seconds},
+      {"case_bytes", plan.case_bytes},
       {"laws_every", plan.laws_every},
       {"law_premises", plan.law_premises},
       {"fault_cases", plan.fault_cases},

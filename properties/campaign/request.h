@@ -48,7 +48,7 @@ struct CampaignRequest {
 
   // Of the workers that run its cases.
   WorkerLimits worker_limits() const {
-    return {plan.case_seconds, 0, isolation, isolated, threads};
+    return {plan.case_seconds, plan.case_bytes, isolation, isolated, threads};
   }
 };
 

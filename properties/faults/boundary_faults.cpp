@@ -14,9 +14,10 @@ using detector::Surface;
 // No loops where `is_closed` says so of the number of triangles at each edge.
 template <bool (*is_closed)(const std::vector<std::size_t>&)>
 struct TakenAsClosed : BoundaryHandler {
-  Surface close_up(const detector::TrianglesView& triangles,
-                   Eigen::Index vertex_count) const override {
-    Surface surface = BoundaryHandler::close_up(triangles, vertex_count);
+  Surface close_up(const detector::TrianglesView& triangles, Eigen::Index vertex_count,
+                   detector::PacedStop& pace) const override {
+    Surface surface = BoundaryHandler::close_up(triangles, vertex_count, pace);
+    if (pace.stopped()) return surface;
     std::vector<std::size_t> uses;
     for (std::size_t e = 0; e < surface.mesh.edges.size(); ++e) {
       uses.push_back(surface.mesh.edge_triangles.row(static_cast<std::int32_t>(e)).size());

@@ -88,15 +88,16 @@ struct NeighboursSkipped : FilteredSearch {
 // "Nothing can be hit where there is no area", at t=0 or t=1.
 class ZeroAreaDropped : public FilteredSearch {
  public:
-  void fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1) const override {
-    FilteredSearch::fit(tree, mesh, x_t0, x_t1);
+  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1, detector::PacedStop& pace) const override {
+    if (!FilteredSearch::fit(tree, mesh, x_t0, x_t1, pace)) return false;
     dropped_.resize(mesh.triangles.size());
     for (std::size_t t = 0; t < dropped_.size(); ++t) {
       const auto triangle = static_cast<std::int32_t>(t);
       dropped_[t] = detector::has_zero_area(mesh, x_t0, triangle) ||
                     detector::has_zero_area(mesh, x_t1, triangle);
     }
+    return true;
   }
   bool skips(const Topology&, std::int32_t a, std::int32_t b) const override {
     return dropped_[at(a)] || dropped_[at(b)];
@@ -128,13 +129,14 @@ Box swept_box(const std::array<std::int32_t, 3>& triangle, const PositionsView& 
 // Boxes that only touch do not meet: lost are contacts in their common face.
 class OpenBoxes : public FilteredSearch {
  public:
-  void fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1) const override {
-    FilteredSearch::fit(tree, mesh, x_t0, x_t1);
+  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1, detector::PacedStop& pace) const override {
+    if (!FilteredSearch::fit(tree, mesh, x_t0, x_t1, pace)) return false;
     boxes_.clear();
     for (const auto& triangle : mesh.triangles) {
       boxes_.push_back(swept_box(triangle, x_t0, x_t1));
     }
+    return true;
   }
   bool skips(const Topology&, std::int32_t a, std::int32_t b) const override {
     for (int k = 0; k < 3; ++k) {
@@ -150,20 +152,20 @@ class OpenBoxes : public FilteredSearch {
 
 template <bool end>
 struct StillBoxes : detector::TreeSearch {
-  void fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1) const override {
+  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1, detector::PacedStop& pace) const override {
     const PositionsView& x = end ? x_t1 : x_t0;
-    tree.refit(mesh, x, x);
+    return tree.refit(mesh, x, x, pace);
   }
 };
 
 // K and one round of the closure; what that finds starts no other.
 class SinglePassClosure : public detector::TreeSearch {
  public:
-  void fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1) const override {
-    TreeSearch::fit(tree, mesh, x_t0, x_t1);
+  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1, detector::PacedStop& pace) const override {
     searches_ = 0;
+    return TreeSearch::fit(tree, mesh, x_t0, x_t1, pace);
   }
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
     return ++searches_ > 2 || TreeSearch::search(input, counts, sink);

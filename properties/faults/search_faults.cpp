@@ -120,10 +120,10 @@ class SkippedForOneSet : public detector::TreeSearch {
 // The tree is fitted to the first step that searches, and to no other.
 class FittedOnce : public detector::TreeSearch {
  public:
-  void fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1) const override {
-    if (!fitted_) TreeSearch::fit(tree, mesh, x_t0, x_t1);
-    fitted_ = true;
+  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1, detector::PacedStop& pace) const override {
+    fitted_ = fitted_ || TreeSearch::fit(tree, mesh, x_t0, x_t1, pace);
+    return fitted_;
   }
 
  private:

@@ -15,6 +15,7 @@
 
 #include "properties/worker/channel.h"
 #include "properties/worker/isolation/keeper.h"
+#include "properties/worker/memory_limit.h"
 #include "properties/worker/plugin/plugin_host.h"
 #include "properties/worker/wire_fields.h"
 
@@ -31,7 +32,7 @@ std::optional<std::uint64_t> number(std::string_view word) {
   return value;
 }
 
-// Dies with its host, leaves no core file, prints nothing on stdout; what it prints on a terminal
+// Dies with its host, and before it where memory is short; leaves no core file, prints nothing on stdout; what it prints on a terminal
 // does not stop it, though its process group is in the background there.
 bool settle(std::uint64_t host) {
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
@@ -40,12 +41,8 @@ bool settle(std::uint64_t host) {
   ::signal(SIGTTOU, SIG_IGN);
   const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
+  end_first_without_memory();
   return ::dup2(STDERR_FILENO, STDOUT_FILENO) >= 0;
-}
-
-bool keep_to(std::uint64_t bytes) {
-  const rlimit limit = {bytes, bytes};
-  return bytes == 0 || ::setrlimit(RLIMIT_AS, &limit) == 0;
 }
 
 int serve(Channel channel, const char* plugin_library, std::uint32_t threads = 1) {
@@ -105,7 +102,7 @@ int main(int argc, char** argv) {
     if (channel && host && bytes && settle(*host)) {
       Channel to_host(static_cast<int>(*channel));
       if (words.size() == built_in) {
-        return keep_to(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
+        return limit_memory(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
       }
       const auto mode = isolation_mode_of(words[4]);
       const auto threads = number(words[7]);

@@ -23,6 +23,10 @@ void add_campaign_options(Verb& verb, CampaignWords& words) {
   verb.add("--case-seconds", words.case_seconds,
            "Processor time of one case, in place of the campaign's own (10); then it is undecided")
       .with(positive());
+  add_choice(verb, "--memory", words.memory, "a whole number above 0, alone or with K, M or G",
+             memory_size,
+             "Address space of the process that runs a case, such as 6GB or 512MB, in place of the "
+             "campaign's own (4GB); then memory fails there");
   verb.add("--power", words.power,
            "Folder of a run or certificate of this build: planted faults are proved by it, "
            "not again");
@@ -44,6 +48,7 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
   request.plan = std::move(plan.value());
   if (words.time_limit) request.plan.seconds = *words.time_limit;
   if (words.case_seconds) request.plan.case_seconds = *words.case_seconds;
+  if (words.memory) request.plan.case_bytes = *words.memory;
   request.seed = words.seed;
   request.jobs = words.jobs;
   request.worker = properties::worker_program();

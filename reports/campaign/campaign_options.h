@@ -16,10 +16,11 @@ namespace assay::reports {
 struct CampaignWords {
   std::string campaign;  // a name or a file
   std::uint64_t seed = 1;
-  std::optional<double> time_limit;    // seconds of the clock, in place of the campaign's own
-  std::optional<double> case_seconds;  // of processor time, in place of the campaign's own
-  std::string power;                   // a folder with the proof of planted faults; empty: none
-  std::string own_cases;               // a folder of cases of the detector's owner; empty: none
+  std::optional<double> time_limit;     // seconds of the clock, in place of the campaign's own
+  std::optional<double> case_seconds;   // of processor time, in place of the campaign's own
+  std::optional<std::uint64_t> memory;  // bytes, in place of the campaign's own
+  std::string power;                    // a folder with the proof of planted faults; empty: none
+  std::string own_cases;                // a folder of cases of the detector's owner; empty: none
   DetectorWords detector;
   std::string out;
   int jobs = 1;

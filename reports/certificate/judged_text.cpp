@@ -7,17 +7,24 @@
 
 #include "properties/campaign/plan.h"
 #include "reports/terminal/joined.h"
+#include "reports/terminal/option_words.h"
 
 namespace assay::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of a case, where it is not the usual one.
-std::string case_limit_text(const Json& plan) {
+// Of a case, where they are not the usual ones.
+std::string case_limits_text(const Json& plan) {
+  const properties::CampaignPlan usual;
+  std::string text;
   const double seconds = plan["case_seconds"].get<double>();
-  const bool is_usual = seconds == properties::CampaignPlan().case_seconds;
-  return is_usual ? "" : fmt::format(", at most {} s a case", seconds);
+  if (seconds != usual.case_seconds) text += fmt::format(", at most {} s a case", seconds);
+  const auto bytes = plan["case_bytes"].get<std::uint64_t>();
+  if (bytes != usual.case_bytes)
+    text += bytes == 0 ? ", without a limit of memory"
+                       : fmt::format(", at most {} of memory a case", memory_word(bytes));
+  return text;
 }
 
 // The claims that were judged, and those that were not.
@@ -50,7 +57,7 @@ std::string judged_text(const Json& p) {
       p["isolation"].is_null() ? ""
                                : fmt::format("; isolation {}", p["isolation"].get<std::string>()),
       p["campaign"]["name"].get<std::string>(), p["campaign"]["seed"].get<std::uint64_t>(),
-      case_limit_text(p["campaign"]["plan"]));
+      case_limits_text(p["campaign"]["plan"]));
 }
 
 }  // namespace assay::reports

@@ -32,12 +32,15 @@ bool Limits::exceeded() {
   if (reached_.empty() && bytes_ && resident_bytes() >= *bytes_) {
     constexpr std::uint64_t mebibyte = 1 << 20;
     reached_ = fmt::format("memory limit of {} MiB", *bytes_ / mebibyte);
+    is_out_of_memory_ = true;
   }
   return !reached_.empty();
 }
 
 void Limits::memory_failed() {
-  if (reached_.empty()) reached_ = "memory of this machine";
+  if (!reached_.empty()) return;
+  reached_ = "memory of this machine";
+  is_out_of_memory_ = true;
 }
 
 detector::StopFunction Limits::stop_function() {

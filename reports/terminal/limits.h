@@ -21,6 +21,8 @@ class Limits {
   bool exceeded();
   // "time limit of 10 s" or "memory limit of 512 MiB"; empty before a limit was reached.
   const std::string& reached() const { return reached_; }
+  // Whether what was reached is a limit of memory, the user's or the machine's.
+  bool is_out_of_memory() const { return is_out_of_memory_; }
   // Notes that an allocation failed.
   void memory_failed();
 
@@ -31,6 +33,7 @@ class Limits {
   std::optional<std::uint64_t> bytes_;
   double begin_;  // processor seconds of this process
   std::string reached_;
+  bool is_out_of_memory_ = false;
 };
 
 // Resident memory of this process, and the most that it ever was.

@@ -34,6 +34,14 @@ std::optional<std::uint64_t> memory_size(const std::string& word) {
   return std::nullopt;
 }
 
+std::string memory_word(std::uint64_t bytes) {
+  constexpr std::array<const char*, 4> units = {"", "KB", "MB", "GB"};
+  constexpr std::uint64_t step = 1024;
+  std::size_t unit = 0;
+  for (; unit + 1 < units.size() && bytes > 0 && bytes % step == 0; ++unit) bytes /= step;
+  return fmt::format("{}{}", bytes, units[unit]);
+}
+
 Check positive() {
   return {"NUMBER > 0", [](const std::string& word) {
             const auto number = number_of(word);

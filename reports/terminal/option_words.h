@@ -44,6 +44,8 @@ std::optional<T> whole_number_of(const std::string& word) {
 // "6GB", "6G", "512MB", "1000" (bytes); K or KB, M or MB, G or GB are 2^10, 2^20, 2^30 bytes.
 // Nothing for other words.
 std::optional<std::uint64_t> memory_size(const std::string& word);
+// The word of a number of bytes: "512MB"; "1000".
+std::string memory_word(std::uint64_t bytes);
 
 Check positive();      // a number above 0
 Check whole_number();  // 0 .. 2^64-1

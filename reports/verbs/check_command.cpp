@@ -144,7 +144,7 @@ class Check {
     const auto &x_t0 = start_of(case_, script_[s]), &x_t1 = end_of(case_, script_[s]);
 
     progress.phase("detector");
-    const detector::StepResult result = subject_.answer(s, stop);
+    detector::StepResult result = subject_.answer(s, stop);
     if (result.answer == Answer::error) {
       const auto error = subject_.error_of(result);
       if (error.refused) {
@@ -161,7 +161,7 @@ class Check {
     if (request_.no_oracle) {
       progress.finish();
       fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr, shown_work(s)));
-      return step_json(result, nullptr, 0, nullptr);
+      return json_of(result, nullptr, 0, nullptr);
     }
 
     progress.phase("oracle");
@@ -174,12 +174,22 @@ class Check {
     fmt::print("{}", step_text(s + 1, result, &judgement, oracle_ms, &diff, shown_work(s)));
     if (diff.outcome == Outcome::defect) print_defect(s, diff);
     std::fflush(stdout);
-    auto json = step_json(result, &judgement, oracle_ms, &diff);
+    auto json = json_of(result, &judgement, oracle_ms, &diff);
     if (request_.second_opinion) {
       progress.phase("second opinion");
       json["second_opinion"] = ask_second_opinion(s, judgement, stop, progress);
     }
     return json;
+  }
+
+  // Null where nobody asked for the report, for it takes more memory than what it tells. Of a step
+  // that ended at the limit of memory the pairs found until then are left out for the same reason.
+  nlohmann::ordered_json json_of(detector::StepResult& result,
+                                 const oracle::StepJudgement* judgement, double oracle_ms,
+                                 const properties::StepDiff* diff) const {
+    if (request_.json_file.empty()) return nullptr;
+    if (result.answer == Answer::undecided && limits_.is_out_of_memory()) result.pairs = {};
+    return step_json(result, judgement, oracle_ms, diff);
   }
 
   nlohmann::ordered_json ask_second_opinion(std::size_t s, const oracle::StepJudgement& judgement,

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/ptrace.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
@@ -345,6 +346,19 @@ const std::map<std::string, std::function<void()>>& deeds() {
        [] {
          for (volatile bool forever = true; forever;) {
          }
+       }},
+      {"all-memory-thrown",
+       [] {
+         std::vector<std::vector<char>> all;
+         for (;;) all.emplace_back(std::size_t{1} << 24, 'x');
+       }},
+      // Whether there is a limit: ended by itself, or by a signal.
+      {"limit-of-memory",
+       [] {
+         rlimit limit = {};
+         getrlimit(RLIMIT_AS, &limit);
+         if (limit.rlim_max == RLIM_INFINITY) raise(SIGUSR1);
+         _exit(3);
        }},
       {"all-memory",
        [] {

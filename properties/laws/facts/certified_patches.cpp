@@ -172,8 +172,9 @@ CertifiedPatches TraditionalScheme::certify(const PositionsView& x_t0,
 
 std::set<TrianglePair> TraditionalScheme::candidates(const PositionsView& x_t0,
                                                      const PositionsView& x_t1) {
-  search_->fit(tree_, mesh_, x_t0, x_t1);
-  const auto kept = search_->prepare(mesh_, tree_);
+  detector::PacedStop pace(detector::never_stops);
+  search_->fit(tree_, mesh_, x_t0, x_t1, pace);
+  const auto kept = search_->prepare(mesh_, tree_, pace);
   const detector::Marks marks(tree_);  // normal cones know no view sets
   const detector::PairTables tables = detector::EveryPair().candidates();
   std::set<TrianglePair> found;

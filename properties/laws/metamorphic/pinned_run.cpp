@@ -48,9 +48,9 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
   explicit PinnedBoundary(std::shared_ptr<const BoundaryHandler> otherwise)
       : otherwise_(std::move(otherwise)) {}
 
-  detector::Surface close_up(const detector::TrianglesView& triangles,
-                             Eigen::Index vertex_count) const override {
-    return otherwise_->close_up(triangles, vertex_count);
+  detector::Surface close_up(const detector::TrianglesView& triangles, Eigen::Index vertex_count,
+                             detector::PacedStop& pace) const override {
+    return otherwise_->close_up(triangles, vertex_count, pace);
   }
   std::vector<detector::ApexRule> choose_apexes(const detector::Surface& surface,
                                                 detector::BoundingVolumeTree&,

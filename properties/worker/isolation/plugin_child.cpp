@@ -15,6 +15,7 @@
 #include "properties/worker/isolation/call_filter.h"
 #include "properties/worker/isolation/file_fence.h"
 #include "properties/worker/isolation/namespaces.h"
+#include "properties/worker/memory_limit.h"
 
 namespace assay::properties {
 namespace {
@@ -48,10 +49,7 @@ void limit(const KeptPlugin& kept) {
     const rlimit processes = {most_processes, most_processes};
     ::setrlimit(RLIMIT_NPROC, &processes);
   }
-  if (kept.bytes > 0) {
-    const rlimit bytes = {kept.bytes, kept.bytes};
-    if (::setrlimit(RLIMIT_AS, &bytes) != 0) ::_exit(EXIT_FAILURE);
-  }
+  if (!limit_memory(kept.bytes)) ::_exit(EXIT_FAILURE);
 }
 
 Isolation shut_in(const KeptPlugin& kept, bool in_new_world) {

@@ -79,5 +79,37 @@ TEST(PairContacts, TakeLittleBesideTheResult) {
   EXPECT_LE(most, result + 100 * pairs);
 }
 
+// A list that grows is copied, which a limit of memory has to see before it is done.
+TEST(PairContacts, AskWhileTheyGrowAndLoseNothing) {
+  constexpr std::int32_t count = 200'000;
+  PairContacts contacts;
+  std::uint64_t asked = 0, stopped = 0;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const std::size_t before = contacts.bytes();
+    const std::uint64_t asked_before = asked;
+    bool has_stopped = false;
+    const StopFunction stop = [&] {
+      const bool stops = ++asked % 3 == 0 && !has_stopped;
+      has_stopped = has_stopped || stops;
+      return stops;
+    };
+    while (contacts.is_nearly_full() && !contacts.make_room(stop)) {
+      ++stopped;
+      EXPECT_LT(contacts.bytes(), before + before / 2) << "what was begun is given back";
+    }
+    if (contacts.bytes() > before) {
+      constexpr std::size_t at_once = std::size_t{1} << 20;
+      EXPECT_GE((asked - asked_before) * at_once, contacts.bytes() - before);
+    }
+    PairContact c;
+    c.pair = {count - i, count - i + 1};
+    contacts.add(c);
+  }
+  EXPECT_GT(stopped, 0u);
+  const auto all = contacts.take();
+  ASSERT_EQ(all.size(), std::size_t{count});
+  for (std::int32_t i = 0; i < count; ++i) ASSERT_EQ(all[at(i)].pair.a, i + 1);
+}
+
 }  // namespace
 }  // namespace assay::detector

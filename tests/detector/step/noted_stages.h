@@ -103,10 +103,10 @@ class NotedMarking : public Marking {
 class NotedSearch : public TreeSearch {
  public:
   explicit NotedSearch(Trace& trace) : trace_(trace) {}
-  void fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1) const override {
+  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
+           const PositionsView& x_t1, PacedStop& pace) const override {
     trace_.note("fit");
-    TreeSearch::fit(tree, mesh, x_t0, x_t1);
+    return TreeSearch::fit(tree, mesh, x_t0, x_t1, pace);
   }
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
     trace_.note("search");

@@ -33,9 +33,10 @@ PairSet candidates(const PairSearch& search, const Topology& mesh, const Positio
                    const Positions& x_t1) {
   BoundingVolumeTree tree(mesh, x_t0);
   const PositionsView a = x_t0, b = x_t1;
-  search.fit(tree, mesh, a, b);
+  PacedStop never(never_stops);
+  search.fit(tree, mesh, a, b, never);
   const Marks marks(tree);
-  const auto kept = search.prepare(mesh, tree);
+  const auto kept = search.prepare(mesh, tree, never);
   const PairTables tables = EveryPair().candidates();
   PairSet pairs;
   SearchCounts counts;

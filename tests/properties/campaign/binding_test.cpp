@@ -31,6 +31,9 @@ TEST(Binding, ChangesWithWhatTheTrialsAreOf) {
   other.plan.case_seconds = 11;
   EXPECT_NE(binding_of(other), text);
   other = request;
+  other.plan.case_bytes = 0;
+  EXPECT_NE(binding_of(other), text);
+  other = request;
   other.detector.configurations.pop_back();
   EXPECT_NE(binding_of(other), text);
   other = request;

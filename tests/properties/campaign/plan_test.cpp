@@ -19,8 +19,8 @@ using tests::Scratch;
 const char* const whole_plan = R"({"schema": "assay-campaign/1", "name": "tiny-1.a",
   "strata": [{"family": "closed-generic", "cases": 12, "bound": 0.5},
              {"family": "broken", "cases": 5}],
-  "seconds": 30, "case_seconds": 2.5, "laws_every": 3, "law_premises": 4, "fault_cases": 7,
-  "fault_seeds": 2, "shrink_faults": true, "tetrahedron_seconds": 1.5, "shrink_share": 0.25,
+  "seconds": 30, "case_seconds": 2.5, "case_bytes": 5000000000, "laws_every": 3, "law_premises": 4,
+  "fault_cases": 7, "fault_seeds": 2, "shrink_faults": true, "tetrahedron_seconds": 1.5, "shrink_share": 0.25,
   "policy": {"power": 0.5, "self_test_queries": 9, "speed_limits": {"exact-over-double": 1.5}}})";
 
 class Plans : public testing::Test {
@@ -59,6 +59,7 @@ TEST_F(Plans, AFileSaysAllOfIt) {
   EXPECT_EQ(plan.strata[1].wanted_bound, 0);
   EXPECT_EQ(plan.seconds, 30);
   EXPECT_EQ(plan.case_seconds, 2.5);
+  EXPECT_EQ(plan.case_bytes, 5'000'000'000u);
   EXPECT_EQ(plan.laws_every, 3u);
   EXPECT_EQ(plan.law_premises, 4u);
   EXPECT_EQ(plan.fault_cases, 7u);
@@ -122,6 +123,10 @@ TEST_F(Plans, AWrongFieldIsOneClearLine) {
   expect_wrong("/seconds", "ten", "seconds: a number expected");
   expect_wrong("/second", 10, "no field 'second'");
   expect_wrong("/case_seconds", 0, "case_seconds above 0");
+  expect_wrong("/case_bytes", -1, "case_bytes: a whole number of bytes");
+  expect_wrong("/case_bytes", 1.5, "case_bytes");
+  expect_wrong("/case_bytes", std::uint64_t{1} << 61, "case_bytes");
+  expect_wrong("/case_bytes", "4GB", "case_bytes");
   expect_wrong("/shrink_share", 1.5, "shrink_share");
   expect_wrong("/shrink_faults", 1, "shrink_faults: true or false");
   expect_wrong("/laws_every", -1, "laws_every");

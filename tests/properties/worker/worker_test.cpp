@@ -137,6 +137,19 @@ TEST(Worker, AnExitIsACrash) {
   EXPECT_EQ(runs[0].what, "exited with code 0");
 }
 
+TEST(Worker, EndsBeforeItsHostWhereMemoryIsShort) {
+  WorkerProcess worker(ASSAY_WORKER, std::nullopt);
+  ASSERT_EQ(worker.run(small_case(31, 0), plugin_alone)[0].end, RunEnd::completed);
+  const auto of = [](const std::string& process) {
+    int score = 0;
+    std::ifstream("/proc/" + process + "/oom_score_adj") >> score;
+    return score;
+  };
+  constexpr int first_of_all = 1000;
+  EXPECT_EQ(of(std::to_string(children().at(0))), first_of_all);
+  EXPECT_LT(of("self"), first_of_all);
+}
+
 TEST(Worker, MemoryEndsInUndecided) {
   // 10^6 triangles need more than the limit leaves.
   corpus::Case c;

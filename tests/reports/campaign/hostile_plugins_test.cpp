@@ -98,6 +98,22 @@ TEST_F(HostilePlugin, LimitsOfTheUserAreNoExcuse) {
   EXPECT_TRUE(codes.contains(1) && codes.contains(2)) << "limits that end a run, and that do not";
 }
 
+// Whoever has a limit and runs into it is undecided, or has crashed, and says so.
+TEST_F(HostilePlugin, MemoryEndsInTheWorker) {
+  const auto ended = judge("run", "all-memory", "--memory 100M --case-seconds 2");
+  expect_no_verdict_bought("run", {"all-memory", {1}}, ended);
+  EXPECT_TRUE(contains(ended.out, "exited with code 3")) << ended.out;
+  const auto thrown = judge("run", "all-memory-thrown", "--memory 128M --case-seconds 2");
+  expect_no_verdict_bought("run", {"all-memory-thrown", {3}}, thrown);
+  const auto summary = read_text(out + "/summary.md");
+  EXPECT_TRUE(contains(summary, ", at most 128MB of memory a case")) << summary;
+  // Without the option there is a limit too.
+  const auto asked = judge("run", "limit-of-memory");
+  expect_no_verdict_bought("run", {"limit-of-memory", {1}}, asked);
+  EXPECT_TRUE(contains(asked.out, "exited with code 3")) << asked.out;
+  expect_refused(judge("run", "", "--memory lots"), "'lots'");
+}
+
 // The system does not count those of root.
 TEST_F(HostilePlugin, FewProcessesAreNoExcuse) {
   namespace fs = std::filesystem;

@@ -1,4 +1,5 @@
 // The verbs on scenes, as a user runs them: output, exit codes, JSON.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -139,6 +140,23 @@ TEST_F(Commands, LimitsEndInUndecided) {
     EXPECT_TRUE(report["limit_reached"].is_string());
     EXPECT_EQ(report["steps"].back()["diff"]["partial"], true);
   }
+}
+
+// What lies upon each other makes M^2 / 2 pairs: far more than the limit holds.
+TEST_F(Commands, TheLimitOfMemoryHolds) {
+  constexpr int count = 2000;
+  std::string mesh = fmt::format("OFF\n{} {} 0\n", 3 * count, count);
+  for (int i = 0; i < count; ++i) mesh += "0 0 0\n1 0 0\n0 1 0\n";
+  for (int i = 0; i < count; ++i) mesh += fmt::format("3 {} {} {}\n", 3 * i, 3 * i + 1, 3 * i + 2);
+  const auto a = scratch.write("a.off", mesh), b = scratch.write("b.off", mesh);
+  const auto outcome = run_assay("check --no-oracle --memory 40M --json " + (scratch / "m.json") +
+                                 " " + a + " " + b);
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
+  const auto report = json::parse(read_text(scratch / "m.json"));
+  EXPECT_EQ(report["limit_reached"], "memory limit of 40 MiB");
+  EXPECT_LE(report["peak_memory_bytes"].get<double>(), 1.05 * (40 << 20));
+  EXPECT_EQ(report["steps"][0]["answer"], "undecided");
+  EXPECT_TRUE(report["steps"][0]["pairs"].empty());
 }
 
 TEST_F(Commands, ResultDoesNotDependOnJobs) {

@@ -1,0 +1,166 @@
+// What is made of a mesh, in preprocessing or at the start of a step, asks the stop function after
+// every so much work, and ends where that says so. Counted is the work, not the time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+
+#include "detector/mesh/mesh_checks.h"
+#include "detector/mesh/paced_sort.h"
+#include "detector/mesh/surface.h"
+#include "detector/search/feature_boxes.h"
+#include "detector/search/representatives.h"
+#include "detector/traditional/traditional.h"
+#include "tests/detector/search/search_meshes.h"
+
+namespace assay::detector {
+namespace {
+
+constexpr std::uint64_t interval = 2'000;
+
+// Asks so often that between two askings lies no more than `interval` and a piece of a loop, if its
+// work is at least `work`; and nothing is asked after the answer that ends it.
+void expect_paced(std::uint64_t work, const std::function<void(PacedStop&)>& make) {
+  std::uint64_t asked = 0;
+  const StopFunction count = [&] { return ++asked, false; };
+  PacedStop goes_on(count, interval);
+  make(goes_on);
+  constexpr std::uint64_t largest_piece = 1024 * 25;
+  EXPECT_GE(asked, work / (interval + largest_piece));
+  ASSERT_GE(asked, 3u);
+  const std::uint64_t all = asked;
+  for (const std::uint64_t n : {std::uint64_t{1}, all / 2, all}) {
+    asked = 0;
+    const StopFunction end = [&] { return ++asked >= n; };
+    PacedStop ends(end, interval);
+    make(ends);
+    EXPECT_TRUE(ends.stopped());
+    EXPECT_EQ(asked, n);
+  }
+}
+
+Triangles rows_of(const Topology& mesh) {
+  Triangles rows(static_cast<Eigen::Index>(mesh.triangles.size()), 3);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    rows.row(static_cast<Eigen::Index>(t)) << v[0], v[1], v[2];
+  }
+  return rows;
+}
+
+class Paced : public testing::Test {
+ protected:
+  tests::SearchMeshes random_{7};
+  const tests::MovingMesh mesh_ = random_.sheets(2, 60, false);  // 14,400 triangles
+  const Topology& topology_ = mesh_.topology;
+  const Triangles rows_ = rows_of(topology_);
+  const Eigen::Index vertices_ = mesh_.x_t0.rows();
+  const std::uint64_t count_ = topology_.triangles.size();
+};
+
+TEST(PacedSort, IsStableAndCanBeEnded) {
+  struct Item {
+    int key, place;
+    bool operator==(const Item&) const = default;
+  };
+  std::mt19937_64 engine(3);
+  std::vector<Item> items(20'000), room;
+  int place = 0;
+  for (auto& item : items) item = {static_cast<int>(engine() % 300), place++};
+  auto expected = items;
+  std::stable_sort(expected.begin(), expected.end(),
+                   [](const Item& a, const Item& b) { return a.key < b.key; });
+  const auto key = [](const Item& item) { return item.key; };
+  auto sorted = items;
+  PacedStop never(never_stops);
+  ASSERT_TRUE(sort_by_key(sorted, room, 300, key, never));
+  EXPECT_EQ(sorted, expected);
+  expect_paced(3 * items.size(), [&](PacedStop& pace) {
+    auto some = items;
+    const bool is_done = sort_by_key(some, room, 300, key, pace);
+    EXPECT_EQ(is_done, !pace.stopped());
+  });
+}
+
+TEST_F(Paced, ChecksOfTheMesh) {
+  expect_paced(11 * count_, [&](PacedStop& pace) {
+    const auto problem = check_triangles(rows_, vertices_, pace);
+    EXPECT_EQ(problem.has_value(), pace.stopped());
+    if (problem) {
+      EXPECT_EQ(problem->error, InputError::stopped);
+    }
+  });
+}
+
+TEST_F(Paced, AdjacencyOfAnOpenMesh) {
+  expect_paced(50 * count_, [&](PacedStop& pace) { make_surface(rows_, vertices_, pace); });
+  expect_paced(40 * count_, [&](PacedStop& pace) { make_topology(rows_, vertices_, pace); });
+  expect_paced(10 * count_, [&](PacedStop& pace) { boundary_loops(topology_, pace); });
+}
+
+TEST_F(Paced, LoopsOfASoup) {
+  const auto soup_count = static_cast<Eigen::Index>(count_);
+  Triangles soup(soup_count, 3);
+  for (Eigen::Index t = 0; t < soup_count; ++t) soup.row(t) << 3 * t, 3 * t + 1, 3 * t + 2;
+  expect_paced(100 * count_, [&](PacedStop& pace) { make_surface(soup, 3 * soup_count, pace); });
+}
+
+TEST_F(Paced, TreeAndItsBoxes) {
+  expect_paced(80 * count_, [&](PacedStop& pace) {
+    const BoundingVolumeTree made(topology_, mesh_.x_t0, &pace);
+  });
+  BoundingVolumeTree tree(topology_, mesh_.x_t0);
+  expect_paced(8 * count_, [&](PacedStop& pace) {
+    const bool is_done = tree.refit(topology_, mesh_.x_t0, mesh_.x_t1, pace);
+    EXPECT_EQ(is_done, !pace.stopped());
+  });
+  // What a stop leaves behind does not stay.
+  tree.refit(topology_, mesh_.x_t0, mesh_.x_t1);
+  BoundingVolumeTree fresh(topology_, mesh_.x_t0);
+  fresh.refit(topology_, mesh_.x_t0, mesh_.x_t1);
+  const auto &box = tree.box(BoundingVolumeTree::root), &same = fresh.box(BoundingVolumeTree::root);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(box.lo_t0[k], same.lo_t0[k]);
+    EXPECT_EQ(box.hi_t1[k], same.hi_t1[k]);
+  }
+}
+
+TEST_F(Paced, PointsAndRepresentatives) {
+  expect_paced(3 * count_,
+               [&](PacedStop& pace) { const FeaturePoints points(mesh_.x_t0, mesh_.x_t1, &pace); });
+  expect_paced(6 * count_, [&](PacedStop& pace) { const Representatives all(topology_, &pace); });
+  Representatives some(topology_);
+  const std::vector<TriangleType> types(count_, TriangleType::dirty);
+  std::vector<std::int32_t> changed(count_);
+  for (std::size_t t = 0; t < count_; ++t) changed[t] = static_cast<std::int32_t>(t);
+  expect_paced(24 * count_, [&](PacedStop& pace) {
+    const bool is_done = some.update(topology_, types, changed, &pace);
+    EXPECT_EQ(is_done, !pace.stopped());
+  });
+}
+
+TEST_F(Paced, NormalCones) {
+  const NormalConeSearch search;
+  BoundingVolumeTree tree(topology_, mesh_.x_t0);
+  tree.refit(topology_, mesh_.x_t0, mesh_.x_t1);
+  expect_paced(60 * count_, [&](PacedStop& pace) { search.prepare(topology_, tree, pace); });
+  PacedStop never(never_stops);
+  const auto kept = search.prepare(topology_, tree, never);
+  const Marks marks(tree);
+  const PairTables tables = EveryPair().candidates();
+  const PositionsView x_t0 = mesh_.x_t0, x_t1 = mesh_.x_t1;
+  expect_paced(30 * count_, [&](PacedStop& pace) {
+    SearchCounts counts;
+    const auto sink = [&](std::int32_t, std::int32_t) {
+      EXPECT_FALSE(pace.stopped()) << "a pair after the end";
+      return true;
+    };
+    const SearchInput input{topology_, tree, marks, tables, kept.get(), &x_t0, &x_t1, &pace};
+    const bool is_done = search.search(input, counts, sink);
+    EXPECT_EQ(is_done, !pace.stopped());
+  });
+}
+
+}  // namespace
+}  // namespace assay::detector

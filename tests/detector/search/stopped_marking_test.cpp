@@ -1,0 +1,60 @@
+// A search that is stopped while it brings its memory to new types leaves nothing of that behind.
+#include <gtest/gtest.h>
+
+#include "detector/search/candidate_search.h"
+#include "detector/step/stages.h"
+#include "tests/detector/search/search_meshes.h"
+
+namespace assay::detector {
+namespace {
+
+class StoppedMarking : public testing::Test {
+ protected:
+  struct Found {
+    std::vector<TrianglePair> pairs;
+    std::uint64_t tests = 0;
+    bool operator==(const Found&) const = default;
+  };
+
+  StoppedMarking() { tree_.refit(mesh_.topology, mesh_.x_t0, mesh_.x_t1); }
+
+  CandidateSearch search(SearchMemory& memory, const StopFunction& stop) const {
+    return {stages_, mesh_.topology, tree_, memory, mesh_.x_t0, mesh_.x_t1, stop};
+  }
+  Found found(SearchMemory& memory, std::span<const TriangleType> types) const {
+    auto whole = search(memory, never_stops);
+    EXPECT_TRUE(whole.mark(types) && whole.collect());
+    Found found;
+    for (const auto& contact : whole.take_contacts()) found.pairs.push_back(contact.pair);
+    found.tests = whole.narrow_counts().elementary_tests;
+    return found;
+  }
+
+  tests::SearchMeshes random_{11};
+  const tests::MovingMesh mesh_ = random_.sheets(2, 68, false);  // 18,496 triangles
+  const Stages standard_ = standard_stages({Culling::view_point});
+  const SearchStages stages_{*standard_.pair_rule, *standard_.marking, *standard_.pair_search,
+                             *standard_.elementary};
+  BoundingVolumeTree tree_{mesh_.topology, mesh_.x_t0};
+};
+
+TEST_F(StoppedMarking, IsForgotten) {
+  std::vector<TriangleType> types(mesh_.topology.triangles.size());
+  for (auto& type : types) type = random_.below(30) ? TriangleType::negative : TriangleType::zero;
+  SearchMemory fresh(mesh_.topology, tree_);
+  const Found expected = found(fresh, types);
+  ASSERT_GT(expected.pairs.size(), 0u);
+  int stopped = 0;
+  for (std::uint64_t n = 1; n < 4; ++n) {
+    SearchMemory memory(mesh_.topology, tree_);
+    std::uint64_t asked = 0;
+    const StopFunction stop = [&] { return ++asked == n; };
+    stopped += !search(memory, stop).mark(types);
+    EXPECT_LE(asked, n);
+    EXPECT_EQ(found(memory, types), expected) << n;
+  }
+  EXPECT_GE(stopped, 2);
+}
+
+}  // namespace
+}  // namespace assay::detector
