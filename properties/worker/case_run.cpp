@@ -7,6 +7,7 @@
 #include "properties/faults/fault.h"
 #include "properties/words.h"
 #include "properties/worker/case_player.h"
+#include "properties/worker/run_clock.h"
 
 namespace assay::properties {
 
@@ -66,10 +67,14 @@ bool same_result(const StepResult& a, const StepResult& b) {
 
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try {
   CaseRun run;
+  RunClock clock(configuration.is_timed);
   auto made = CasePlayer::make(c, configuration.options, stages_of(configuration));
   if (!made) return {RunEnd::refused, made.error().message, {}};
+  clock.created();
   for (std::size_t s = 0; s < made.value().steps(); ++s) {
+    clock.begin();
     run.steps.push_back(run_step(made.value(), s));
+    clock.answered();
     const auto& result = run.steps.back();
     if (result.problem && run.what.empty()) {
       run.what = "step " + std::to_string(s + 1) + ": " + result.problem->message;
@@ -79,6 +84,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
       run.what = "step " + std::to_string(s + 1) + ": out of memory";
     }
   }
+  run.times = clock.take();
   return run;
 } catch (const std::bad_alloc&) {
   return out_of_memory();

@@ -17,6 +17,14 @@ struct Configuration {
   std::string name;
   detector::Options options;
   std::string fault = {};  // the planted fault to plant in it (faults/fault.h), or empty
+  bool is_timed = false;   // whether CaseRun::times is asked for
+};
+
+// Processor seconds of the process that ran a case, with all of its threads, by its own clock: for
+// benches. A plug-in shares that process and could say what it likes, so nothing is judged by it.
+struct RunTimes {
+  double create = 0;
+  std::vector<double> steps;  // one for each: to its answer, and committed where the script says so
 };
 
 enum class RunEnd : std::uint8_t {
@@ -45,8 +53,10 @@ struct CaseRun {
   // Whether its steps have answers. A library of candidates alone has none: a step of its is
   // undecided, or an error.
   bool has_answers = true;
+  // Of a completed run that was asked for it.
+  std::optional<RunTimes> times = {};
 
-  // Of the circumstances, filled in by the host; same_answers() does not look at them.
+  // Of the circumstances, filled in by the host; same_answers() looks neither at them nor at times.
 
   // How often the worker was killed from outside while this run was under way, which was then
   // repeated, or before it began.

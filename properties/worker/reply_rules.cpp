@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "detector/mesh/problem.h"
@@ -128,7 +129,9 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run,
       break;
     case RunEnd::refused:
     case RunEnd::out_of_memory:
-      return run.steps.empty() && run.candidates.empty() ? "" : "steps of a case that was not run";
+      return run.steps.empty() && run.candidates.empty() && !run.times
+                 ? ""
+                 : "steps of a case that was not run";
     default:
       return fmt::format("that it {}, which only the host can say", name_of(run.end));
   }
@@ -138,6 +141,14 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run,
   }
   for (const auto& result : run.steps) {
     if (auto broken = broken_rule(result, c.triangles.rows()); !broken.empty()) return broken;
+  }
+  if (run.times) {
+    const auto is_time = [](double seconds) { return 0 <= seconds && std::isfinite(seconds); };
+    const auto& of_steps = run.times->steps;
+    if (of_steps.size() != steps || !is_time(run.times->create) ||
+        !std::all_of(of_steps.begin(), of_steps.end(), is_time)) {
+      return "times that are none";
+    }
   }
   return broken_rule_of_parts(run, description, c.triangles.rows());
 }

@@ -88,16 +88,22 @@ void fields(Wire& wire, detector::StepResult& result) {
 }
 
 template <class Wire>
+void fields(Wire& wire, RunTimes& times) {
+  auto& [create, steps] = times;
+  wire(create, steps);
+}
+
+template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
   // The last two are the host's to say.
-  auto& [end, what, steps, candidates, has_answers, disturbances, processor_seconds] = run;
-  wire(end, what, steps, candidates, has_answers);
+  auto& [end, what, steps, candidates, has_answers, times, disturbances, processor_seconds] = run;
+  wire(end, what, steps, candidates, has_answers, times);
 }
 
 template <class Wire>
 void fields(Wire& wire, Configuration& configuration) {
-  auto& [name, options, fault] = configuration;
-  wire(name, options, fault);
+  auto& [name, options, fault, is_timed] = configuration;
+  wire(name, options, fault, is_timed);
 }
 
 template <class Wire>

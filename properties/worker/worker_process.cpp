@@ -203,7 +203,10 @@ struct WorkerProcess::Parts {
       }
       RunReply reply;
       if (transfer == Transfer::done || transfer == Transfer::too_long) {
-        const auto rule = broken_rule_of(transfer, message, c, {number, i, {}}, reply);
+        auto rule = broken_rule_of(transfer, message, c, {number, i, {}}, reply);
+        if (rule.empty() && reply.run.end == RunEnd::completed &&
+            reply.run.times.has_value() != rest[i].is_timed)
+          rule = "times that nobody asked for, or none";
         if (!rule.empty()) {
           meddled(watch, rule, runs);
           return;

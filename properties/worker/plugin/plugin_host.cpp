@@ -11,6 +11,7 @@
 #include "properties/printable.h"
 #include "properties/worker/plugin/plugin_result.h"
 #include "properties/worker/plugin/plugin_table.h"
+#include "properties/worker/run_clock.h"
 
 namespace assay::properties {
 
@@ -126,7 +127,7 @@ std::vector<QueryAnswer> PluginHost::ask(std::span<const detector::FourPoints> q
   return answers;
 }
 
-CaseRun PluginHost::run(const corpus::Case& c) const {
+CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   const auto& parts = description_.parts;
   if (!parts.steps && !parts.candidates) return {RunEnd::refused, "it takes no steps", {}};
   std::vector<detector::Positions> frames;
@@ -139,9 +140,11 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
   }
   assay_handle* handle = nullptr;
   const char* message = nullptr;
+  RunClock clock(is_timed);
   const std::int32_t code = table_.create(
       c.triangles.data(), static_cast<std::uint64_t>(c.triangles.rows()), frames.front().data(),
       static_cast<std::uint64_t>(frames.front().rows()), &handle, &message);
+  clock.created();
   if (code == ASSAY_OUT_OF_MEMORY) return out_of_memory();
   if (code != ASSAY_OK || !handle) {
     std::string what = line_of(message);
@@ -176,6 +179,7 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
         without_candidates = pairs.error();
       }
     }
+    clock.begin();
     if (parts.steps) {
       auto answered = plugin.step(x_t0, x_t1, step.commit);
       if (answered) {
@@ -184,8 +188,10 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
         fail(answered.error());
       }
     }
+    clock.answered();
     if (without_candidates) fail(*without_candidates);
   }
+  run.times = clock.take();
   return run;
 }
 
