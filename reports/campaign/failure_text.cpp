@@ -8,6 +8,7 @@
 #include "corpus/atomic_file.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "properties/reducer/mesh_size.h"
+#include "reports/check/plugin_text.h"
 #include "reports/pictures/scene_maker.h"
 #include "reports/terminal/shell_word.h"
 
@@ -75,6 +76,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
         picture_file((out / shown_file).string()), replay_line(out, shown_file, detector));
+    report.text += printed_text(failure.printed);
   }
   return report;
 }

@@ -11,6 +11,7 @@
 #include "reports/check/check_outcome.h"
 #include "reports/check/check_report.h"
 #include "reports/check/claims_tally.h"
+#include "reports/check/plugin_text.h"
 #include "reports/check/subject.h"
 #include "reports/check/timed_oracle.h"
 #include "reports/steps/second_opinion_text.h"
@@ -77,6 +78,7 @@ class Check {
     }
     outcome_.limit_reached = limits_.reached();
     if (!request_.no_oracle) tally_.tell(outcome_, subject_.steps_left_out());
+    if (outcome_.defect || outcome_.undecided) fmt::print("{}", printed_text(subject_.printed()));
     fmt::print("{}", outcome_.summary());
     if (!request_.json_file.empty()) {
       const auto report = check_report(request_.files, mesh_, subject_, outcome_, std::move(steps));

@@ -26,8 +26,9 @@ struct StoredFailure {
   std::string id;  // of the trial
   std::string configuration, signature, what;
   std::string mesh;
-  std::string smallest;  // empty: not shrunk
-  bool flaky = false;    // two runs of it differ: a failure of its own
+  std::string smallest;      // empty: not shrunk
+  bool flaky = false;        // two runs of it differ: a failure of its own
+  std::string printed = {};  // by a plug-in when it failed, in printable lines; two runs may differ
 };
 
 // Of a broken law the signature is "law L3_...", and `configuration` is "view-point, law L3_...",

@@ -56,6 +56,7 @@ class FailureList {
   Json shown(const properties::StoredFailure& failure) {
     Json json = {{"stage", nullptr}, {"now", nullptr},       {"scene", nullptr},
                  {"svg", nullptr},   {"not_shown", nullptr}, {"others", Json::array()}};
+    json["printed"] = failure.printed.empty() ? Json() : Json(failure.printed);
     const auto mesh = corpus::parse_case(failure.smallest.empty() ? failure.mesh : failure.smallest,
                                          "stored failure");
     if (!mesh) {

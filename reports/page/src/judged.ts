@@ -1,7 +1,7 @@
 // What the verdict is about: the detector's claims, under which contract, how a plug-in was kept
 // apart, the campaign; and what a plug-in does whatever it claims.
 import { html, section, table } from "./dom";
-import type { Rate, Run, TimesOff } from "./report";
+import type { Measures, Rate, Run, TimesOff } from "./report";
 import { count } from "./words";
 
 // Configurations that claim the same are one line.
@@ -50,10 +50,15 @@ const percent = (x: number): string => `${(100 * x).toPrecision(2)} %`;
 const off = ({ steps, median, p99, worst }: TimesOff): string =>
   steps === 0 ? "none" : `${count(steps)}: ${[median, p99, worst].map((x) => x.toPrecision(2)).join(", ")}`;
 
+// Beside the least possible: the pairs in contact.
+const candidatesText = ({ steps, given, least, over_least }: Measures["candidates"]): string =>
+  steps === 0 ? "\u2013" : `${count(given)} of ${count(least)}` + (least === 0 ? "" : `: ${over_least.toPrecision(3)} times`);
+
 // What a plug-in does, be it claimed or not.
 function measures(run: Run): HTMLElement[] {
   if (run.measures.length === 0) return [];
   type Row = Run["measures"][number];
+  const gives = run.measures.some(({ measures }) => measures.candidates.steps > 0);
   return [
     html("p", {}, "Counted whatever is claimed. Intervals have a confidence of 95 %; times are shares of the step, given as median, 99 of 100, and worst."),
     table(
@@ -65,6 +70,7 @@ function measures(run: Run): HTMLElement[] {
         { head: "spurious pairs a step", cell: (r: Row) => r.measures.spurious_pairs_a_step.toPrecision(2), number: true },
         { head: "late", cell: (r: Row) => off(r.measures.late), number: true },
         { head: "early", cell: (r: Row) => off(r.measures.early), number: true },
+        ...(gives ? [{ head: "candidates, of at least", cell: (r: Row) => candidatesText(r.measures.candidates), number: true }] : []),
         { head: "left out: cases, steps", cell: (r: Row) => `${count(r.measures.left_out.cases_redrawn)}, ${count(r.measures.left_out.steps)}`, number: true },
       ],
       run.measures,

@@ -66,6 +66,7 @@ export interface Failure {
   scene: Scene | null;
   svg: string | null;
   not_shown: string | null;
+  printed: string | null; // by a plug-in when it failed
   others: { id: string; configuration: string; what: string; replay: string }[];
 }
 
@@ -210,6 +211,8 @@ export interface Measures {
   without_time: number;
   late: TimesOff;
   early: TimesOff;
+  // Of a broad phase: candidate pairs in these steps, and the pairs in contact in them.
+  candidates: { steps: number; given: number; least: number; over_least: number };
   left_out: { cases_redrawn: number; steps: number; would_be_misses: number };
 }
 

@@ -54,6 +54,26 @@ TEST_F(ForeignDetector, TheRateOfItsAlarmsIsToldWhateverItClaims) {
   EXPECT_TRUE(contains(text, "\"false_alarms\":{\"of\":" + std::to_string(first)));
 }
 
+TEST_F(ForeignDetector, WhatItPrintsStandsWithItsFailuresAndNowhereElse) {
+  const auto ran =
+      judge("run", std::string(modest) + "miss-inside print=2", plan_text(8), "--jobs 1");
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_FALSE(contains(ran.err, "line 1 of")) << ran.err;
+  const auto said = ran.out.find("  it printed:\n    line 1 of ?[31m");
+  ASSERT_NE(said, std::string::npos) << ran.out;
+  EXPECT_LT(ran.out.find("DEFECT free-sound: answered free"), said);
+  EXPECT_FALSE(contains(ran.out, "\x1b")) << "escape characters do no harm";
+  const auto failures = properties::read_findings(out).value().failures;
+  ASSERT_FALSE(failures.empty());
+  for (const auto& failure : failures)
+    EXPECT_TRUE(contains(failure.printed, "line 2 of ?[31m")) << failure.id;
+  EXPECT_TRUE(contains(run_assay("list failures " + out).out, "  it printed:\n"));
+  const auto replayed = run_assay(replay_lines(ran.out).front(),
+                                  "ASSAY_BY_CONTRACT='claims=131 miss-inside print=2' ");
+  EXPECT_EQ(replayed.exit_code, 1);
+  EXPECT_TRUE(contains(replayed.out, "  it printed:\n    line 1 of ?[31m")) << replayed.out;
+}
+
 TEST_F(ForeignDetector, NoCertificateNamesWhatNobodyJudged) {
   // It always answers collision at [0, 1], under the widest contract that loads.
   const auto made =
