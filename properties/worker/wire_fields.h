@@ -148,8 +148,8 @@ void fields(Wire& wire, KeeperHello& hello) {
 template <class Wire>
 void fields(Wire& wire, PluginDescription& description) {
   auto& [name, version, claims, contract, parts] = description;
-  auto& [steps, query, candidates] = parts;
-  wire(name, version, claims, contract, steps, query, candidates);
+  auto& [steps, query, candidates, takes_threads] = parts;
+  wire(name, version, claims, contract, steps, query, candidates, takes_threads);
 }
 
 template <class Wire>

@@ -39,6 +39,9 @@ inline constexpr std::string_view law_in_signature = "law ", law_in_configuratio
 // id begins so: the name of a campaign has no '/'.
 inline constexpr std::string_view corpus_in_id = "corpus/";
 
+// The same of a large mesh on which two runs differ.
+inline constexpr std::string_view repeated_in_id = "repeated/";
+
 // What the mesh of a failure says of itself: "all-pairs: missing pair, edge-edge; triangles 0 and
 // 1 meet at 0.5", and back: what stands behind the signature, of the smallest mesh where there is
 // one.

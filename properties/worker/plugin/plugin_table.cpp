@@ -110,7 +110,7 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
       has(ASSAY_CLAIM_FIRST_PAIRS),   has(ASSAY_CLAIM_ALL_PAIRS), has(ASSAY_CLAIM_NO_SPURIOUS),
       has(ASSAY_CLAIM_DETERMINISTIC), has(ASSAY_CLAIM_TOTAL),     has(ASSAY_CLAIM_CANDIDATES)};
   description.parts = {table.evaluate != nullptr, table.query != nullptr,
-                       table.candidates != nullptr};
+                       table.candidates != nullptr, table.use_threads != nullptr};
   if (description.claims.candidates && !description.parts.candidates)
     return broken("it claims candidates, and has no such function");
   if (description.parts.candidates && !description.claims.candidates)

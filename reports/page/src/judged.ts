@@ -1,7 +1,7 @@
 // What the verdict is about: the detector's claims, under which contract, how a plug-in was kept
 // apart, the campaign; and what a plug-in does whatever it claims.
 import { html, section, table } from "./dom";
-import type { Measures, Rate, Run, TimesOff } from "./report";
+import type { Measures, Rate, Repetition, Run, TimesOff } from "./report";
 import { count } from "./words";
 
 // Configurations that claim the same are one line.
@@ -13,6 +13,17 @@ function claimsOf(run: Run): string[] {
   }
   if (groups.size === 1) return [...groups.keys()];
   return [...groups].map(([claims, names]) => `${names.join(", ")}: ${claims}`);
+}
+
+// Large meshes on which the plug-in was run again and again.
+function repeated(list: Repetition[]): string[] {
+  const most = Math.max(...list.map((one) => one.triangles));
+  const threads = Math.max(...list.flatMap((one) => one.threads), 1);
+  const differing = list.filter((one) => one.broken).length;
+  return [
+    `${count(list.length)} sequences of up to ${count(most)} triangles, with up to ${threads} threads: ${differing === 0 ? "no two runs differ" : `runs differ on ${differing}`}`,
+    ...list.filter((one) => one.what !== "").map((one) => `${one.input}: ${one.what}`),
+  ];
 }
 
 const isolations: Record<string, string> = {
@@ -29,6 +40,7 @@ export function judged(run: Run): HTMLElement {
       : ([["Not judged", run.not_judged.map(({ claim, reason }) => `${claim}: ${reason}`)]] as [string, string[]][])),
     ["Contract", [contract.leaves_out.length === 0 ? "leaves nothing out" : contract.leaves_out.join(", ")]],
     ...(run.isolation === null ? [] : ([["Isolation", [isolations[run.isolation] ?? run.isolation]]] as [string, string[]][])),
+    ...(run.repeated === null ? [] : ([["Repeated", repeated(run.repeated)]] as [string, string[]][])),
     ["Campaign", [`${run.campaign}, seed ${run.seed}`]],
   ];
   return section(

@@ -101,6 +101,14 @@ TEST_F(Parts, ABroadPhaseIsCertifiedAndItsMissesAreShrunk) {
   const auto replayed = run_assay(lines[0]);
   EXPECT_EQ(replayed.exit_code, 1) << lines[0] << replayed.out << replayed.err;
   EXPECT_TRUE(contains(replayed.out, "DEFECT candidates: missing candidate")) << replayed.out;
+  const auto page =
+      with("ASSAY_CANDIDATES", "ends-only", "report " + out("wrong") + " --out " + out("page"));
+  ASSERT_EQ(page.exit_code, 0) << page.err;
+  // The page tells what is no candidate, and never that a pair is missing.
+  const auto text = read_text(out("page"));
+  EXPECT_TRUE(contains(text, R"("reports_pairs":false)"));
+  EXPECT_TRUE(contains(text, R"("candidates":[[)"));
+  EXPECT_TRUE(contains(text, R"("over_least":)"));
 }
 
 TEST_F(Parts, LabelledQueriesAreScoredAndJudged) {
