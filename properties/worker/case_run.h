@@ -50,6 +50,8 @@ struct CaseRun {
   std::vector<detector::StepResult> steps;
   // One for each step, of a plug-in that claims candidates: ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
+  // Why a step has no answer, "step 2: ..."; empty for one that has, and no list where all have.
+  std::vector<std::string> errors = {};
   // Whether its steps have answers. A library of candidates alone has none: a step of its is
   // undecided, or an error.
   bool has_answers = true;
@@ -73,6 +75,11 @@ struct CaseRun {
 // culling is one of views (its q0 alone for view-point). A step that runs out of memory is
 // undecided. Runs in this process: what the detector does to it, it does to the caller.
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
+
+// Adds to the errors of step s, and to `what` where that says nothing yet.
+void note_error(CaseRun& run, std::size_t s, const std::string& what);
+// Why step s has no answer; empty where nothing is said of it.
+std::string error_of(const CaseRun& run, std::size_t s);
 
 // The run of a case that did not fit into memory.
 CaseRun out_of_memory();

@@ -96,9 +96,9 @@ void fields(Wire& wire, RunTimes& times) {
 template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
   // The last three are the host's to say.
-  auto& [end, what, steps, candidates, has_answers, times, disturbances, processor_seconds,
+  auto& [end, what, steps, candidates, errors, has_answers, times, disturbances, processor_seconds,
          printed] = run;
-  wire(end, what, steps, candidates, has_answers, times);
+  wire(end, what, steps, candidates, errors, has_answers, times);
 }
 
 template <class Wire>

@@ -78,7 +78,10 @@ class Plugin : public Subject {
     return s < runs_[0].steps.size() ? runs_[0].steps[s] : not_reached();
   }
 
-  StepError error_of(const StepResult&) const override { return {runs_[0].what, false}; }
+  StepError error_of(std::size_t s, const StepResult&) const override {
+    const auto error = properties::error_of(runs_[0], s);
+    return {error.empty() ? runs_[0].what : error, false};
+  }
 
   oracle::AskedFeatures asked() const override {
     return properties::asked_features(description_.contract);

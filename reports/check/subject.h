@@ -48,7 +48,7 @@ class Subject {
     std::string message;
     bool refused = false;
   };
-  virtual StepError error_of(const detector::StepResult& result) const = 0;
+  virtual StepError error_of(std::size_t step, const detector::StepResult& result) const = 0;
 
   // What the oracle is to be asked for.
   virtual oracle::AskedFeatures asked() const { return oracle::AskedFeatures::all; }

@@ -147,13 +147,15 @@ class Check {
 
     progress.phase("detector");
     const detector::StepResult result = subject_.answer(s, stop);
+    std::string told_error;
     if (result.answer == Answer::error) {
-      const auto error = subject_.error_of(result);
+      const auto error = subject_.error_of(s, result);
       if (error.refused) {
         refused_ = fmt::format("step {}: {}", s + 1, error.message);
         return {};
       }
       if (outcome_.ended.empty()) outcome_.ended = error.message;
+      told_error = fmt::format("  {}\n", error.message);
     }
     if (result.answer == Answer::collision && !outcome_.collision_step) {
       outcome_.collision_step = s;
@@ -162,7 +164,7 @@ class Check {
     outcome_.undecided |= subject_.has_answers() && result.answer == Answer::undecided;
     if (request_.no_oracle) {
       progress.finish();
-      fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr, shown_work(s)));
+      fmt::print("{}{}", step_text(s + 1, result, nullptr, 0, nullptr, shown_work(s)), told_error);
       return step_json(result, nullptr, 0, nullptr);
     }
 
@@ -173,7 +175,8 @@ class Check {
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
     tally_.add(diff, result, judgement);
-    fmt::print("{}", step_text(s + 1, result, &judgement, oracle_ms, &diff, shown_work(s)));
+    fmt::print("{}{}", step_text(s + 1, result, &judgement, oracle_ms, &diff, shown_work(s)),
+               told_error);
     if (diff.outcome == Outcome::defect) print_defect(s, diff);
     std::fflush(stdout);
     auto json = step_json(result, &judgement, oracle_ms, &diff);

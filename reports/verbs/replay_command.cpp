@@ -129,6 +129,8 @@ void print_run(const properties::Configuration& configuration, const properties:
     const auto& result = run.steps[s];
     if (s < run.candidates.size() && run.candidates[s])
       fmt::print("  step {}: {} candidate pairs\n", s + 1, run.candidates[s]->size());
+    const auto error = error_of(run, s);
+    if (!error.empty()) fmt::print("  {}\n", error);
     if (!run.has_answers) continue;
     fmt::print("  step {}: {}{}, {} pairs{}\n", s + 1, properties::name_of(result.answer),
                result.answer == detector::Answer::collision

@@ -49,6 +49,10 @@ class PluginRun {
     assay_result raw = {};
     const auto asked = called("result", api_.result(handle_.get(), &raw));
     if (!asked) return asked.error();
+    if (raw.answer == ASSAY_ERROR && !(raw.message && *raw.message)) {
+      if (auto text = text_of_error(api_); !text.empty())
+        return Problem{ProblemKind::step_failed, std::move(text)};
+    }
     auto result = step_result(raw, triangle_count_, reports_pairs_);
     if (!result) return result;
     const Answer answer = result.value().answer;
@@ -61,11 +65,10 @@ class PluginRun {
 
  private:
   // Whether the call did its work.
-  static Expected<void> called(const char* function, std::int32_t code) {
+  Expected<void> called(const char* function, std::int32_t code) const {
     if (code == ASSAY_OK) return boost::outcome_v2::success();
     if (code == ASSAY_OUT_OF_MEMORY) return Problem{ProblemKind::out_of_memory, "out of memory"};
-    return Problem{ProblemKind::step_failed,
-                   std::string(function) + " returned " + std::to_string(code)};
+    return Problem{ProblemKind::step_failed, text_of_code(api_, function, code)};
   }
 
   const assay_detector_api& api_;
@@ -123,6 +126,11 @@ std::vector<QueryAnswer> PluginHost::ask(std::span<const detector::FourPoints> q
         table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
                      x_t0.data(), x_t1.data(), &raw);
     answers.push_back(query_answer(code, raw));
+    auto& what = answers.back().what;
+    if (code != ASSAY_OK && code != ASSAY_OUT_OF_MEMORY) what = text_of_code(table_, "query", code);
+    if (code == ASSAY_OK && raw.answer == ASSAY_ERROR) {
+      if (auto text = text_of_error(table_); !text.empty()) what = std::move(text);
+    }
   }
   return answers;
 }
@@ -148,7 +156,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   if (code == ASSAY_OUT_OF_MEMORY) return out_of_memory();
   if (code != ASSAY_OK || !handle) {
     std::string what = line_of(message);
-    if (what.empty()) what = "create returned " + std::to_string(code);
+    if (what.empty()) what = text_of_code(table_, "create", code);
     return {RunEnd::refused, std::move(what), {}};
   }
   PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
@@ -164,9 +172,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
       result = {};
       result.answer =
           problem.kind == ProblemKind::out_of_memory ? Answer::undecided : Answer::error;
-      if (!run.what.empty()) return;
-      run.what =
-          "step " + std::to_string(run.steps.size()) + ": " + line_of(problem.message.c_str());
+      note_error(run, run.steps.size() - 1, line_of(problem.message.c_str()));
     };
     // Before the step is evaluated: nothing may stand between that and its commit.
     std::optional<Problem> without_candidates;

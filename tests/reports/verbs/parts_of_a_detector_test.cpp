@@ -107,7 +107,7 @@ TEST_F(Parts, ABroadPhaseIsCertifiedAndItsMissesAreShrunk) {
   // The page tells what is no candidate, and never that a pair is missing.
   const auto text = read_text(out("page"));
   EXPECT_TRUE(contains(text, R"("reports_pairs":false)"));
-  EXPECT_TRUE(contains(text, R"("candidates":[[)"));
+  EXPECT_TRUE(contains(text, R"("candidates":[)"));
   EXPECT_TRUE(contains(text, R"("over_least":)"));
 }
 
