@@ -66,8 +66,8 @@ struct CaseRun {
   // What it took: processor time of the worker with its threads, and with the processes that it
   // started where the run was long enough to look at them (processor_time.h). Of the last attempt.
   double processor_seconds = 0;
-  // What a plug-in printed meanwhile, the last lines of it (printed_words.h); nothing with isolation
-  // none, nor of a query that was asked together with others.
+  // What a plug-in printed meanwhile, the last lines of it (isolation/printed_words.h); nothing
+  // with isolation none, nor of a query that was asked together with others.
   std::string printed = {};
 };
 

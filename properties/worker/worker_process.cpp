@@ -9,8 +9,8 @@
 
 #include "properties/worker/channel.h"
 #include "properties/worker/child_process.h"
+#include "properties/worker/isolation/printed_words.h"
 #include "properties/worker/isolation/scratch_folder.h"
-#include "properties/worker/printed_words.h"
 #include "properties/worker/reply_rules.h"
 #include "properties/worker/wire_fields.h"
 #include "properties/worker/worker_watch.h"

@@ -12,7 +12,7 @@ namespace assay::reports {
 // A C++ file of its own: the four points at both ends of the step, the exact answer, its time as
 // decimals and as fractions; a function that is left to be filled in, and a main() that compares.
 // Exit codes of it: 0 right, 1 wrong, 2 not filled in. REQUIRES the case of a query
-// (query_case.h) and its judgement.
+// (properties/worker/plugin/query_case.h) and its judgement.
 std::string plain_query_text(const corpus::Case& c, const properties::Contract& contract,
                              const oracle::StepJudgement& truth);
 

@@ -5,6 +5,7 @@
 
 #include "reports/bench/detector/detector_suite.h"
 #include "reports/bench/suites.h"
+#include "reports/check/plugin_text.h"
 #include "reports/pictures/gnuplot.h"
 #include "reports/pictures/pictures.h"
 #include "reports/terminal/complaint.h"
@@ -99,7 +100,11 @@ int run_bench(const BenchRequest& request) try {
   const auto measured = measure(request);
   if (!measured) return refuse(measured.error());
   const auto& report = measured.value();
-  fmt::print("suite {}, data {}\n{}", report.suite, request.data, text_of(report));
+  fmt::print("suite {}, data {}\n", report.suite, request.data);
+  if (const auto& own = report.detector)
+    fmt::print("{}\n", plugin_text(own->name + " " + own->version, own->claims, own->contract,
+                                   own->isolation, own->threads));
+  fmt::print("{}", text_of(report));
   const auto write = [](const std::string& file, const std::string& text) {
     auto written = write_text_file(file, text);
     if (written) fmt::print("wrote {}\n", file);

@@ -12,7 +12,7 @@
 //   abort-outside                            aborts when a step of the wrong contract is put to it
 //   whenever                                 collision at [0, 1] in every step
 //   with-pairs                               gives pairs, whatever it says
-//   print=N                                  prints N lines a step, with characters that may do harm
+//   print=N                                  prints N lines a step, with an escape character
 #include <algorithm>
 #include <charconv>
 #include <cstdio>

@@ -19,8 +19,8 @@ class CampaignObserver {
   virtual ~CampaignObserver() = default;
   // First of all: so many trials are in the store already.
   virtual void on_begin(std::uint64_t /*trials*/) {}
-  // "trials", "repetitions", "shrinking", "slow cases", "faults", "tetrahedron": what begins now. The first is
-  // told after the canary.
+  // "trials", "repetitions", "shrinking", "slow cases", "faults", "tetrahedron": what begins now.
+  // The first is told after the canary.
   virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}

@@ -18,7 +18,7 @@
 #include "properties/worker/child_process.h"
 #include "properties/worker/isolation/namespaces.h"
 #include "properties/worker/isolation/plugin_child.h"
-#include "properties/worker/printed_words.h"
+#include "properties/worker/isolation/printed_words.h"
 #include "properties/worker/wire_fields.h"
 
 namespace assay::properties {

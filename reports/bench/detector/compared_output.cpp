@@ -7,7 +7,6 @@
 
 #include "properties/campaign/stored/contract_json.h"
 #include "reports/bench/speed_error/error_output.h"
-#include "reports/check/plugin_text.h"
 #include "reports/terminal/joined.h"
 
 namespace assay::reports {
@@ -69,10 +68,8 @@ Json json_of(const PluginErrors& e) {
 
 std::string text_of(const ComparedDetector& detector, std::span<const ComparedSequence> sequences) {
   auto text = fmt::format(
-      "{}\nbeside the built-in detector, view-auto, exact, {} pairs; processor time in ms with all "
+      "beside the built-in detector, view-auto, exact, {} pairs; processor time in ms with all "
       "threads, medians\n",
-      plugin_text(detector.name + " " + detector.version, detector.claims, detector.contract,
-                  detector.isolation, detector.threads),
       detector.claims.all_pairs ? "all" : "first");
   text += fmt::format(compared_row, "sequence", "triangles", "steps", "a step", "built-in",
                       "over built-in", "create", "built-in", "over built-in", "unsafe", "alarms",

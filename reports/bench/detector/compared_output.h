@@ -9,8 +9,8 @@
 
 namespace assay::reports {
 
-// Who is compared, then a row a sequence: times of both, their ratio with its interval, the same of
-// preprocessing, and errors.
+// With what it is compared, then a row a sequence: times of both, their ratio with its interval,
+// the same of preprocessing, and errors.
 std::string text_of(const ComparedDetector& detector, std::span<const ComparedSequence> sequences);
 
 nlohmann::ordered_json to_json(const ComparedDetector& detector);

@@ -31,9 +31,9 @@ struct PluginErrors {
   std::uint64_t judged = 0;     // those that the contract takes
   std::uint64_t contact = 0;    // of these, with a contact that counts
   std::uint64_t undecided = 0;  // without an answer: undecided, or an error
-  std::uint64_t unsafe = 0;     // `free` against a contact, late by more than is tolerated, or a
-                                // pair missing that is claimed
-  std::uint64_t missed = 0;     // of these, `free` against a contact
+  // `free` against a contact, late by more than is tolerated, or a claimed pair missing.
+  std::uint64_t unsafe = 0;
+  std::uint64_t missed = 0;  // of these, `free` against a contact
   std::uint64_t false_alarms = 0;
   std::uint64_t missing = 0, spurious = 0;  // pairs
   FirstTimesOff late, early;

@@ -18,10 +18,10 @@ struct BenchedPlugin {
   int jobs = 1;  // threads of the oracle
 };
 
-// Each runs in a worker of its own, in turn, a whole sequence a time: what is told is what they took
-// there by that process's own clock, with all of its threads. The built-in detector answers what the
-// plug-in claims: all pairs, or those of the first contact; and it verifies the start where the
-// plug-in's contract takes any.
+// Each runs in a worker of its own, in turn, a whole sequence a time: what is told is what they
+// took there by that process's own clock, with all of its threads. The built-in detector answers
+// what the plug-in claims: all pairs, or those of the first contact; and it verifies the start
+// where the plug-in's contract takes any.
 //
 // The oracle judges the plug-in's first answers by its claims under its contract. A claim that is
 // broken is a wrong answer of the report, and so is anything that the built-in detector has wrong.

@@ -1,5 +1,5 @@
 // What a plug-in prints: kept a case, its end alone where that is much, and harmless.
-#include "properties/worker/printed_words.h"
+#include "properties/worker/isolation/printed_words.h"
 
 #include <gtest/gtest.h>
 

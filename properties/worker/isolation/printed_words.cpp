@@ -1,4 +1,4 @@
-#include "properties/worker/printed_words.h"
+#include "properties/worker/isolation/printed_words.h"
 
 #include <fcntl.h>
 #include <unistd.h>
