@@ -206,6 +206,11 @@ typedef struct assay_detector_api {
    * Carries nothing from step to step. */
   int32_t (*candidates)(assay_handle* handle, const double* x_t0, const double* x_t1,
                         assay_candidates* candidates);
+
+  /* What the call that failed last in this thread has to say, whichever of these functions it was:
+   * one line, valid until the next call, or NULL. Asked at once after a return code other than
+   * ASSAY_OK, an ASSAY_ERROR without a message, and a describe() that returns NULL. */
+  const char* (*error_text)(void);
 } assay_detector_api;
 
 /* The one symbol that a plug-in exports. Returns a table that is valid as long as the library is

@@ -13,7 +13,7 @@
 // - void commit(): the step evaluated last is accepted;
 // - static void use_threads(std::uint32_t count): called once, before everything but describe();
 // - static Result query(std::int32_t kind, Positions x_t0, Positions x_t1): of four points each;
-//   pairs and text of the result are not read;
+//   pairs of the result are not read;
 // - std::vector<Pair> candidates(Positions x_t0, Positions x_t1): a broad phase.
 //
 // A library may hold a query or a broad phase alone: such a class has no evaluate(), and one
@@ -22,7 +22,7 @@
 // Exceptions end here. std::bad_alloc: out of memory, and the step counts as undecided. Refused, of
 // the constructor: the mesh is one that the detector does not take. Any other: of the constructor a
 // failure with its text, of evaluate() a step with the answer ASSAY_ERROR and its text, of all else
-// ASSAY_FAILED, for which the interface has no text. Results are kept until the next evaluate() or
+// ASSAY_FAILED, whose text error_text() has. Results are kept until the next evaluate() or
 // candidates() of the same handle. evaluate() that throws leaves no older result behind.
 //
 // Where <Eigen/Core> was included before this header there are maps, too.

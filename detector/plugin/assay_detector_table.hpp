@@ -53,6 +53,18 @@ std::int32_t guarded(Line& line, const Work& work) noexcept {
   return ASSAY_FAILED;
 }
 
+// Of the call that failed last in this thread, of any function of the table.
+template <class D>
+Line& last_line() {
+  static thread_local Line line;
+  return line;
+}
+
+template <class D>
+const char* error_text() noexcept {
+  return last_line<D>().empty() ? nullptr : last_line<D>().c_str();
+}
+
 // Whether D has a member of that name, and whether it can be called as the interface does.
 #define ASSAY_PLUGIN_FINDS(NAME, CALL)                                         \
   template <class D, class = void>                                             \
@@ -88,9 +100,8 @@ struct Handle {
 
 template <class D>
 const assay_description* describe() noexcept {
-  static Line line;
   static assay_description c = {};
-  static const std::int32_t code = guarded(line, [] {
+  static const std::int32_t code = guarded(last_line<D>(), [] {
     const Description d = D::describe();
     c.name = d.name;
     c.version = d.version;
@@ -113,7 +124,7 @@ template <class D>
 std::int32_t create(const std::int32_t* triangles, std::uint64_t triangle_count,
                     const double* positions, std::uint64_t vertex_count, assay_handle** handle,
                     const char** message) noexcept {
-  static thread_local Line line;
+  auto& line = last_line<D>();
   const std::int32_t code = guarded(line, [&] {
     const Mesh mesh = {{triangles, static_cast<std::size_t>(triangle_count)},
                        {positions, static_cast<std::size_t>(vertex_count)}};
@@ -138,8 +149,7 @@ std::int32_t evaluate(assay_handle* handle, const double* x_t0, const double* x_
 template <class D>
 std::int32_t commit(assay_handle* handle) noexcept {
   if constexpr (has_commit<D>::value) {
-    Line line;
-    return guarded(line, [&] { Handle<D>::of(handle).detector.commit(); });
+    return guarded(last_line<D>(), [&] { Handle<D>::of(handle).detector.commit(); });
   } else {
     return static_cast<void>(handle), ASSAY_OK;
   }
@@ -174,19 +184,20 @@ void destroy(assay_handle* handle) noexcept {
 
 template <class D>
 void use_threads(std::uint32_t count) noexcept {
-  Line line;
-  guarded(line, [&] { D::use_threads(count); });
+  guarded(last_line<D>(), [&] { D::use_threads(count); });
 }
 
 template <class D>
 std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
                    assay_query_result* out) noexcept {
-  Line line;
+  auto& line = last_line<D>();
+  line.clear();
   return guarded(line, [&] {
     const Result found = D::query(kind, {x_t0, 4}, {x_t1, 4});
     out->answer = found.answer;
     out->first_lo = found.first[0];
     out->first_hi = found.first[1];
+    if (found.answer == ASSAY_ERROR) line.set(found.text.c_str());
   });
 }
 
@@ -194,8 +205,7 @@ template <class D>
 std::int32_t candidates(assay_handle* handle, const double* x_t0, const double* x_t1,
                         assay_candidates* out) noexcept {
   auto& h = Handle<D>::of(handle);
-  Line line;
-  return guarded(line, [&] {
+  return guarded(last_line<D>(), [&] {
     h.candidates.clear();
     h.candidates = h.detector.candidates({x_t0, h.vertices}, {x_t1, h.vertices});
     out->pair_count = h.candidates.size();
@@ -222,6 +232,7 @@ const assay_detector_api* table() {
     assay_detector_api made = {};
     made.abi_version = ASSAY_DETECTOR_ABI_VERSION;
     made.describe = &detail::describe<D>;
+    made.error_text = &detail::error_text<D>;
     if constexpr (has_evaluate<D>::value || has_candidates<D>::value) {
       made.create = &detail::create<D>;
       made.destroy = &detail::destroy<D>;

@@ -28,6 +28,7 @@ std::vector<CampaignPlan> make_named_plans() {
   smoke.fault_seeds = 1;
   smoke.tetrahedron_seconds = 5;
   smoke.policy.self_test_queries = 10'000;
+  smoke.policy.repeated_triangles = 2000;
 
   CampaignPlan quick;
   quick.name = "quick";
@@ -38,6 +39,7 @@ std::vector<CampaignPlan> make_named_plans() {
   quick.fault_seeds = 3;
   quick.tetrahedron_seconds = 40;
   quick.policy.self_test_queries = 20'000;
+  quick.policy.repeated_triangles = 5000;
 
   CampaignPlan nightly = quick;
   nightly.name = "nightly";
@@ -49,6 +51,7 @@ std::vector<CampaignPlan> make_named_plans() {
   nightly.fault_seeds = 5;
   nightly.tetrahedron_seconds = 5 * minute;
   nightly.policy.self_test_queries = 100'000;
+  nightly.policy.repeated_triangles = 20'000;
   nightly.policy.speed_limits = {
       {"free-step-over-bvh", 1. / 50}, {"search-step-over-bvh", 1.05}, {"exact-over-double", 1.3}};
 

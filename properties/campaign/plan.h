@@ -31,6 +31,9 @@ inline constexpr std::string_view speed_figures[] = {"free-step-over-bvh", "sear
 struct Policy {
   double power = 1;                     // share of the planted faults that must be found, (0, 1]
   std::uint64_t self_test_queries = 0;  // of `assay self-test`; 0: none is asked for
+  // Of the scenes that a plug-in is put to again and again, where it claims to be deterministic
+  // (phases/repetitions.h); 0: it is not.
+  std::uint64_t repeated_triangles = 0;
   std::vector<SpeedLimit> speed_limits;
 };
 

@@ -118,7 +118,8 @@ class PlanReader {
     BOOST_OUTCOME_TRY(policy, top_.at("policy"));
     if (!policy.json().is_object()) return policy.problem("an object expected");
     for (const auto& [key, value] : policy.json().items()) {
-      if (key != "power" && key != "self_test_queries" && key != "speed_limits")
+      if (key != "power" && key != "self_test_queries" && key != "repeated_triangles" &&
+          key != "speed_limits")
         return policy.problem("no field '" + key + "' is known");
     }
     if (policy.has("power")) {
@@ -131,6 +132,11 @@ class PlanReader {
       BOOST_OUTCOME_TRY(field, policy.at("self_test_queries"));
       BOOST_OUTCOME_TRY(queries, field.integer(0, most_cases));
       plan_.policy.self_test_queries = static_cast<std::uint64_t>(queries);
+    }
+    if (policy.has("repeated_triangles")) {
+      BOOST_OUTCOME_TRY(field, policy.at("repeated_triangles"));
+      BOOST_OUTCOME_TRY(triangles, field.integer(0, most_repeated_triangles));
+      plan_.policy.repeated_triangles = static_cast<std::uint64_t>(triangles);
     }
     if (!policy.has("speed_limits")) return boost::outcome_v2::success();
     BOOST_OUTCOME_TRY(limits, policy.at("speed_limits"));
@@ -175,7 +181,7 @@ class PlanReader {
     return boost::outcome_v2::success();
   }
 
-  static constexpr std::int64_t most_cases = 1'000'000'000;
+  static constexpr std::int64_t most_cases = 1'000'000'000, most_repeated_triangles = 1'000'000;
   static constexpr const char* name_letters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
   static constexpr const char* keys[] = {"schema",
@@ -249,6 +255,7 @@ std::string plan_text(const CampaignPlan& plan) {
       {"policy",
        {{"power", plan.policy.power},
         {"self_test_queries", plan.policy.self_test_queries},
+        {"repeated_triangles", plan.policy.repeated_triangles},
         {"speed_limits", std::move(limits)}}}}
       .dump();
 }

@@ -39,12 +39,15 @@ struct CampaignRequest {
   IsolationMode isolation = IsolationMode::best;  // as asked for, of the plug-in's process
   Isolation isolated;                             // as it turned out
   std::uint64_t threads = 1;                      // that the plug-in may use
+  bool takes_threads = false;                     // whether it asks for that number
   std::filesystem::path worker;                   // the program assay-worker
   // Where another run of this build has shown its planted faults found, its rows: then no fault is
   // planted here.
   std::optional<PowerProof> power;
   // Cases of whoever owns the detector, judged beside what is shipped.
   std::optional<OwnCases> own_cases;
+  // Sequences on which a plug-in is run again and again, besides the scenes (phases/repetitions.h).
+  std::vector<corpus::Case> repeated;
 
   // Of the workers that run its cases.
   WorkerLimits worker_limits() const {

@@ -7,6 +7,7 @@
 #include "properties/faults/fault.h"
 #include "properties/words.h"
 #include "properties/worker/case_player.h"
+#include "properties/worker/run_clock.h"
 
 namespace assay::properties {
 
@@ -14,6 +15,17 @@ using detector::StepResult;
 
 const char* name_of(RunEnd end) {
   return word_of({"completed", "crashed", "hung", "refused", "out of memory", "not run"}, end);
+}
+
+void note_error(CaseRun& run, std::size_t s, const std::string& what) {
+  run.errors.resize(std::max(run.errors.size(), s + 1));
+  auto& error = run.errors[s];
+  error = (error.empty() ? "step " + std::to_string(s + 1) + ": " : error + "; ") + what;
+  if (run.what.empty()) run.what = error;
+}
+
+std::string error_of(const CaseRun& run, std::size_t s) {
+  return s < run.errors.size() ? run.errors[s] : "";
 }
 
 CaseRun out_of_memory() { return {RunEnd::out_of_memory, "out of memory", {}}; }
@@ -66,19 +78,20 @@ bool same_result(const StepResult& a, const StepResult& b) {
 
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try {
   CaseRun run;
+  RunClock clock(configuration.is_timed);
   auto made = CasePlayer::make(c, configuration.options, stages_of(configuration));
   if (!made) return {RunEnd::refused, made.error().message, {}};
+  clock.created();
   for (std::size_t s = 0; s < made.value().steps(); ++s) {
+    clock.begin();
     run.steps.push_back(run_step(made.value(), s));
+    clock.answered();
     const auto& result = run.steps.back();
-    if (result.problem && run.what.empty()) {
-      run.what = "step " + std::to_string(s + 1) + ": " + result.problem->message;
-    }
+    if (result.problem) note_error(run, s, result.problem->message);
     // Nothing but the want of memory ends a step here without an answer.
-    if (result.answer == detector::Answer::undecided && run.what.empty()) {
-      run.what = "step " + std::to_string(s + 1) + ": out of memory";
-    }
+    if (result.answer == detector::Answer::undecided) note_error(run, s, "out of memory");
   }
+  run.times = clock.take();
   return run;
 } catch (const std::bad_alloc&) {
   return out_of_memory();
@@ -86,7 +99,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
 
 bool same_answers(const CaseRun& a, const CaseRun& b) {
   return a.end == b.end && a.what == b.what && a.has_answers == b.has_answers &&
-         a.candidates == b.candidates &&
+         a.errors == b.errors && a.candidates == b.candidates &&
          std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same_result);
 }
 

@@ -17,6 +17,14 @@ struct Configuration {
   std::string name;
   detector::Options options;
   std::string fault = {};  // the planted fault to plant in it (faults/fault.h), or empty
+  bool is_timed = false;   // whether CaseRun::times is asked for
+};
+
+// Processor seconds of the process that ran a case, with all of its threads, by its own clock: for
+// benches. A plug-in shares that process and could say what it likes, so nothing is judged by it.
+struct RunTimes {
+  double create = 0;
+  std::vector<double> steps;  // one for each: to its answer, and committed where the script says so
 };
 
 enum class RunEnd : std::uint8_t {
@@ -42,11 +50,15 @@ struct CaseRun {
   std::vector<detector::StepResult> steps;
   // One for each step, of a plug-in that claims candidates: ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
+  // Why a step has no answer, "step 2: ..."; empty for one that has, and no list where all have.
+  std::vector<std::string> errors = {};
   // Whether its steps have answers. A library of candidates alone has none: a step of its is
   // undecided, or an error.
   bool has_answers = true;
+  // Of a completed run that was asked for it.
+  std::optional<RunTimes> times = {};
 
-  // Of the circumstances, filled in by the host; same_answers() does not look at them.
+  // Of the circumstances, filled in by the host; same_answers() looks neither at them nor at times.
 
   // How often the worker was killed from outside while this run was under way, which was then
   // repeated, or before it began.
@@ -54,12 +66,20 @@ struct CaseRun {
   // What it took: processor time of the worker with its threads, and with the processes that it
   // started where the run was long enough to look at them (processor_time.h). Of the last attempt.
   double processor_seconds = 0;
+  // What a plug-in printed meanwhile, the last lines of it (isolation/printed_words.h); nothing
+  // with isolation none, nor of a query that was asked together with others.
+  std::string printed = {};
 };
 
 // Steps of the case that commit advance the state. The case's view primitive is given where the
 // culling is one of views (its q0 alone for view-point). A step that runs out of memory is
 // undecided. Runs in this process: what the detector does to it, it does to the caller.
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
+
+// Adds to the errors of step s, and to `what` where that says nothing yet.
+void note_error(CaseRun& run, std::size_t s, const std::string& what);
+// Why step s has no answer; empty where nothing is said of it.
+std::string error_of(const CaseRun& run, std::size_t s);
 
 // The run of a case that did not fit into memory.
 CaseRun out_of_memory();

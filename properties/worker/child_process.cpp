@@ -59,7 +59,7 @@ bool was_killed_from_outside(const ChildEnd& end) {
 
 Expected<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
                                            const std::vector<std::string>& arguments,
-                                           int descriptor) {
+                                           int descriptor, int printed) {
   std::string name = program.string();
   std::vector<std::string> words = arguments;
   std::vector<char*> argv = {name.data()};
@@ -70,6 +70,8 @@ Expected<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_adddup2(&actions, descriptor, child_descriptor);
+  if (printed > printed_descriptor)
+    ::posix_spawn_file_actions_adddup2(&actions, printed, printed_descriptor);
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   ::posix_spawnattr_setflags(

@@ -13,8 +13,9 @@
 
 namespace assay::properties {
 
-// The descriptor under which the child finds its end of the channel.
-inline constexpr int child_descriptor = 3;
+// The descriptors under which the child finds its end of the channel, and where it tells what a
+// plug-in prints.
+inline constexpr int child_descriptor = 3, printed_descriptor = 4;
 
 struct ChildEnd {
   int signal = 0;        // that killed it; 0: it exited
@@ -35,10 +36,12 @@ bool was_killed_from_outside(const ChildEnd& end);
 // aside: else a detector could outlive a signal that would end it anywhere else.
 class ChildProcess {
  public:
-  // `descriptor` becomes child_descriptor of the child; its stdin is empty. cannot_start, with the
-  // system's reason, where it does not start.
+  // `descriptor` becomes child_descriptor of the child, and `printed`, where there is one and above
+  // both, printed_descriptor; its stdin is empty. cannot_start, with the system's reason, where it
+  // does not start.
   static Expected<ChildProcess> start(const std::filesystem::path& program,
-                                      const std::vector<std::string>& arguments, int descriptor);
+                                      const std::vector<std::string>& arguments, int descriptor,
+                                      int printed = -1);
   ChildProcess(ChildProcess&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
   ChildProcess& operator=(ChildProcess&&) = delete;
   ~ChildProcess();  // waits a fifth of a second, then kills

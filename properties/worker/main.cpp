@@ -77,7 +77,8 @@ int serve(Channel channel, const char* plugin_library, std::uint32_t threads = 1
       reply.number = request.number;
       for (reply.place = 0; reply.place < request.configurations.size(); ++reply.place) {
         const auto& configuration = request.configurations[reply.place];
-        reply.run = plugin ? plugin->run(request.c) : run_case(request.c, configuration);
+        reply.run = plugin ? plugin->run(request.c, configuration.is_timed)
+                           : run_case(request.c, configuration);
         if (channel.send(encode(reply)) != Transfer::done) return 0;
         if (reply.run.end == RunEnd::out_of_memory) return 0;
       }

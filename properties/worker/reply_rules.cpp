@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "detector/mesh/problem.h"
@@ -116,8 +117,8 @@ std::uint64_t longest_reply(const corpus::Case& c) {
   const std::uint64_t pairs = triangles * (triangles - 1) / 2;
   const std::uint64_t steps = corpus::steps_of(c).size();
   return longest_reply_text + bytes_of_a_result +
-         steps *
-             (bytes_of_a_result + pairs * (sizeof(PairContact) + sizeof(detector::TrianglePair)));
+         steps * (bytes_of_a_result + longest_reply_text +
+                  pairs * (sizeof(PairContact) + sizeof(detector::TrianglePair)));
 }
 
 std::string broken_rule(const corpus::Case& c, const CaseRun& run,
@@ -128,7 +129,9 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run,
       break;
     case RunEnd::refused:
     case RunEnd::out_of_memory:
-      return run.steps.empty() && run.candidates.empty() ? "" : "steps of a case that was not run";
+      return run.steps.empty() && run.candidates.empty() && run.errors.empty() && !run.times
+                 ? ""
+                 : "steps of a case that was not run";
     default:
       return fmt::format("that it {}, which only the host can say", name_of(run.end));
   }
@@ -138,6 +141,16 @@ std::string broken_rule(const corpus::Case& c, const CaseRun& run,
   }
   for (const auto& result : run.steps) {
     if (auto broken = broken_rule(result, c.triangles.rows()); !broken.empty()) return broken;
+  }
+  if (run.errors.size() > steps || !std::all_of(run.errors.begin(), run.errors.end(), is_line))
+    return "errors of steps that are none";
+  if (run.times) {
+    const auto is_time = [](double seconds) { return 0 <= seconds && std::isfinite(seconds); };
+    const auto& of_steps = run.times->steps;
+    if (of_steps.size() != steps || !is_time(run.times->create) ||
+        !std::all_of(of_steps.begin(), of_steps.end(), is_time)) {
+      return "times that are none";
+    }
   }
   return broken_rule_of_parts(run, description, c.triangles.rows());
 }

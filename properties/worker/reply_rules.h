@@ -28,7 +28,8 @@ inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 // say (crashed, hung, not run) is not said; texts are one printable line; a result has an answer,
 // pairs of two triangles of the mesh, each once and ascending, only if it is not free, intervals
 // in [0, 1], and nothing of what plug-ins are not asked for, such as views; there are candidates
-// for each step, of such pairs, where the description claims them, and answers where it has steps.
+// for each step, of such pairs, where the description claims them, and answers where it has steps;
+// times, where there are any, are such, and one for each step.
 std::string broken_rule(const corpus::Case& c, const CaseRun& run,
                         const PluginDescription& description);
 

@@ -88,16 +88,23 @@ void fields(Wire& wire, detector::StepResult& result) {
 }
 
 template <class Wire>
+void fields(Wire& wire, RunTimes& times) {
+  auto& [create, steps] = times;
+  wire(create, steps);
+}
+
+template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
-  // The last two are the host's to say.
-  auto& [end, what, steps, candidates, has_answers, disturbances, processor_seconds] = run;
-  wire(end, what, steps, candidates, has_answers);
+  // The last three are the host's to say.
+  auto& [end, what, steps, candidates, errors, has_answers, times, disturbances, processor_seconds,
+         printed] = run;
+  wire(end, what, steps, candidates, errors, has_answers, times);
 }
 
 template <class Wire>
 void fields(Wire& wire, Configuration& configuration) {
-  auto& [name, options, fault] = configuration;
-  wire(name, options, fault);
+  auto& [name, options, fault, is_timed] = configuration;
+  wire(name, options, fault, is_timed);
 }
 
 template <class Wire>
@@ -141,8 +148,8 @@ void fields(Wire& wire, KeeperHello& hello) {
 template <class Wire>
 void fields(Wire& wire, PluginDescription& description) {
   auto& [name, version, claims, contract, parts] = description;
-  auto& [steps, query, candidates] = parts;
-  wire(name, version, claims, contract, steps, query, candidates);
+  auto& [steps, query, candidates, takes_threads] = parts;
+  wire(name, version, claims, contract, steps, query, candidates, takes_threads);
 }
 
 template <class Wire>

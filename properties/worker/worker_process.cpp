@@ -9,6 +9,7 @@
 
 #include "properties/worker/channel.h"
 #include "properties/worker/child_process.h"
+#include "properties/worker/isolation/printed_words.h"
 #include "properties/worker/isolation/scratch_folder.h"
 #include "properties/worker/reply_rules.h"
 #include "properties/worker/wire_fields.h"
@@ -45,6 +46,9 @@ struct WorkerProcess::Parts {
     Channel channel;
     std::thread::id starter;
     pid_t plugin = 0;  // its process; 0: none, or unknown
+    std::optional<PrintedPipe> printed;
+
+    std::string take_printed() { return printed ? printed->take() : ""; }
   };
 
   std::filesystem::path program;
@@ -57,6 +61,7 @@ struct WorkerProcess::Parts {
   // A plug-in that was loaded before, and dies or hangs when it is loaded again, does so by itself.
   bool was_loaded = false;
   RunEnd end_of_loading = RunEnd::not_run;
+  std::string printed_while_loaded;  // where it ended then
   std::uint64_t starts = 0;
   std::uint64_t told = 0;    // disturbances that runs speak of
   std::uint64_t untold = 0;  // before the run that is next
@@ -77,14 +82,19 @@ struct WorkerProcess::Parts {
         const bool is_outside = was_killed_from_outside(*end);
         if (is_outside && killed + 1 < attempts) continue;
         if (was_loaded && plugin_library) end_of_loading = RunEnd::crashed;
-        return Problem{
-            ProblemKind::ended_while_loaded,
-            who() + ": ended while it was loaded: " + (is_outside ? every_time(*end) : end->text)};
+        return Problem{ProblemKind::ended_while_loaded,
+                       who() + ": ended while it was loaded: " +
+                           (is_outside ? every_time(*end) : end->text) + last_line_printed()};
       }
       was_loaded = true;
       untold += static_cast<std::uint64_t>(killed);
     }
     return boost::outcome_v2::success();
+  }
+
+  std::string last_line_printed() const {
+    const auto& text = printed_while_loaded;
+    return text.empty() ? "" : "; it printed: " + text.substr(text.rfind('\n') + 1);
   }
 
   // One that ended between two cases owes no answer. The system kills it when the thread that
@@ -111,11 +121,15 @@ struct WorkerProcess::Parts {
       arguments.push_back(plugin_library->string());
       arguments.push_back(std::to_string(limits.threads));
     }
-    auto child = ChildProcess::start(program, arguments, ends->second.descriptor());
+    const bool is_silent = plugin_library && limits.isolation != IsolationMode::none;
+    auto printed = is_silent ? PrintedPipe::make() : std::nullopt;
+    auto child = ChildProcess::start(program, arguments, ends->second.descriptor(),
+                                     printed ? printed->write_end() : -1);
     if (!child) return child.error();
     ++starts;
-    live.emplace(
-        Live{std::move(child.value()), std::move(ends->first), std::this_thread::get_id(), 0});
+    if (printed) printed->close_write_end();
+    live.emplace(Live{std::move(child.value()), std::move(ends->first), std::this_thread::get_id(),
+                      0, std::move(printed)});
     { const Channel closed_here = std::move(ends->second); }
     return boost::outcome_v2::success();
   }
@@ -163,6 +177,7 @@ struct WorkerProcess::Parts {
     }
     if (received != Transfer::done) {
       const ChildEnd end = live->child.finish(last_breath);
+      printed_while_loaded = live->take_printed();
       live.reset();
       return std::optional(end);
     }
@@ -203,7 +218,10 @@ struct WorkerProcess::Parts {
       }
       RunReply reply;
       if (transfer == Transfer::done || transfer == Transfer::too_long) {
-        const auto rule = broken_rule_of(transfer, message, c, {number, i, {}}, reply);
+        auto rule = broken_rule_of(transfer, message, c, {number, i, {}}, reply);
+        if (rule.empty() && reply.run.end == RunEnd::completed &&
+            reply.run.times.has_value() != rest[i].is_timed)
+          rule = "times that nobody asked for, or none";
         if (!rule.empty()) {
           meddled(watch, rule, runs);
           return;
@@ -215,6 +233,7 @@ struct WorkerProcess::Parts {
       }
       CaseRun run = std::move(reply.run);
       run.processor_seconds = watch.next_case();
+      run.printed = live->take_printed();
       keep(std::move(run), runs);
       if (runs.back().end == RunEnd::out_of_memory) {
         live.reset();  // it ends itself: what it has left of its memory is in pieces
@@ -255,9 +274,11 @@ struct WorkerProcess::Parts {
       return is_hung ? Asked::one_by_one : Asked::in_halves;
     }
     const double seconds = watch.next_case() / static_cast<double>(queries.size());
+    const std::string printed = live->take_printed();
     for (auto& answer : reply.answers) {
       CaseRun run = run_of(std::move(answer));
       run.processor_seconds = seconds;
+      if (queries.size() == 1) run.printed = printed;
       keep(std::move(run), runs);
     }
     return Asked::answered;
@@ -290,6 +311,7 @@ struct WorkerProcess::Parts {
     run.what = broken(rule);
     run.processor_seconds = watch.next_case();
     live->child.finish(std::chrono::milliseconds(0));
+    run.printed = live->take_printed();
     live.reset();
     keep(std::move(run), runs);
   }
@@ -302,6 +324,7 @@ struct WorkerProcess::Parts {
     const std::string why_hung = watch.why();
     run.processor_seconds = watch.next_case();
     const ChildEnd end = live->child.finish(is_hung ? std::chrono::milliseconds(0) : last_breath);
+    run.printed = live->take_printed();
     live.reset();
     if (is_hung) {
       run.what = why_hung;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/words.h"
+#include "reports/bench/detector/compared_output.h"
 #include "reports/bench/speed_error/error_output.h"
 #include "reports/bench/stability/stability_output.h"
 #include "reports/terminal/version.h"
@@ -30,7 +31,11 @@ void BenchReport::add(std::string what, std::string unit, Estimate measured,
 }
 
 void BenchReport::add_no_data(std::string what, const std::string& missing) {
-  rows.push_back({std::move(what), {}, {}, {}, missing + " is not there"});
+  add_left_out(std::move(what), missing + " is not there");
+}
+
+void BenchReport::add_left_out(std::string what, std::string why) {
+  rows.push_back({std::move(what), {}, {}, {}, std::move(why)});
 }
 
 const char* name_of(RowOutcome outcome) {
@@ -63,8 +68,11 @@ std::string text_of(const BenchReport& report) {
     widest = std::max(widest, row.what.size());
     measured = std::max(measured, measured_text(row).size());
   }
-  std::string text = fmt::format("{:<{}}  {:<{}}  {:<10}  {}\n", "what", widest, "measured",
-                                 measured, "wanted", "outcome");
+  std::string text;
+  if (report.detector) text = text_of(*report.detector, report.sequences);
+  if (!report.rows.empty())
+    text += fmt::format("{:<{}}  {:<{}}  {:<10}  {}\n", "what", widest, "measured", measured,
+                        "wanted", "outcome");
   for (const auto& row : report.rows) {
     text += fmt::format("{:<{}}  {:<{}}  {:<10}  {}{}\n", row.what, widest, measured_text(row),
                         measured, row.wanted ? text_of(*row.wanted) : "-", name_of(row.outcome()),
@@ -107,6 +115,8 @@ Json to_json(const BenchReport& report) {
           {"heat", to_json(std::span(report.heat))},
           {"variants", to_json(std::span(report.variants))},
           {"families", to_json(std::span(report.families))},
+          {"detector", report.detector ? to_json(*report.detector) : Json()},
+          {"sequences", to_json(std::span(report.sequences))},
           {"wrong_answers", report.wrong_answers}};
 }
 
@@ -125,6 +135,7 @@ std::string quoted(const std::string& words) {
 std::string csv_of(const BenchReport& report) {
   if (!report.steps.empty()) return csv_of(std::span(report.steps));
   if (!report.heat.empty()) return csv_of(std::span(report.heat));
+  if (report.detector) return csv_of(std::span(report.sequences));
   std::string text = "suite,what,unit,sample,value\n";
   for (const auto& row : report.rows) {
     if (!row.measured) continue;

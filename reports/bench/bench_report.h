@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/bench/detector/compared_sequence.h"
 #include "reports/bench/estimate.h"
 #include "reports/bench/speed_error/error_summary.h"
 #include "reports/bench/stability/stability_cell.h"
@@ -59,11 +60,16 @@ struct BenchReport {
   std::vector<JudgedStep> steps;
   std::vector<FamilySummary> families;
   std::vector<VariantSummary> variants;
+  // Of `bench --detector`.
+  std::optional<ComparedDetector> detector;
+  std::vector<ComparedSequence> sequences;
 
   void add(std::string what, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});
   // missing: the folder or file.
   void add_no_data(std::string what, const std::string& missing);
+  // why: such as "left out: ...".
+  void add_left_out(std::string what, std::string why);
 };
 
 const char* name_of(RowOutcome outcome);
@@ -72,7 +78,8 @@ std::string text_of(const Wanted& wanted);
 std::string text_of(const BenchReport& report);
 nlohmann::ordered_json to_json(const BenchReport& report);
 // A line a raw sample; of suite speed-error a line a step and variant (error_output.h), of suite
-// stability a line a cell (stability_output.h).
+// stability a line a cell (stability_output.h), of a plug-in a line a sequence and round
+// (compared_output.h).
 std::string csv_of(const BenchReport& report);
 
 }  // namespace assay::reports

@@ -7,12 +7,35 @@
 #include "properties/campaign/query_plan.h"
 #include "properties/campaign/stored/power_proof.h"
 #include "properties/worker/worker_process.h"
+#include "reports/bench/real_sequences.h"
 #include "reports/campaign/own_cases.h"
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/interruption.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {
+
+namespace {
+
+// Refused where nothing of them is there, or what is there cannot be used.
+Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) try {
+  std::vector<std::string> missing;
+  std::vector<corpus::Case> cases;
+  for (auto& real : real_sequences(BenchSettings{folder}, missing)) {
+    corpus::Case c;
+    c.id = real.name;
+    c.triangles = std::move(real.frames.triangles);
+    c.frames = std::move(real.frames.frames);
+    cases.push_back(std::move(c));
+  }
+  if (cases.empty())
+    return Refusal(fmt::format("{}: none of the public sequences is there", folder));
+  return cases;
+} catch (const UnusableData& problem) {
+  return Refusal(problem.what());
+}
+
+}  // namespace
 
 void add_campaign_options(Verb& verb, CampaignWords& words) {
   add_seed(verb, words.seed, "Of all random cases; a fresh one a night");
@@ -32,6 +55,9 @@ void add_campaign_options(Verb& verb, CampaignWords& words) {
            "not again");
   verb.add("--corpus", words.own_cases,
            "Folder of case files of your own (assay-case/1), judged beside what is shipped");
+  verb.add("--data", words.data,
+           "Folder of the public data: a plug-in that claims to be deterministic is run again and "
+           "again on its sequences too");
   add_detector(verb, words.detector);
   add_part(verb, words.detector.part);
   add_jobs(verb, words.jobs);
@@ -68,6 +94,11 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     chosen_words.part = DetectorPart::query;
   if (auto chosen = choose_detector(chosen_words, request); !chosen) return chosen.error();
   const auto& detector = request.detector;
+  if (!words.data.empty()) {
+    auto sequences = public_sequences(words.data);
+    if (!sequences) return sequences.error();
+    request.repeated = std::move(sequences.value());
+  }
   if (!detector.built_in && judged_claims(detector.claims, detector.contract).empty())
     return Refusal(fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to certify",

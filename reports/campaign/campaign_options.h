@@ -21,6 +21,7 @@ struct CampaignWords {
   std::optional<std::uint64_t> memory;  // bytes, in place of the campaign's own
   std::string power;                    // a folder with the proof of planted faults; empty: none
   std::string own_cases;                // a folder of cases of the detector's owner; empty: none
+  std::string data;                     // folder of the public data; empty: none of it is repeated
   DetectorWords detector;
   std::string out;
   int jobs = 1;

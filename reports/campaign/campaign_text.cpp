@@ -210,8 +210,10 @@ std::string findings_text(const RunFindings& findings) {
   const auto& run = findings.run;
   std::string out;
   if (!run.plan.strata.empty()) {
-    out += fmt::format("\n{}{}\n{}\n{}", strata_text(findings), disturbance_text(findings),
-                       distribution_text(findings.tally), tags_text(findings.tally.counts));
+    out += fmt::format("\n{}{}\n{}", strata_text(findings), disturbance_text(findings),
+                       distribution_text(findings.tally));
+    const auto tags = tags_text(findings.tally.counts);
+    if (!tags.empty()) out += fmt::format("\n{}", tags);
     if (!run.detector.built_in) out += fmt::format("\n{}", measures_text(findings));
     if (run.detector.built_in && run.plan.laws_every > 0)
       out += fmt::format("\n{}", laws_text(findings));
@@ -242,9 +244,14 @@ std::string verdict_text(const RunFindings& findings, const properties::Judgemen
   if (judgement.exit_code == exit_defect || judgement.exit_code == exit_unsound)
     std::transform(word.begin(), word.end(), word.begin(),
                    [](char c) { return c == '-' ? ' ' : static_cast<char>(std::toupper(c)); });
-  return fmt::format("{}: {} trials with a defect, {} undecided, {} laws broken", word,
-                     findings.tally.with_defect(), findings.tally.open(),
-                     properties::broken_laws(findings.tally.counts));
+  const auto& repeated = findings.evidence.repeated;
+  const auto differing =
+      std::count_if(repeated.begin(), repeated.end(), [](const auto& one) { return one.broken; });
+  return fmt::format(
+      "{}: {} trials with a defect, {} undecided, {} laws broken{}", word,
+      findings.tally.with_defect(), findings.tally.open(),
+      properties::broken_laws(findings.tally.counts),
+      differing ? fmt::format(", {} larger meshes on which runs differ", differing) : "");
 }
 
 }  // namespace assay::reports

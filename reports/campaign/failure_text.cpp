@@ -6,8 +6,10 @@
 #include <set>
 
 #include "corpus/atomic_file.h"
+#include "properties/campaign/query_plan.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "properties/reducer/mesh_size.h"
+#include "reports/check/plugin_text.h"
 #include "reports/pictures/scene_maker.h"
 #include "reports/terminal/shell_word.h"
 
@@ -19,6 +21,15 @@ std::string replay_line(const std::filesystem::path& out, const std::filesystem:
                         const DetectorWords& detector) {
   return fmt::format("assay replay {}{}", shell_word(absolute_path(out / file)),
                      detector_words(absolute_path(detector.library), detector.threads));
+}
+
+DetectorWords detector_of(const properties::RunFindings& findings) {
+  DetectorWords words;
+  words.library = findings.library;
+  words.threads = findings.run.detector.threads;
+  words.part =
+      properties::asks_queries(findings.run.plan) ? DetectorPart::query : DetectorPart::steps;
+  return words;
 }
 
 namespace {
@@ -75,6 +86,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
         picture_file((out / shown_file).string()), replay_line(out, shown_file, detector));
+    report.text += printed_text(failure.printed);
   }
   return report;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "properties/campaign/gates/findings.h"
 #include "properties/campaign/stored/store.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
@@ -13,6 +14,9 @@ namespace assay::reports {
 // "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder.
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
                         const DetectorWords& detector);
+
+// The detector of a run, as a replay line names it.
+DetectorWords detector_of(const properties::RunFindings& findings);
 
 struct FailureReport {
   std::string text;  // a paragraph for each signature; empty without failures

@@ -45,7 +45,7 @@ std::string trial_text(const properties::RunFindings& findings,
   const auto* kept = kept_of(findings, trial.id);
   if (!kept) {
     return out + fmt::format("              replay: assay replay {}{}\n", trial.id,
-                             detector_words(findings.library));
+                             detector_words(findings.library, findings.run.detector.threads));
   }
   const auto file = slow_file(*kept, !kept->smallest.empty());
   if (!kept->smallest.empty())
@@ -53,7 +53,7 @@ std::string trial_text(const properties::RunFindings& findings,
                        slow_mesh_size(kept->smallest), 2 * kept->limit);
   return out + fmt::format("              picture {}\n              replay: {}\n",
                            picture_file((findings.folder / file).string()),
-                           replay_line(findings.folder, file, DetectorWords{findings.library}));
+                           replay_line(findings.folder, file, detector_of(findings)));
 }
 
 }  // namespace

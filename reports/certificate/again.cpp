@@ -64,8 +64,7 @@ Expected<properties::TrialsAgain> run_certified_again(
   request.jobs = asked.jobs;
   request.worker = properties::worker_program();
   const auto part = properties::asks_queries(run.plan) ? DetectorPart::query : DetectorPart::steps;
-  const DetectorWords words{library.value(), asked.detector.isolation, asked.detector.threads,
-                            part};
+  const DetectorWords words{library.value(), asked.detector.isolation, run.detector.threads, part};
   if (auto chosen = choose_detector(words, request); !chosen) return chosen.error();
   const auto ours = properties::read_binding(properties::binding_of(request), folder);
   if (!ours) return Refusal(ours.error());

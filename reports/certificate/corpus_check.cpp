@@ -112,7 +112,9 @@ class JudgedRows {
                      failure->signature(),
                      failure->what,
                      corpus::case_text(*seen),
-                     {}});
+                     {},
+                     false,
+                     runs[i].printed});
       }
     }
   }

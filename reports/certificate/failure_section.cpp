@@ -41,7 +41,7 @@ Json failures_json(const properties::RunFindings& findings) {
                     {"after", is_shrunk ? size_json(failure->smallest) : Json(nullptr)},
                     {"file", name.generic_string()},
                     {"sha256", corpus::sha256_of(mesh)},
-                    {"replay", replay_line(out, name, DetectorWords{findings.library})}});
+                    {"replay", replay_line(out, name, detector_of(findings))}});
   }
   return list;
 }

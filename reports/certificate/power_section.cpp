@@ -101,6 +101,13 @@ Json corpus_json(const RunFindings& findings) {
   return rows;
 }
 
+Json repeated_json(const RunFindings& findings) {
+  if (findings.evidence.repeated.empty()) return nullptr;
+  Json rows = Json::array();
+  for (const auto& row : findings.evidence.repeated) rows.push_back(facts_of(row));
+  return rows;
+}
+
 Json times_json(const RunFindings& findings) {
   const auto& [issued, speed] = std::tie(findings.evidence.issued, findings.evidence.speed);
   Json figures = Json::array(), strata = Json::array(), worlds = Json::array(),

@@ -39,6 +39,9 @@ nlohmann::ordered_json not_judged_json(const properties::RunFindings& findings);
 // (measures_json.cpp).
 nlohmann::ordered_json measures_json(const properties::StepMeasures& measures);
 
+// A large mesh each that was put to a plug-in again and again; null where none was.
+nlohmann::ordered_json repeated_json(const properties::RunFindings& findings);
+
 // Null where none was run.
 nlohmann::ordered_json self_test_json(const properties::RunFindings& findings);
 nlohmann::ordered_json corpus_json(const properties::RunFindings& findings);

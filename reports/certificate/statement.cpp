@@ -88,13 +88,15 @@ Json campaign_json(const RunFindings& findings, const properties::CampaignPlan& 
 Json replay_json(const RunFindings& findings) {
   const auto& paths = findings.evidence.paths;
   if (!paths) return Json::array();
-  const auto own_cases =
+  std::string folders =
       paths->own_cases.empty() ? "" : fmt::format(" --corpus {}", shell_word(paths->own_cases));
-  return Json::array({fmt::format("assay certify --campaign {} --seed {}{}{} --out AGAIN",
-                                  shell_word(properties::campaign_file(paths->out).string()),
-                                  findings.run.seed, detector_words(paths->detector), own_cases),
-                      fmt::format("assay verify {}",
-                                  shell_word(properties::certificate_file(paths->out).string()))});
+  if (!paths->data.empty()) folders += fmt::format(" --data {}", shell_word(paths->data));
+  return Json::array(
+      {fmt::format("assay certify --campaign {} --seed {}{}{} --out AGAIN",
+                   shell_word(properties::campaign_file(paths->out).string()), findings.run.seed,
+                   detector_words(paths->detector, findings.run.detector.threads), folders),
+       fmt::format("assay verify {}",
+                   shell_word(properties::certificate_file(paths->out).string()))});
 }
 
 // What is no UTF-8 in it, such as the name of a folder, replaced: as it is read back from the file
@@ -129,6 +131,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
        {"harness_problems", std::move(problems)},
        {"self_test", self_test_json(findings)},
        {"corpus", corpus_json(findings)},
+       {"repeated", repeated_json(findings)},
        {"failures", failures_json(findings)},
        {"waivers", waivers_json(findings)},
        {"replay", replay_json(findings)},

@@ -57,7 +57,7 @@ class BuiltIn : public Subject {
     return undecided();
   }
 
-  StepError error_of(const StepResult& result) const override {
+  StepError error_of(std::size_t, const StepResult& result) const override {
     return {result.problem->message, true};
   }
 

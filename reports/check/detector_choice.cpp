@@ -19,6 +19,7 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
   if (!description) return Refusal(description.error());
   request.isolated = worker.isolation();
   const auto& plugin = description.value();
+  request.takes_threads = plugin.parts.takes_threads;
   const bool has_steps = plugin.parts.steps || plugin.parts.candidates;
   const bool of_queries =
       words.part == DetectorPart::query || (words.part == DetectorPart::by_library && !has_steps);

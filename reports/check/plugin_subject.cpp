@@ -54,6 +54,7 @@ class Plugin : public Subject {
               {"claims", std::move(claims)},
               {"disturbances", worker_.disturbances()},
               {"isolation", text_of(worker_.isolation())},
+              {"printed", runs_[0].printed},
               {"contract", nlohmann::json(description_.contract)}}}};
   }
 
@@ -71,11 +72,16 @@ class Plugin : public Subject {
   std::size_t steps_left_out() const override { return steps_left_out_; }
   std::optional<double> processor_seconds() const override { return runs_[0].processor_seconds; }
 
+  std::string printed() const override { return runs_[0].printed; }
+
   StepResult answer(std::size_t s, const detector::StopFunction&) override {
     return s < runs_[0].steps.size() ? runs_[0].steps[s] : not_reached();
   }
 
-  StepError error_of(const StepResult&) const override { return {runs_[0].what, false}; }
+  StepError error_of(std::size_t s, const StepResult&) const override {
+    const auto error = properties::error_of(runs_[0], s);
+    return {error.empty() ? runs_[0].what : error, false};
+  }
 
   oracle::AskedFeatures asked() const override {
     return properties::asked_features(description_.contract);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reports/terminal/joined.h"
+#include "reports/terminal/replaced.h"
 
 namespace assay::reports {
 
@@ -17,6 +18,11 @@ std::string plugin_text(const std::string& name_and_version, const properties::C
                      name_and_version, words.empty() ? "nothing" : words,
                      left_out.empty() ? "leaves nothing out" : left_out, text_of(isolation),
                      threads);
+}
+
+std::string printed_text(const std::string& printed) {
+  if (printed.empty()) return "";
+  return fmt::format("  it printed:\n    {}\n", replaced(printed, {{'\n', "\n    "}}));
 }
 
 }  // namespace assay::reports

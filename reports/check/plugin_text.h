@@ -15,4 +15,7 @@ std::string plugin_text(const std::string& name_and_version, const properties::C
                         const properties::Contract& contract,
                         const properties::Isolation& isolation, std::uint64_t threads);
 
+// "  it printed:" and the lines that it printed in a case, each behind four blanks; empty for none.
+std::string printed_text(const std::string& printed);
+
 }  // namespace assay::reports

@@ -34,6 +34,9 @@ class Subject {
   // Processor time of a plug-in's process, for all steps; nothing for the built-in detector.
   virtual std::optional<double> processor_seconds() const { return std::nullopt; }
 
+  // What a plug-in printed meanwhile, the last lines of it.
+  virtual std::string printed() const { return {}; }
+
   // Before the first step; what the run as a whole broke, with no verdict on any step. Not `holds`:
   // there may be no steps to ask for.
   virtual properties::RunVerdict begin() { return {}; }
@@ -45,7 +48,7 @@ class Subject {
     std::string message;
     bool refused = false;
   };
-  virtual StepError error_of(const detector::StepResult& result) const = 0;
+  virtual StepError error_of(std::size_t step, const detector::StepResult& result) const = 0;
 
   // What the oracle is to be asked for.
   virtual oracle::AskedFeatures asked() const { return oracle::AskedFeatures::all; }

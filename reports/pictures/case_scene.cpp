@@ -4,6 +4,7 @@
 
 #include "detector/mesh/mesh_checks.h"
 #include "properties/judging/run_verdict.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::reports {
 
@@ -64,6 +65,8 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
     scene.failure = properties::judge_trial(scene.c, truth, run, configuration, detector).failure;
   }
   if (run.end != RunEnd::completed) scene.ended = end_text(run);
+  scene.reports_pairs =
+      run.has_answers && detector.contract.reports_pairs && !properties::says_query(scene.c);
   properties::CaseRun views = run;
   if (!has_views(run)) {
     const properties::Configuration with_views{"view-point", {detector::Culling::view_point}};
@@ -74,6 +77,7 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   for (std::size_t s = 0; s < script.size(); ++s) {
     SceneStep step{script[s], truth[s], {}, {}};
     if (s < run.steps.size()) step.answered = run.steps[s];
+    if (s < run.candidates.size()) step.candidates = run.candidates[s];
     if (s < views.steps.size() && !views.steps[s].doubts.empty()) step.seen = views.steps[s];
     scene.steps.push_back(std::move(step));
   }

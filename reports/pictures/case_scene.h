@@ -19,6 +19,7 @@ struct SceneStep {
   std::optional<detector::StepResult> answered;  // by the detector; nothing where its run broke off
   // Signs, doubts, primitives and apexes; nothing where no detector with views took the mesh.
   std::optional<detector::StepResult> seen;
+  properties::CandidatePairs candidates = {};  // of a plug-in that gives some
 };
 
 struct CaseScene {
@@ -27,6 +28,7 @@ struct CaseScene {
   std::optional<detector::Surface> surface;  // the mesh and its ghosts; nothing when refused
   // Whose view sets are shown: empty for the detector's own, else in words.
   std::string views_by;
+  bool reports_pairs = true;                   // false: of pairs it says nothing
   std::string ended;                           // how the detector's run broke off, or empty
   std::optional<properties::Failure> failure;  // what is wrong, where it still is
 

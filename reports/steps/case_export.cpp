@@ -7,7 +7,9 @@
 #include "corpus/atomic_file.h"
 #include "properties/judging/case_check.h"
 #include "properties/worker/given_view.h"
+#include "properties/worker/plugin/query_case.h"
 #include "reports/steps/owner_export.h"
+#include "reports/steps/query_export.h"
 #include "reports/terminal/joined.h"
 
 namespace assay::reports {
@@ -136,6 +138,11 @@ Expected<void> export_case(const std::filesystem::path& folder, const corpus::Ca
   if (auto written = write("case.json", corpus::case_text(c)); !written) return written;
   if (detector.built_in)
     return write("case_test.cpp", test_text(c, detector.configurations.front().options, truth));
+  if (properties::says_query(c)) {
+    const auto text = plain_query_text(c, detector.contract, truth.front());
+    if (auto written = write("case.cpp", text); !written) return written;
+    return write("case_plugin.cpp", plugin_query_text());
+  }
   if (auto written = write("case.cpp", plain_case_text(c, detector.contract, truth)); !written)
     return written;
   return write("case_plugin.cpp", plugin_case_text());

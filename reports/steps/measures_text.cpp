@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "properties/campaign/gates/measure_rates.h"
 #include "properties/campaign/gates/not_judged.h"
 #include "reports/terminal/joined.h"
@@ -26,6 +28,25 @@ std::string off_text(const properties::TimesOff& off) {
 
 constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>24} {:>24} {:>14} {:>26}";
 
+// What the claim `deterministic` was tried on besides the trials.
+std::string repeated_text(const std::vector<properties::Repetition>& repeated) {
+  if (repeated.empty()) return "";
+  std::uint64_t most = 0, steps = 0, differing = 0;
+  std::string lines;
+  for (const auto& one : repeated) {
+    most = std::max(most, one.triangles);
+    steps += one.steps;
+    differing += one.broken ? 1 : 0;
+    if (!one.what.empty())
+      lines += fmt::format("  {} {}: {}\n", one.broken ? "DIFFERS" : "not compared", one.input,
+                           one.what);
+  }
+  return fmt::format(
+      "repeated on larger meshes: {} sequences of up to {} triangles, {} steps; {} "
+      "differ\n{}",
+      repeated.size(), most, steps, differing, lines);
+}
+
 }  // namespace
 
 std::string measures_head() {
@@ -39,7 +60,7 @@ std::string measures_row(const properties::StepMeasures& m) {
   return fmt::format(
       row_format, rate_text(false_alarm_rate(m)),
       misses.in ? fmt::format("{} of {}", misses.of, misses.in) : "-",
-      fmt::format("{:.3g}/step", spurious_pairs_a_step(m)), off_text(times_late(m)),
+      m.steps ? fmt::format("{:.3g}/step", spurious_pairs_a_step(m)) : "-", off_text(times_late(m)),
       off_text(times_early(m)),
       m.redrawn + m.steps_left_out ? fmt::format("{} + {}", m.redrawn, m.steps_left_out) : "-",
       m.candidate_steps ? fmt::format("{} / {}, {:.3g}", m.candidates, m.least_candidates,
@@ -84,6 +105,7 @@ std::string measures_text(const properties::RunFindings& findings) {
   if (all.left_out_misses > 0)
     out += fmt::format("the contract leaves out what would have been a miss in {} steps\n",
                        all.left_out_misses);
+  out += repeated_text(findings.evidence.repeated);
   for (const auto& [claim, reason] : properties::not_judged(findings))
     out += fmt::format("not judged: {}, for {}\n", claim, reason);
   return out;

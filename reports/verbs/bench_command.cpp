@@ -3,7 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reports/bench/detector/detector_suite.h"
 #include "reports/bench/suites.h"
+#include "reports/check/plugin_text.h"
 #include "reports/pictures/gnuplot.h"
 #include "reports/pictures/pictures.h"
 #include "reports/terminal/complaint.h"
@@ -15,7 +17,11 @@ namespace assay::reports {
 namespace {
 
 struct BenchRequest {
-  std::string suite;                          // one of `suites`
+  std::string suite;         // one of `suites`; empty: a plug-in is timed
+  DetectorWords detector;    // of a plug-in; else it is not asked for
+  double case_seconds = 60;  // of one run of a sequence by the plug-in
+  int jobs = 1;
+  bool is_quick = false;
   std::string data;                           // folder of the public data
   std::string json_file, csv_file, svg_file;  // empty: none
 };
@@ -41,27 +47,64 @@ const Suite* suite_named(std::string_view name) {
 }
 
 // Before the suite runs: a picture that cannot be drawn would be known minutes later.
-std::string no_picture(const BenchRequest& request, const Suite& suite) {
+std::string no_picture(const BenchRequest& request, const Suite* suite) {
   if (request.svg_file.empty()) return {};
-  if (!suite.picture) {
-    return "suite " + request.suite +
+  if (!suite || !suite->picture) {
+    return (suite ? "suite " + request.suite : std::string("bench --detector")) +
            " has no picture; growth, claims, stability and speed-error have one";
   }
   return cannot_draw();
 }
 
+// The plug-in, loaded once, so that what is wrong with it is known before any work.
+Expected<BenchedPlugin> plugin_of(const BenchRequest& request) {
+  const auto& words = request.detector;
+  BenchedPlugin plugin;
+  plugin.library = words.library;
+  plugin.jobs = request.jobs;
+  plugin.limits.seconds = request.case_seconds;
+  plugin.limits.isolation = words.isolation;
+  plugin.limits.threads = words.threads;
+  properties::WorkerProcess worker(properties::worker_program(), words.library, plugin.limits);
+  auto description = worker.describe();
+  if (!description) return Refusal(description.error());
+  plugin.description = std::move(description.value());
+  plugin.limits.least = worker.isolation();
+  if (!plugin.description.parts.steps)
+    return Refusal(fmt::format("{}: it holds no steps, which are what is timed", words.library));
+  return plugin;
+}
+
+constexpr double quick_scale = .1;
+
+Expected<BenchReport> measure(const BenchRequest& request) {
+  const BenchSettings settings{request.data, request.is_quick ? quick_scale : 1};
+  if (!request.suite.empty()) {
+    Progress progress("bench " + request.suite);
+    return suite_named(request.suite)->run(settings, progress);
+  }
+  const auto plugin = plugin_of(request);
+  if (!plugin) return plugin.error();
+  Progress progress("bench --detector");
+  return detector_suite(settings, plugin.value(), progress);
+}
+
 int run_bench(const BenchRequest& request) try {
-  const Suite& suite = *suite_named(request.suite);
+  if (request.suite.empty() && request.detector.library.empty())
+    return refuse("bench: --suite NAME, or --detector LIB.so, says what to measure");
+  const auto* suite = suite_named(request.suite);
   for (const auto* file : {&request.json_file, &request.csv_file, &request.svg_file}) {
     if (auto may = may_write(*file, {}); !may) return refuse(may.error());
   }
   if (const auto problem = no_picture(request, suite); !problem.empty()) return refuse(problem);
-  BenchReport report;
-  {
-    Progress progress("bench " + request.suite);
-    report = suite.run({request.data}, progress);
-  }
-  fmt::print("suite {}, data {}\n{}", report.suite, request.data, text_of(report));
+  const auto measured = measure(request);
+  if (!measured) return refuse(measured.error());
+  const auto& report = measured.value();
+  fmt::print("suite {}, data {}\n", report.suite, request.data);
+  if (const auto& own = report.detector)
+    fmt::print("{}\n", plugin_text(own->name + " " + own->version, own->claims, own->contract,
+                                   own->isolation, own->threads));
+  fmt::print("{}", text_of(report));
   const auto write = [](const std::string& file, const std::string& text) {
     auto written = write_text_file(file, text);
     if (written) fmt::print("wrote {}\n", file);
@@ -75,7 +118,7 @@ int run_bench(const BenchRequest& request) try {
     if (auto done = write(request.csv_file, csv_of(report)); !done) return refuse(done.error());
   }
   if (!request.svg_file.empty()) {
-    const auto drawing = draw(suite.picture(report));
+    const auto drawing = draw(suite->picture(report));
     if (!drawing.problem.empty()) return refuse(drawing.problem);
     if (auto done = write(request.svg_file, drawing.svg); !done) return refuse(done.error());
   }
@@ -87,10 +130,20 @@ int run_bench(const BenchRequest& request) try {
 void add_options(Verb& verb, BenchRequest& request) {
   const char* data = std::getenv("ASSAY_DATA");
   request.data = data && *data ? data : "../shared/data";
-  verb.add("--suite", request.suite, "What to measure")
-      .with(
-          one_of("elementary, view, growth, claims, stability, speed-error, harness", suite_named))
-      .required();
+  auto suite = verb.add("--suite", request.suite, "What to measure")
+                   .with(one_of("elementary, view, growth, claims, stability, speed-error, harness",
+                                suite_named));
+  add_detector(verb, request.detector,
+               "In place of a suite: a plug-in's library, timed beside the built-in detector on "
+               "scenes and public sequences, its answers judged by its claims")
+      .excludes(suite);
+  verb.add("--case-seconds", request.case_seconds,
+           "Processor seconds that the plug-in may take for a sequence")
+      .with(positive())
+      .shows_default();
+  add_jobs(verb, request.jobs);
+  verb.add_flag("--quick", request.is_quick,
+                "A tenth of sizes and rounds: a first look, in a tenth of the time or so");
   verb.add("--data", request.data,
            "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
            "what is not there say so");

@@ -87,7 +87,7 @@ class Certification {
     keep(properties::Versions{ASSAY_VERSION, commit.empty() ? std::nullopt : std::optional(commit),
                               version_text()});
     keep(properties::Paths{absolute_path(words_.out), absolute_path(words_.detector.library),
-                           absolute_path(words_.own_cases)});
+                           absolute_path(words_.own_cases), absolute_path(words_.data)});
     keep(input_digests());
     if (request_.plugin)
       keep(properties::PluginIsolation{properties::checks_shard, name_of(request_.isolation),

@@ -11,6 +11,7 @@
 #include "reports/check/check_outcome.h"
 #include "reports/check/check_report.h"
 #include "reports/check/claims_tally.h"
+#include "reports/check/plugin_text.h"
 #include "reports/check/subject.h"
 #include "reports/check/timed_oracle.h"
 #include "reports/steps/second_opinion_text.h"
@@ -77,6 +78,7 @@ class Check {
     }
     outcome_.limit_reached = limits_.reached();
     if (!request_.no_oracle) tally_.tell(outcome_, subject_.steps_left_out());
+    if (outcome_.defect || outcome_.undecided) fmt::print("{}", printed_text(subject_.printed()));
     fmt::print("{}", outcome_.summary());
     if (!request_.json_file.empty()) {
       const auto report = check_report(request_.files, mesh_, subject_, outcome_, std::move(steps));
@@ -145,13 +147,15 @@ class Check {
 
     progress.phase("detector");
     detector::StepResult result = subject_.answer(s, stop);
+    std::string told_error;
     if (result.answer == Answer::error) {
-      const auto error = subject_.error_of(result);
+      const auto error = subject_.error_of(s, result);
       if (error.refused) {
         refused_ = fmt::format("step {}: {}", s + 1, error.message);
         return {};
       }
       if (outcome_.ended.empty()) outcome_.ended = error.message;
+      told_error = fmt::format("  {}\n", error.message);
     }
     if (result.answer == Answer::collision && !outcome_.collision_step) {
       outcome_.collision_step = s;
@@ -160,7 +164,7 @@ class Check {
     outcome_.undecided |= subject_.has_answers() && result.answer == Answer::undecided;
     if (request_.no_oracle) {
       progress.finish();
-      fmt::print("{}", step_text(s + 1, result, nullptr, 0, nullptr, shown_work(s)));
+      fmt::print("{}{}", step_text(s + 1, result, nullptr, 0, nullptr, shown_work(s)), told_error);
       return json_of(result, nullptr, 0, nullptr);
     }
 
@@ -171,7 +175,8 @@ class Check {
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
     tally_.add(diff, result, judgement);
-    fmt::print("{}", step_text(s + 1, result, &judgement, oracle_ms, &diff, shown_work(s)));
+    fmt::print("{}{}", step_text(s + 1, result, &judgement, oracle_ms, &diff, shown_work(s)),
+               told_error);
     if (diff.outcome == Outcome::defect) print_defect(s, diff);
     std::fflush(stdout);
     auto json = json_of(result, &judgement, oracle_ms, &diff);

@@ -6,6 +6,7 @@
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "reports/campaign/slow_text.h"
+#include "reports/check/plugin_text.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/verbs/verbs.h"
@@ -66,7 +67,8 @@ int list_failures(const std::string& folder) {
     if (failure.signature != told)
       fmt::print("{:>8} times  {}\n", findings.value().met_count(failure), failure.signature);
     told = failure.signature;
-    fmt::print("    {} ({}): {}\n", failure.id, failure.configuration, failure.what);
+    fmt::print("    {} ({}): {}\n{}", failure.id, failure.configuration, failure.what,
+               printed_text(failure.printed));
   }
   if (told.empty()) fmt::print("no failures\n");
   return exit_holds;

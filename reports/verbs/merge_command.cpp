@@ -60,7 +60,8 @@ int run_merge(const MergeRequest& request) {
     fmt::print("{} trials are absent: merge the shards that hold them too\n", planned - trials);
   } else {
     fmt::print("next: assay certify --campaign {} --seed {}{} --out {}\n", run.plan.name, run.seed,
-               detector_words(findings.library), shell_word(request.out));
+               detector_words(findings.library, findings.run.detector.threads),
+               shell_word(request.out));
   }
   // That they are one now: whether it holds is for certify to say.
   return exit_holds;

@@ -18,6 +18,7 @@
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
+#include "reports/check/plugin_text.h"
 #include "reports/steps/case_export.h"
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
@@ -128,6 +129,8 @@ void print_run(const properties::Configuration& configuration, const properties:
     const auto& result = run.steps[s];
     if (s < run.candidates.size() && run.candidates[s])
       fmt::print("  step {}: {} candidate pairs\n", s + 1, run.candidates[s]->size());
+    const auto error = error_of(run, s);
+    if (!error.empty()) fmt::print("  {}\n", error);
     if (!run.has_answers) continue;
     fmt::print("  step {}: {}{}, {} pairs{}\n", s + 1, properties::name_of(result.answer),
                result.answer == detector::Answer::collision
@@ -139,6 +142,7 @@ void print_run(const properties::Configuration& configuration, const properties:
     fmt::print("  DEFECT {} in step {}: {}\n", verdict.failure->signature(),
                verdict.failure->step + 1, verdict.failure->what);
   }
+  if (verdict.outcome != Outcome::holds) fmt::print("{}", printed_text(run.printed));
 }
 
 // True when there are any.
@@ -167,8 +171,6 @@ int run_replay(const ReplayRequest& request) {
   auto words = request.detector;
   const bool is_query =
       trial ? properties::is_query_family(trial->family->name) : properties::says_query(c);
-  if (is_query && !request.export_folder.empty())
-    return refuse("--export is of meshes: this is a query");
   if (is_query && words.library.empty())
     return refuse("this is a query of a plug-in: name its library by --detector");
   words.part = is_query ? DetectorPart::query : DetectorPart::steps;

@@ -12,8 +12,10 @@
 //   abort-outside                            aborts when a step of the wrong contract is put to it
 //   whenever                                 collision at [0, 1] in every step
 //   with-pairs                               gives pairs, whatever it says
+//   print=N                                  prints N lines a step, with an escape character
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -200,6 +202,10 @@ std::int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1) {
       if (time < first) first = time;
     }
   }
+  const auto lines = static_cast<int>(number_of("print"));
+  for (int i = 1; i <= lines; ++i)
+    std::fprintf(stderr, "line %d of \x1b[31m%d triangles\n", i,
+                 static_cast<int>(h->triangles.size()));
   if (has("abort-outside")) abort_outside(*h, first.lo);
   if (has("burn") && first.lo == first.hi && first.lo > 0 && first.lo <= 1) burn(number_of("burn"));
   h->collision = first.lo <= 1;

@@ -43,7 +43,8 @@ const StoreTable& failure_table() {
                                  {"what"},
                                  {"mesh"},
                                  {"smallest", false, false},
-                                 {"flaky", true}},
+                                 {"flaky", true},
+                                 {"printed", false, false}},
                                 2};
   return table;
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "corpus/scenes/scenes.h"
 #include "properties/campaign/gates/bounds.h"
+#include "properties/campaign/phases/repetitions.h"
 #include "properties/campaign/stored/count_names.h"
 
 namespace assay::properties {
@@ -85,6 +87,26 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
         fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
 }
 
+// Every scene was put to a plug-in that is to be put to them again and again.
+void check_repetitions(const RunFindings& f, Lines& lines) {
+  const auto& detector = f.run.detector;
+  if (f.alone || detector.configurations.empty()) return;
+  std::vector<Claim> claims;
+  for (const auto claim : all_claims()) {
+    const auto& words = detector.configurations.front().claims;
+    if (std::find(words.begin(), words.end(), name_of(claim)) != words.end())
+      claims.push_back(claim);
+  }
+  if (!is_repeated(f.run.plan, detector.built_in, claims)) return;
+  const auto scenes = corpus::scenes();
+  const auto done = std::count_if(scenes.begin(), scenes.end(), [&](const auto& scene) {
+    return std::any_of(f.evidence.repeated.begin(), f.evidence.repeated.end(),
+                       [&](const Repetition& one) { return one.input == scene.name; });
+  });
+  if (static_cast<std::size_t>(done) < scenes.size())
+    lines.push_back(fmt::format("{} of {} scenes were repeated", done, scenes.size()));
+}
+
 }  // namespace
 
 GateFindings check_harness(const RunFindings& f, const Asked& asked) {
@@ -160,6 +182,7 @@ GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   check_trials(f, asked, lines);
   if (f.evidence.canaries.empty()) lines.push_back("no canary was met");
   check_faults(f, lines);
+  check_repetitions(f, lines);
   for (const auto& row : f.evidence.corpus) {
     for (const auto& open : row.open)
       lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "properties/campaign/phases/canary.h"
+#include "properties/campaign/phases/repetitions.h"
 #include "properties/campaign/phases/shrink.h"
 #include "properties/campaign/phases/slow_cases.h"
 #include "properties/campaign/stored/run_folder.h"
@@ -35,6 +36,9 @@ class CampaignRun {
     observer_.on_canary(canary);
     observer_.on_phase("trials");
     judge_trials();
+    observer_.on_phase("repetitions");
+    repeat_large_meshes(request_, store_, after(1),
+                        [&](const std::string& input) { observer_.on_shrinking(input); });
     observer_.on_phase("shrinking");
     shrink();
     observer_.on_failures_shrunk(value_or_throw(store_.kept_failures()));

@@ -19,12 +19,13 @@ class CampaignObserver {
   virtual ~CampaignObserver() = default;
   // First of all: so many trials are in the store already.
   virtual void on_begin(std::uint64_t /*trials*/) {}
-  // "trials", "shrinking", "slow cases", "faults", "tetrahedron": what begins now. The first is
-  // told after the canary.
+  // "trials", "repetitions", "shrinking", "slow cases", "faults", "tetrahedron": what begins now.
+  // The first is told after the canary.
   virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}
   virtual void on_trials(const TrialsEnd&) {}
+  // What is shrunk, or repeated.
   virtual void on_shrinking(const std::string& /*signature*/) {}
   // Trials and their failures are all stored now; faults and worlds are still to come.
   virtual void on_failures_shrunk(const KeptFailures&) {}

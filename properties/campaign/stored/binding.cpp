@@ -15,14 +15,14 @@ namespace assay::properties {
 using Json = nlohmann::json;
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector::Configuration, name, claims)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector, name, built_in, contract, configurations)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector, name, built_in, contract, threads, configurations)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDigests, program, worker, plugin, generator)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, seed, planted_faults, shard, detector, digests)
 
 namespace {
 
-BoundDetector bound(const DetectorUnderTest& detector) {
-  BoundDetector out{detector.name, detector.built_in, detector.contract, {}};
+BoundDetector bound(const DetectorUnderTest& detector, std::uint64_t threads) {
+  BoundDetector out{detector.name, detector.built_in, detector.contract, threads, {}};
   for (const auto& configuration : detector.configurations) {
     out.configurations.push_back({configuration.name, {}});
     for (const auto claim : list_of(detector.claims_in(configuration)))
@@ -47,7 +47,7 @@ std::string binding_of(const CampaignRequest& request) {
                request.seed,
                planted_count(),
                text_of(request.shard),
-               bound(request.detector),
+               bound(request.detector, request.threads),
                {digest_of("/proc/self/exe"), digest_of(request.worker),
                 request.plugin ? digest_of(*request.plugin) : std::nullopt, generator_digest()}};
   json["schema"] = store_schema;

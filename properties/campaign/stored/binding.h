@@ -12,10 +12,10 @@
 namespace assay::properties {
 
 // Schema `assay-store/4`: `campaign` (the plan, its times set to nothing: a run that ran out of
-// time may go on), `seed`, `shard`, `detector` (name, built_in, contract, configurations with their
-// claims), `planted_faults` (how many this build has), `digests` (SHA-256 of program, worker and
-// plug-in, null for the built-in detector, and of the generator's first cases), and `own_cases`
-// (SHA-256) where there are some.
+// time may go on), `seed`, `shard`, `detector` (name, built_in, contract, threads, configurations
+// with their claims), `planted_faults` (how many this build has), `digests` (SHA-256 of program,
+// worker and plug-in, null for the built-in detector, and of the generator's first cases), and
+// `own_cases` (SHA-256) where there are some.
 std::string binding_of(const CampaignRequest& request);
 
 // The same, as types.
@@ -27,6 +27,7 @@ struct BoundDetector {
   std::string name;
   bool built_in = true;
   Contract contract;
+  std::uint64_t threads = 1;  // told to a plug-in that asks how many it may use
   std::vector<Configuration> configurations;
 };
 struct BoundDigests {

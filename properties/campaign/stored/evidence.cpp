@@ -25,9 +25,11 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(World, classes, motions, all, collisions, com
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PluginIsolation, asked, got)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SlowCase, id, configuration, undecided, seconds, limit, mesh,
                                    smallest)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Repetition, input, configuration, triangles, steps, runs,
+                                   threads, what, broken)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Paths, out, detector, own_cases)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Paths, out, detector, own_cases, data)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputDigests, corpus, waivers)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StoredWaiver, reason, link, expires, expired)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow::Failed, id, signature, what)
@@ -57,6 +59,7 @@ constexpr const char* fault_kind = "fault";
 constexpr const char* power_kind = "power";
 constexpr const char* world_kind = "world";
 constexpr const char* slow_kind = "slow";
+constexpr const char* repeated_kind = "repeated";
 constexpr const char* asked_kind = "asked";
 constexpr const char* subject_kind = "subject";
 constexpr const char* digest_kind = "digest";
@@ -136,6 +139,9 @@ Evidence to_row(const SlowCase& x) {
       x.smallest.empty() ? 1 : longest - std::min<std::uint64_t>(x.smallest.size(), longest - 2);
   return row(slow_kind, x.id + ", " + x.configuration, x.shard, x, progress);
 }
+Evidence to_row(const Repetition& x) {
+  return row(repeated_kind, x.input + ", " + x.configuration, x.shard, x);
+}
 Evidence to_row(const Asked& x) { return row(asked_kind, "gates", checks_shard, x); }
 Evidence to_row(const PluginIsolation& x) { return row(subject_kind, isolation_name, x.shard, x); }
 Evidence to_row(const Versions& x) { return row(subject_kind, versions_name, checks_shard, x); }
@@ -167,6 +173,9 @@ void EvidenceFacts::take(const Evidence& r) try {
   } else if (r.kind == slow_kind) {
     slow.push_back(told<SlowCase>(r));
     slow.back().shard = r.shard;
+  } else if (r.kind == repeated_kind) {
+    repeated.push_back(told<Repetition>(r));
+    repeated.back().shard = r.shard;
   } else if (r.kind == asked_kind) {
     asked = told<Asked>(r);
   } else if (r.kind == subject_kind && r.name == versions_name) {

@@ -96,6 +96,17 @@ struct SlowCase {
   std::string mesh, smallest;
 };
 
+// A large mesh that was put to a plug-in several times: what the claim `deterministic` was tried on
+// besides the trials.
+struct Repetition {
+  std::string input, configuration, shard;
+  std::uint64_t triangles = 0, steps = 0;
+  std::uint64_t runs = 0;              // that ended by themselves
+  std::vector<std::uint64_t> threads;  // told to it, in the order of the runs
+  std::string what;                    // where two runs differ, or one ended early; empty: neither
+  bool broken = false;                 // `what` breaks a claim
+};
+
 // What a verb asked of a run.
 struct Asked {
   std::vector<std::string> gates;  // by the names of gates.h; any other gate is not judged
@@ -111,6 +122,7 @@ struct Versions {
 struct Paths {
   std::string out, detector;
   std::string own_cases{};  // empty: none
+  std::string data{};       // of the public sequences; empty: none
 };
 struct InputDigests {
   std::string corpus;                  // names and bytes of the shipped cases, and of the owner's
@@ -170,6 +182,7 @@ struct EvidenceFacts {
   std::optional<Paths> paths;
   std::vector<PluginIsolation> isolation;
   std::vector<SlowCase> slow;
+  std::vector<Repetition> repeated;
   std::optional<InputDigests> inputs;
   std::vector<StoredWaiver> waivers;
   std::vector<CorpusRow> corpus;
@@ -189,6 +202,7 @@ Evidence to_row(const PowerSource& source);
 Evidence to_row(const World& world);
 Evidence to_row(const PluginIsolation& isolation);
 Evidence to_row(const SlowCase& slow);
+Evidence to_row(const Repetition& repetition);
 Evidence to_row(const Asked& asked);
 Evidence to_row(const Versions& versions);
 Evidence to_row(const Paths& paths);

@@ -39,7 +39,8 @@ const std::array<JoinedTable, 4>& joined_tables() {
        "(id,configuration) DO UPDATE SET smallest=CASE WHEN excluded.smallest<>'' AND (smallest='' "
        "OR length(excluded.smallest)<length(smallest) OR "
        "(length(excluded.smallest)=length(smallest) AND excluded.smallest<smallest)) THEN "
-       "excluded.smallest ELSE smallest END WHERE signature=excluded.signature AND "
+       "excluded.smallest ELSE smallest END, printed=max(printed,excluded.printed) WHERE "
+       "signature=excluded.signature AND "
        "what=excluded.what AND mesh=excluded.mesh AND flaky=excluded.flaky"},
       {met_table(), "failure",
        "(id,configuration) DO UPDATE SET signature=signature WHERE signature=excluded.signature"},

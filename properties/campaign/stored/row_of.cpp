@@ -20,7 +20,8 @@ Row row_of(const TrialRecord& r) {
 }
 
 Row row_of(const StoredFailure& f) {
-  return {f.id, f.configuration, f.signature, f.what, f.mesh, f.smallest, f.flaky ? "1" : "0"};
+  return {f.id,   f.configuration, f.signature,         f.what,
+          f.mesh, f.smallest,      f.flaky ? "1" : "0", f.printed};
 }
 
 Row row_of(const Evidence& e) {
@@ -46,7 +47,7 @@ TrialRecord trial_of(const Row& row) {
 }
 
 StoredFailure failure_of(const Row& row) {
-  return {row[0], row[1], row[2], row[3], row[4], row[5], row[6] != "0"};
+  return {row[0], row[1], row[2], row[3], row[4], row[5], row[6] != "0", row[7]};
 }
 
 Evidence evidence_of(const Row& row) {

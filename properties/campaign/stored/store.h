@@ -26,8 +26,9 @@ struct StoredFailure {
   std::string id;  // of the trial
   std::string configuration, signature, what;
   std::string mesh;
-  std::string smallest;  // empty: not shrunk
-  bool flaky = false;    // two runs of it differ: a failure of its own
+  std::string smallest;      // empty: not shrunk
+  bool flaky = false;        // two runs of it differ: a failure of its own
+  std::string printed = {};  // by a plug-in when it failed, in printable lines; two runs may differ
 };
 
 // Of a broken law the signature is "law L3_...", and `configuration` is "view-point, law L3_...",
@@ -37,6 +38,9 @@ inline constexpr std::string_view law_in_signature = "law ", law_in_configuratio
 // The id of a failure that the shipped corpus shows is this and the name of its case. No trial's
 // id begins so: the name of a campaign has no '/'.
 inline constexpr std::string_view corpus_in_id = "corpus/";
+
+// The same of a large mesh on which two runs differ.
+inline constexpr std::string_view repeated_in_id = "repeated/";
 
 // What the mesh of a failure says of itself: "all-pairs: missing pair, edge-edge; triangles 0 and
 // 1 meet at 0.5", and back: what stands behind the signature, of the smallest mesh where there is

@@ -89,7 +89,10 @@ Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement
     if (diff.outcome == Outcome::defect) {
       verdict.outcome = Outcome::defect;
       verdict.failure = failure_of(diff, run.steps[s]);
-      if (verdict.failure->kind == "error") verdict.failure->what = whole.what;
+      if (verdict.failure->kind == "error") {
+        const auto error = error_of(run, s);
+        verdict.failure->what = error.empty() ? whole.what : error;
+      }
       if (detector.built_in) {
         find_stage(*verdict.failure, c, steps[s], diff);
       } else {

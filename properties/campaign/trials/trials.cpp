@@ -214,7 +214,13 @@ class Trials {
         failing_case(trial.seen, configuration, request_.detector, *verdict.failure);
     trial.failures.push_back({trial.record.id, configuration.name,
                               verdict.failure->signature() + (flaky ? " (flaky)" : ""),
-                              verdict.failure->what, corpus::case_text(failing), "", flaky});
+                              verdict.failure->what, corpus::case_text(failing), "", flaky,
+                              printed_of(trial.runs[i], again)});
+  }
+
+  // What differs between two runs may be told by the second alone.
+  static const std::string& printed_of(const CaseRun& run, const CaseRun* again) {
+    return run.printed.empty() && again ? again->printed : run.printed;
   }
 
   void count(Trial& trial, const PlannedTrial& planned) const {

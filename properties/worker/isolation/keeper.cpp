@@ -1,5 +1,6 @@
 #include "properties/worker/isolation/keeper.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -14,8 +15,10 @@
 #include <cstring>
 #include <optional>
 
+#include "properties/worker/child_process.h"
 #include "properties/worker/isolation/namespaces.h"
 #include "properties/worker/isolation/plugin_child.h"
+#include "properties/worker/isolation/printed_words.h"
 #include "properties/worker/wire_fields.h"
 
 namespace assay::properties {
@@ -89,8 +92,13 @@ std::optional<Received> receive_report(int socket, int flags) {
 
 class Keeper {
  public:
-  Keeper(Channel host, int plugin, int reports, pid_t child)
-      : host_(std::move(host)), plugin_(plugin), reports_(reports), child_(child) {
+  // printed: what the plug-in prints is read there; -1: nowhere.
+  Keeper(Channel host, int plugin, int reports, int printed, pid_t child)
+      : host_(std::move(host)),
+        plugin_(plugin),
+        reports_(reports),
+        printed_(printed),
+        child_(child) {
     ended_ = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));
   }
 
@@ -103,9 +111,12 @@ class Keeper {
     for (;;) {
       // Where the system has no such descriptor for a process, it is looked at now and then.
       constexpr int now_and_then_ms = 20;
-      std::array<pollfd, 3> watched = {
-          {{host_.descriptor(), POLLIN, 0}, {plugin_, POLLIN, 0}, {ended_, POLLIN, 0}}};
+      std::array<pollfd, 4> watched = {{{host_.descriptor(), POLLIN, 0},
+                                        {plugin_, POLLIN, 0},
+                                        {ended_, POLLIN, 0},
+                                        {printed_, POLLIN, 0}}};
       ::poll(watched.data(), watched.size(), ended_ < 0 ? now_and_then_ms : -1);
+      if (watched[3].revents) tell_words(false);
       if (watched[0].revents) from_host();
       if (watched[1].revents) from_plugin();
       if (has_ended()) end();
@@ -120,10 +131,29 @@ class Keeper {
   }
 
   void from_host() {
+    told_ = 0;
     if (pass_on_all(host_.descriptor(), plugin_) == Passed::from_is_closed) leave();
   }
 
+  void hear() {
+    if (printed_ < 0 || read_what_is_there(printed_, words_)) return;
+    ::close(printed_);
+    printed_ = -1;
+  }
+
+  // At once, for the host may end this process; of one that floods, only when it replies or ends.
+  // Nothing waits here: the host's pipe holds more than this.
+  void tell_words(bool is_last) {
+    hear();
+    constexpr std::size_t most_at_once = 8 * longest_printed;
+    if (words_.empty() || (!is_last && told_ > most_at_once)) return;
+    const std::string text = words_.take();
+    told_ += text.size();
+    [[maybe_unused]] const ssize_t done = ::write(printed_descriptor, text.data(), text.size());
+  }
+
   void from_plugin() {
+    tell_words(true);
     const Passed passed = pass_on_all(plugin_, host_.descriptor());
     if (passed == Passed::to_is_closed) leave();
     if (passed != Passed::from_is_closed) return;
@@ -142,7 +172,8 @@ class Keeper {
   }
 
   [[noreturn]] void end() {
-    if (plugin_ >= 0) pass_on_all(plugin_, host_.descriptor());  // its last words
+    tell_words(true);
+    if (plugin_ >= 0) pass_on_all(plugin_, host_.descriptor());  // its last reply
     int status = 0;
     while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
     }
@@ -151,7 +182,9 @@ class Keeper {
   }
 
   Channel host_;
-  int plugin_, reports_;
+  int plugin_, reports_, printed_;
+  LastWords words_;
+  std::size_t told_ = 0;  // bytes of them since the host's last message
   pid_t child_;
   int ended_;
 };
@@ -160,11 +193,17 @@ class Keeper {
 
 void keep(Channel host, const KeptPlugin& kept, const std::function<int(Channel)>& serve) {
   const pid_t parent = ::getppid();
+  // Before anything else may be opened under this number.
+  const bool is_silent =
+      kept.mode != IsolationMode::none && ::fcntl(printed_descriptor, F_GETFD) >= 0;
   std::array<int, 2> channel, reports;
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, channel.data()) != 0 ||
       ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, reports.data()) != 0) {
     ::_exit(EXIT_FAILURE);
   }
+  std::array<int, 2> printed = {-1, -1};
+  if (is_silent && ::pipe2(printed.data(), O_CLOEXEC) != 0) ::_exit(EXIT_FAILURE);
+  if (is_silent) ::fcntl(printed[0], F_SETFL, O_NONBLOCK);
   const int yes = 1;
   ::setsockopt(reports[0], SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
   if (kept.mode != IsolationMode::none) become_limitable();
@@ -172,7 +211,7 @@ void keep(Channel host, const KeptPlugin& kept, const std::function<int(Channel)
   // Another set of rights makes the system forget this; the host may have died by now.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(EXIT_SUCCESS);
-  const ChildEnds ends = {channel[1], reports[1]};
+  const ChildEnds ends = {channel[1], reports[1], printed[1]};
   const pid_t child = ::fork();
   if (child == 0) {
     if (in_new_world) begin_with_plugin(kept, ends, serve);
@@ -181,7 +220,8 @@ void keep(Channel host, const KeptPlugin& kept, const std::function<int(Channel)
   if (child < 0) ::_exit(EXIT_FAILURE);
   ::close(channel[1]);
   ::close(reports[1]);
-  Keeper(std::move(host), channel[0], reports[0], child).run();
+  if (is_silent) ::close(printed[1]);
+  Keeper(std::move(host), channel[0], reports[0], printed[0], child).run();
 }
 
 }  // namespace assay::properties

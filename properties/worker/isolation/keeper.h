@@ -33,7 +33,9 @@ struct KeeperHello {
 
 // Starts the plug-in's process, which calls `serve` with its channel and exits with what that
 // returns; says hello to the host and passes on what the two say, until one of them ends. Ends this
-// process as the plug-in's ended: with its code, or by its signal. Where the isolation is required
+// process as the plug-in's ended: with its code, or by its signal. What the plug-in prints goes to
+// printed_descriptor before what it replies, its end alone where that is much (printed_words.h);
+// with isolation none it goes where this process prints. Where the isolation is required
 // and not whole the plug-in's process ends before `serve`.
 [[noreturn]] void keep(Channel host, const KeptPlugin& kept,
                        const std::function<int(Channel)>& serve);

@@ -34,10 +34,12 @@ void close_all_but(const ChildEnds& ends) {
   ::close_range(high + 1, last, 0);
 }
 
-// What it prints goes nowhere: a line on the user's terminal could be taken for the host's.
-void fall_silent() {
+// What it prints goes to the keeper: a line on the user's terminal could be taken for the host's.
+void print_into(int pipe) {
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
+  ::dup2(nowhere, STDIN_FILENO);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+    ::dup2(pipe >= 0 ? pipe : nowhere, stream);
   ::close(nowhere);
 }
 
@@ -71,12 +73,12 @@ Isolation shut_in(const KeptPlugin& kept, bool in_new_world) {
 void become_plugin(const KeptPlugin& kept, const ChildEnds& ends, bool in_new_world,
                    const std::function<int(Channel)>& serve) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  close_all_but(ends);
   if (kept.mode != IsolationMode::none) {
     ::setsid();  // it has no terminal
-    fall_silent();
+    print_into(ends.printed);
     ::setenv("TMPDIR", kept.scratch.c_str(), 1);
   }
+  close_all_but(ends);
   limit(kept);
   ChildReport ready;
   ready.isolation = shut_in(kept, in_new_world);
@@ -101,6 +103,7 @@ void begin_with_plugin(const KeptPlugin& kept, const ChildEnds& ends,
   // The plug-in is the same user in the same world, and is to find nothing here.
   ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
   ::close(ends.channel);
+  if (ends.printed >= 0) ::close(ends.printed);
   ChildReport end;
   end.kind = ChildReport::Kind::ended;
   pid_t ended = plugin < 0 ? plugin : 0;

@@ -16,6 +16,7 @@ struct ChildReport {
 struct ChildEnds {
   int channel = -1;  // the plug-in's end
   int reports = -1;  // to the keeper
+  int printed = -1;  // where it prints; -1: as its starter does
 };
 
 // The plug-in's process: shuts itself in as far as it is asked to and the system allows, reports

@@ -10,6 +10,7 @@ namespace assay::properties {
 // What a library holds; the built-in detector holds steps.
 struct PluginParts {
   bool steps = true, query = false, candidates = false;
+  bool takes_threads = false;  // it asks how many threads it may use
   friend bool operator==(const PluginParts&, const PluginParts&) = default;
 };
 

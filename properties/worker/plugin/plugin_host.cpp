@@ -11,6 +11,7 @@
 #include "properties/printable.h"
 #include "properties/worker/plugin/plugin_result.h"
 #include "properties/worker/plugin/plugin_table.h"
+#include "properties/worker/run_clock.h"
 
 namespace assay::properties {
 
@@ -48,6 +49,10 @@ class PluginRun {
     assay_result raw = {};
     const auto asked = called("result", api_.result(handle_.get(), &raw));
     if (!asked) return asked.error();
+    if (raw.answer == ASSAY_ERROR && !(raw.message && *raw.message)) {
+      if (auto text = text_of_error(api_); !text.empty())
+        return Problem{ProblemKind::step_failed, std::move(text)};
+    }
     auto result = step_result(raw, triangle_count_, reports_pairs_);
     if (!result) return result;
     const Answer answer = result.value().answer;
@@ -60,11 +65,10 @@ class PluginRun {
 
  private:
   // Whether the call did its work.
-  static Expected<void> called(const char* function, std::int32_t code) {
+  Expected<void> called(const char* function, std::int32_t code) const {
     if (code == ASSAY_OK) return boost::outcome_v2::success();
     if (code == ASSAY_OUT_OF_MEMORY) return Problem{ProblemKind::out_of_memory, "out of memory"};
-    return Problem{ProblemKind::step_failed,
-                   std::string(function) + " returned " + std::to_string(code)};
+    return Problem{ProblemKind::step_failed, text_of_code(api_, function, code)};
   }
 
   const assay_detector_api& api_;
@@ -122,11 +126,16 @@ std::vector<QueryAnswer> PluginHost::ask(std::span<const detector::FourPoints> q
         table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
                      x_t0.data(), x_t1.data(), &raw);
     answers.push_back(query_answer(code, raw));
+    auto& what = answers.back().what;
+    if (code != ASSAY_OK && code != ASSAY_OUT_OF_MEMORY) what = text_of_code(table_, "query", code);
+    if (code == ASSAY_OK && raw.answer == ASSAY_ERROR) {
+      if (auto text = text_of_error(table_); !text.empty()) what = std::move(text);
+    }
   }
   return answers;
 }
 
-CaseRun PluginHost::run(const corpus::Case& c) const {
+CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   const auto& parts = description_.parts;
   if (!parts.steps && !parts.candidates) return {RunEnd::refused, "it takes no steps", {}};
   std::vector<detector::Positions> frames;
@@ -139,13 +148,15 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
   }
   assay_handle* handle = nullptr;
   const char* message = nullptr;
+  RunClock clock(is_timed);
   const std::int32_t code = table_.create(
       c.triangles.data(), static_cast<std::uint64_t>(c.triangles.rows()), frames.front().data(),
       static_cast<std::uint64_t>(frames.front().rows()), &handle, &message);
+  clock.created();
   if (code == ASSAY_OUT_OF_MEMORY) return out_of_memory();
   if (code != ASSAY_OK || !handle) {
     std::string what = line_of(message);
-    if (what.empty()) what = "create returned " + std::to_string(code);
+    if (what.empty()) what = text_of_code(table_, "create", code);
     return {RunEnd::refused, std::move(what), {}};
   }
   PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
@@ -161,9 +172,7 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
       result = {};
       result.answer =
           problem.kind == ProblemKind::out_of_memory ? Answer::undecided : Answer::error;
-      if (!run.what.empty()) return;
-      run.what =
-          "step " + std::to_string(run.steps.size()) + ": " + line_of(problem.message.c_str());
+      note_error(run, run.steps.size() - 1, line_of(problem.message.c_str()));
     };
     // Before the step is evaluated: nothing may stand between that and its commit.
     std::optional<Problem> without_candidates;
@@ -176,6 +185,7 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
         without_candidates = pairs.error();
       }
     }
+    clock.begin();
     if (parts.steps) {
       auto answered = plugin.step(x_t0, x_t1, step.commit);
       if (answered) {
@@ -184,8 +194,10 @@ CaseRun PluginHost::run(const corpus::Case& c) const {
         fail(answered.error());
       }
     }
+    clock.answered();
     if (without_candidates) fail(*without_candidates);
   }
+  run.times = clock.take();
   return run;
 }
 

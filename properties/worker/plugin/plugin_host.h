@@ -26,7 +26,7 @@ class PluginHost {
   // As run_case. A result that breaks the header's rules (an index out of range, an interval that
   // is none) makes its step an error; errors are told in `what`. Coordinates are rounded to what
   // the contract says; steps that it leaves out are the caller's to leave out.
-  CaseRun run(const corpus::Case& c) const;
+  CaseRun run(const corpus::Case& c, bool is_timed = false) const;
 
   // An answer to each query, by the same rules. REQUIRES that it has the part, and queries as the
   // contract has them.

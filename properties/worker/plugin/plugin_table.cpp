@@ -30,6 +30,11 @@ std::string gap_in(const assay_detector_api& table) {
   return "";
 }
 
+std::string nothing_described(const assay_detector_api& table) {
+  const std::string text = text_of_error(table);
+  return "describe() returns nothing" + (text.empty() ? text : ": " + text);
+}
+
 template <class Enum>
 bool read_word(std::int32_t raw, Enum last, Enum& value) {
   if (raw < 0 || raw > static_cast<std::int32_t>(last)) return false;
@@ -71,6 +76,16 @@ std::string line_of(const char* text) {
   return printable(line);
 }
 
+std::string text_of_error(const assay_detector_api& table) {
+  return line_of(table.error_text ? table.error_text() : nullptr);
+}
+
+std::string text_of_code(const assay_detector_api& table, const char* function, std::int32_t code) {
+  const std::string text = text_of_error(table);
+  return std::string(function) + " returned " + std::to_string(code) +
+         (text.empty() ? "" : ": " + text);
+}
+
 Expected<assay_detector_api> read_table(const assay_detector_api* api) {
   if (!api)
     return Problem{ProblemKind::not_a_plugin,
@@ -90,7 +105,7 @@ Expected<assay_detector_api> read_table(const assay_detector_api* api) {
 
 Expected<PluginDescription> read_description(const assay_detector_api& table) {
   const assay_description* given = table.describe();
-  if (!given) return broken("describe() returns nothing");
+  if (!given) return broken(nothing_described(table));
   assay_description raw = {};
   std::memcpy(&raw, given,
               table.abi_version == first_version ? first_description_bytes : sizeof raw);
@@ -110,7 +125,7 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
       has(ASSAY_CLAIM_FIRST_PAIRS),   has(ASSAY_CLAIM_ALL_PAIRS), has(ASSAY_CLAIM_NO_SPURIOUS),
       has(ASSAY_CLAIM_DETERMINISTIC), has(ASSAY_CLAIM_TOTAL),     has(ASSAY_CLAIM_CANDIDATES)};
   description.parts = {table.evaluate != nullptr, table.query != nullptr,
-                       table.candidates != nullptr};
+                       table.candidates != nullptr, table.use_threads != nullptr};
   if (description.claims.candidates && !description.parts.candidates)
     return broken("it claims candidates, and has no such function");
   if (description.parts.candidates && !description.claims.candidates)

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "properties/campaign/query_plan.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/page/data/scene_json.h"
@@ -15,18 +14,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // As SceneMaker takes it.
-std::optional<DetectorWords> detector_of(const properties::RunFindings& findings) {
+std::optional<DetectorWords> detector_at_hand(const properties::RunFindings& findings) {
   if (!findings.run.detector.built_in && findings.library.empty()) return std::nullopt;
-  DetectorWords words;
-  words.library = findings.library;
-  words.part =
-      properties::asks_queries(findings.run.plan) ? DetectorPart::query : DetectorPart::steps;
-  return words;
+  return detector_of(findings);
 }
 
 class FailureList {
  public:
-  explicit FailureList(const properties::RunFindings& run) : run_(run), scenes_(detector_of(run)) {}
+  explicit FailureList(const properties::RunFindings& run)
+      : run_(run), scenes_(detector_at_hand(run)) {}
 
   Json all() {
     Json list = Json::array();
@@ -43,7 +39,7 @@ class FailureList {
  private:
   std::string replay_of(const properties::StoredFailure& failure) const {
     return replay_line(run_.folder, properties::failure_file(failure, !failure.smallest.empty()),
-                       DetectorWords{run_.library});
+                       detector_of(run_));
   }
 
   Json other(const properties::StoredFailure& failure) const {
@@ -56,6 +52,7 @@ class FailureList {
   Json shown(const properties::StoredFailure& failure) {
     Json json = {{"stage", nullptr}, {"now", nullptr},       {"scene", nullptr},
                  {"svg", nullptr},   {"not_shown", nullptr}, {"others", Json::array()}};
+    json["printed"] = failure.printed.empty() ? Json() : Json(failure.printed);
     const auto mesh = corpus::parse_case(failure.smallest.empty() ? failure.mesh : failure.smallest,
                                          "stored failure");
     if (!mesh) {

@@ -69,6 +69,13 @@ Json views_json(const CaseScene& scene, const detector::StepResult& seen) {
           {"primitives", std::move(primitives)}};
 }
 
+Json candidates_json(const properties::CandidatePairs& candidates) {
+  if (!candidates) return nullptr;
+  Json list = Json::array();
+  for (const auto& [a, b] : *candidates) list.push_back({a, b});
+  return list;
+}
+
 }  // namespace
 
 Json scene_json(const CaseScene& scene) {
@@ -88,12 +95,14 @@ Json scene_json(const CaseScene& scene) {
          {"detector", step.answered ? answer_json(scene, step, step.answered->answer,
                                                   step.answered->first, step.answered->pairs)
                                     : Json()},
+         {"candidates", candidates_json(step.candidates)},
          {"views", step.seen ? views_json(scene, *step.seen) : Json()}});
   }
   const auto pair = scene.shown_pair();
   return {{"triangles", std::move(triangles)},
           {"frames", std::move(frames)},
           {"steps", std::move(steps)},
+          {"reports_pairs", scene.reports_pairs},
           {"views_by", scene.views_by.empty() ? Json() : Json(scene.views_by)},
           {"ended", scene.ended.empty() ? Json() : Json(scene.ended)},
           {"shown",

@@ -72,8 +72,11 @@ export function failureFacts(failure: Failure): HTMLElement {
     {},
     html("h4", {}, "Replay"),
     replayLine(failure.replay),
-    html("p", { class: "note" }, "Paste it where the campaign was started: paths are as they were named there."),
+    html("p", { class: "note" }, "It can be pasted in any folder where assay is on the PATH."),
     facts,
+    failure.printed === null
+      ? null
+      : html("details", {}, html("summary", {}, "What it printed"), html("pre", { class: "printed" }, failure.printed)),
     others.length === 0
       ? null
       : html("details", {}, html("summary", {}, `${others.length} more of this kind`), html("ul", {}, ...others)),

@@ -9,6 +9,8 @@ interface Row {
   exact: Contact | null;
   detector: Contact | null;
   ran: boolean;
+  reported: boolean; // whether the detector says anything of pairs
+  candidate: boolean | null; // null: it gives none
 }
 
 function rowsOf(scene: Scene): Row[] {
@@ -19,7 +21,8 @@ function rowsOf(scene: Scene): Row[] {
       const key = c.triangles.join(",");
       const known = found.get(key);
       if (known) return known;
-      const made = { step: index, pair: c.triangles, exact: null, detector: null, ran: step.detector !== null };
+      const candidate = step.candidates?.some(([a, b]) => `${a},${b}` === key) ?? null;
+      const made = { step: index, pair: c.triangles, exact: null, detector: null, ran: step.detector !== null, reported: scene.reports_pairs, candidate };
       found.set(key, made);
       return made;
     };
@@ -32,6 +35,7 @@ function rowsOf(scene: Scene): Row[] {
 
 function difference(row: Row): string {
   if (!row.ran) return "not run";
+  if (!row.reported) return row.candidate === false ? "no candidate" : "\u2013";
   if (!row.detector) return "missing";
   if (!row.exact) return "spurious";
   const [lo, hi] = row.detector.time;
@@ -44,6 +48,7 @@ const stated = (c: Contact): string => (c.time[1] - c.time[0] >= 1 ? "not stated
 export function pairTable(scene: Scene, choose: (step: number, pair: [number, number]) => void): HTMLElement {
   const rows = rowsOf(scene);
   if (rows.length === 0) return html("p", { class: "note" }, "No pair is in contact, by the oracle or by the detector.");
+  const gives = rows.some((r) => r.candidate !== null);
   return table(
     "Pairs in contact",
     [
@@ -57,6 +62,7 @@ export function pairTable(scene: Scene, choose: (step: number, pair: [number, nu
       { head: "feature", cell: (r: Row) => r.exact?.feature ?? "\u2013", short: true },
       { head: "exact time", cell: (r: Row) => (r.exact ? time(r.exact.time) : "no contact") },
       { head: "detector's time", cell: (r: Row) => (r.detector ? stated(r.detector) : r.ran ? "not reported" : "\u2013") },
+      ...(gives ? [{ head: "candidate", cell: (r: Row) => (r.candidate ? "yes" : "no") }] : []),
       { head: "difference", cell: difference },
     ],
     rows,

@@ -33,6 +33,7 @@ export interface Step {
   commit: boolean;
   oracle: Answer;
   detector: Answer | null;
+  candidates: [number, number][] | null; // of a plug-in that gives some
   views: Views | null;
 }
 
@@ -40,6 +41,7 @@ export interface Scene {
   triangles: [number, number, number][];
   frames: Point[][];
   steps: Step[];
+  reports_pairs: boolean;
   views_by: string | null;
   ended: string | null;
   shown: { step: number; pair: [number, number] | null };
@@ -66,6 +68,7 @@ export interface Failure {
   scene: Scene | null;
   svg: string | null;
   not_shown: string | null;
+  printed: string | null; // by a plug-in when it failed
   others: { id: string; configuration: string; what: string; replay: string }[];
 }
 
@@ -210,7 +213,18 @@ export interface Measures {
   without_time: number;
   late: TimesOff;
   early: TimesOff;
+  // Of a broad phase: candidate pairs in these steps, and the pairs in contact in them.
+  candidates: { steps: number; given: number; least: number; over_least: number };
   left_out: { cases_redrawn: number; steps: number; would_be_misses: number };
+}
+
+export interface Repetition {
+  input: string;
+  triangles: number;
+  steps: number;
+  threads: number[];
+  what: string;
+  broken: boolean;
 }
 
 export interface Run {
@@ -226,6 +240,8 @@ export interface Run {
     claims: Claims[];
     contract: Contract;
   };
+  // Of a plug-in that was put to large meshes again and again.
+  repeated: Repetition[] | null;
   // "full", "none", "partial: lacks files"; null: of no plug-in.
   isolation: string | null;
   not_judged: NotJudged[];
@@ -286,6 +302,7 @@ export interface StoredFailure {
 export interface Findings {
   gates: Gate[];
   detector: { name: string; built_in: boolean; contract: Contract; configurations: Claims[] };
+  repeated: Repetition[] | null;
   isolation: string | null;
   not_judged: NotJudged[];
   versions: Certificate["versions"];

@@ -75,6 +75,7 @@ export function runOf(run: StoredRun): Run {
       configurations: f.detector.configurations.map((c) => c.name),
       claims: f.detector.configurations,
     },
+    repeated: f.repeated,
     isolation: f.isolation,
     not_judged: f.not_judged,
     measures: f.strata.flatMap(({ family, measures }) => (measures === null ? [] : [{ family, measures }])),

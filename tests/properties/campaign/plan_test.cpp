@@ -21,7 +21,8 @@ const char* const whole_plan = R"({"schema": "assay-campaign/1", "name": "tiny-1
              {"family": "broken", "cases": 5}],
   "seconds": 30, "case_seconds": 2.5, "case_bytes": 5000000000, "laws_every": 3, "law_premises": 4,
   "fault_cases": 7, "fault_seeds": 2, "shrink_faults": true, "tetrahedron_seconds": 1.5, "shrink_share": 0.25,
-  "policy": {"power": 0.5, "self_test_queries": 9, "speed_limits": {"exact-over-double": 1.5}}})";
+  "policy": {"power": 0.5, "self_test_queries": 9, "repeated_triangles": 80,
+             "speed_limits": {"exact-over-double": 1.5}}})";
 
 class Plans : public testing::Test {
  protected:
@@ -69,6 +70,7 @@ TEST_F(Plans, AFileSaysAllOfIt) {
   EXPECT_EQ(plan.shrink_share, .25);
   EXPECT_EQ(plan.policy.power, .5);
   EXPECT_EQ(plan.policy.self_test_queries, 9u);
+  EXPECT_EQ(plan.policy.repeated_triangles, 80u);
   ASSERT_EQ(plan.policy.speed_limits.size(), 1u);
   EXPECT_EQ(plan.policy.speed_limits[0].what, "exact-over-double");
   EXPECT_EQ(plan.policy.speed_limits[0].limit, 1.5);
@@ -139,6 +141,7 @@ TEST_F(Plans, AWrongFieldIsOneClearLine) {
   expect_wrong("/policy/power", 1.01, "policy.power");
   expect_wrong("/policy/powers", 1, "policy: no field 'powers'");
   expect_wrong("/policy/self_test_queries", -1, "policy.self_test_queries");
+  expect_wrong("/policy/repeated_triangles", 1e7, "policy.repeated_triangles");
   expect_wrong("/policy/speed_limits", 2, "policy.speed_limits: an object expected");
   expect_wrong("/policy/speed_limits/slow", 2, "policy.speed_limits: no figure 'slow'");
   expect_wrong("/policy/speed_limits/exact-over-double", 0, "speed_limits.exact-over-double");

@@ -180,6 +180,25 @@ TEST_F(Runs, APlugInsLibraryIsReadBack) {
   EXPECT_EQ(findings.run.detector.configurations.size(), 10u);
 }
 
+TEST_F(Runs, WhatAPlugInPrintedStandsWithItsFailure) {
+  RunToStore run;
+  run.request.plugin = "some/where.so";
+  run.request.detector.built_in = false;
+  run.judge("broken", 1, 'D');
+  run.fail("B1_one_vertex_own_nearest", "free-sound: answered free", "a line");
+  const auto silent = read_run(run.store(scratch / "silent"));
+  EXPECT_TRUE(reports::failure_scenes(silent)[0]["printed"].is_null());
+  run.failures[0].printed = "first\n</script> second";
+  const auto told = read_run(run.store(scratch / "told"));
+  EXPECT_EQ(reports::failure_scenes(told)[0]["printed"], "first\n</script> second");
+  EXPECT_EQ(told.rows, silent.rows) << "two runs may differ in it";
+  const std::vector<std::filesystem::path> both = {scratch / "silent/shard-1-of-1.sqlite",
+                                                   scratch / "told/shard-1-of-1.sqlite"};
+  std::filesystem::create_directory(scratch / "merged");
+  ASSERT_TRUE(properties::merge_stores(both, properties::merged_file(scratch / "merged")));
+  EXPECT_EQ(read_run(scratch / "merged").failures[0].printed, run.failures[0].printed);
+}
+
 TEST_F(Runs, BoundsAreThoseOfTheTerminal) {
   const auto json = page_of(
       RunToStore().judge("closed-generic", 10, 'H').judge("broken", 9, 'H').judge("broken", 1, 'D'),

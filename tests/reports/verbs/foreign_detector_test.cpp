@@ -54,6 +54,64 @@ TEST_F(ForeignDetector, TheRateOfItsAlarmsIsToldWhateverItClaims) {
   EXPECT_TRUE(contains(text, "\"false_alarms\":{\"of\":" + std::to_string(first)));
 }
 
+// Below each heading there is a row, and nowhere are two lines empty.
+void expect_no_empty_table(const std::string& text) {
+  EXPECT_FALSE(contains(text, "\n\n\n")) << text;
+  for (const std::string head : {"stratum ", "law ", "fault ", "sets of a pair", "input ",
+                                 "whatever is claimed", "cases by tag", "gate ", "speed ("}) {
+    for (auto at = text.find("\n" + head); at != std::string::npos;
+         at = text.find("\n" + head, at + 1)) {
+      const auto next = text.find('\n', at + 1) + 1;
+      EXPECT_NE(text[next], '\n') << head << "\n" << text;
+    }
+  }
+}
+
+TEST_F(ForeignDetector, WhoClaimsLittleSeesNoEmptyTable) {
+  for (const std::string words : {"claims=128 no-pairs", "claims=1 no-pairs start=free"}) {
+    std::filesystem::remove_all(out);
+    const auto made = judge("run", words, plan_text(6));
+    ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+    expect_no_empty_table(made.out);
+    const auto checked = run_assay("check " + curated("D6_fast_passage") + " --detector " + library,
+                                   "ASSAY_BY_CONTRACT='" + words + "' ");
+    expect_no_empty_table(checked.out);
+    EXPECT_FALSE(contains(checked.out, "sets:")) << "of the built-in's stages";
+    EXPECT_FALSE(contains(read_text(out + "/junit.xml"), "tests=\"0\""));
+    for (const std::string what : {"slow", "failures"})
+      expect_no_empty_table(run_assay("list " + what + " " + out).out);
+  }
+  const auto made =
+      run_assay("certify --campaign " + scratch.write("plan.json", plan_text(6)) + " --out " +
+                (scratch / "certified") + " --detector " + plugin("misses_on_97"));
+  ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
+  expect_no_empty_table(made.out);
+  EXPECT_FALSE(contains(read_text(scratch / "certified/junit.xml"), "tests=\"0\""));
+  const auto stated = Json::parse(read_text(scratch / "certified/certificate.json"))["predicate"];
+  EXPECT_TRUE(stated["laws"].is_null());
+  EXPECT_TRUE(stated["cases"]["set_pairs"].empty());
+}
+
+TEST_F(ForeignDetector, WhatItPrintsStandsWithItsFailuresAndNowhereElse) {
+  const auto ran =
+      judge("run", std::string(modest) + "miss-inside print=2", plan_text(8), "--jobs 1");
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_FALSE(contains(ran.err, "line 1 of")) << ran.err;
+  const auto said = ran.out.find("  it printed:\n    line 1 of ?[31m");
+  ASSERT_NE(said, std::string::npos) << ran.out;
+  EXPECT_LT(ran.out.find("DEFECT free-sound: answered free"), said);
+  EXPECT_FALSE(contains(ran.out, "\x1b")) << "escape characters do no harm";
+  const auto failures = properties::read_findings(out).value().failures;
+  ASSERT_FALSE(failures.empty());
+  for (const auto& failure : failures)
+    EXPECT_TRUE(contains(failure.printed, "line 2 of ?[31m")) << failure.id;
+  EXPECT_TRUE(contains(run_assay("list failures " + out).out, "  it printed:\n"));
+  const auto replayed = run_assay(replay_lines(ran.out).front(),
+                                  "ASSAY_BY_CONTRACT='claims=131 miss-inside print=2' ");
+  EXPECT_EQ(replayed.exit_code, 1);
+  EXPECT_TRUE(contains(replayed.out, "  it printed:\n    line 1 of ?[31m")) << replayed.out;
+}
+
 TEST_F(ForeignDetector, NoCertificateNamesWhatNobodyJudged) {
   // It always answers collision at [0, 1], under the widest contract that loads.
   const auto made =

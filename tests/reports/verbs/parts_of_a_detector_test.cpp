@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "properties/worker/plugin/query_case.h"
 #include "tests/reports/json_schema.h"
 #include "tests/reports/tiny_campaign.h"
 
@@ -36,6 +37,17 @@ class Parts : public testing::Test {
     return verb + " --campaign " + plan + " --jobs 2 --out " + out(name);
   }
 };
+
+// A vertex that falls through the inside of a face: at t = 1/2.
+corpus::Case query_with_a_contact() {
+  detector::FourPoints query;
+  query.first_group = 1;
+  query.points = {{{{0.25, 0.25, 1}, {0.25, 0.25, -1}},
+                   {{0, 0, 0}, {0, 0, 0}},
+                   {{1, 0, 0}, {1, 0, 0}},
+                   {{0, 1, 0}, {0, 1, 0}}}};
+  return properties::case_of_query(query, "query");
+}
 
 void expect_valid_certificate(const std::string& file) {
   const auto schema =
@@ -89,6 +101,14 @@ TEST_F(Parts, ABroadPhaseIsCertifiedAndItsMissesAreShrunk) {
   const auto replayed = run_assay(lines[0]);
   EXPECT_EQ(replayed.exit_code, 1) << lines[0] << replayed.out << replayed.err;
   EXPECT_TRUE(contains(replayed.out, "DEFECT candidates: missing candidate")) << replayed.out;
+  const auto page =
+      with("ASSAY_CANDIDATES", "ends-only", "report " + out("wrong") + " --out " + out("page"));
+  ASSERT_EQ(page.exit_code, 0) << page.err;
+  // The page tells what is no candidate, and never that a pair is missing.
+  const auto text = read_text(out("page"));
+  EXPECT_TRUE(contains(text, R"("reports_pairs":false)"));
+  EXPECT_TRUE(contains(text, R"("candidates":[)"));
+  EXPECT_TRUE(contains(text, R"("over_least":)"));
 }
 
 TEST_F(Parts, LabelledQueriesAreScoredAndJudged) {
@@ -165,6 +185,52 @@ TEST_F(Parts, AFailingQueryIsShrunkAndReplayed) {
   EXPECT_TRUE(smallest["options"].contains("query"));
   const auto of_trial = asked("miss-inside", "replay tiny:1:query-constructed:0");
   EXPECT_TRUE(of_trial.exit_code == 0 || of_trial.exit_code == 1) << of_trial.out << of_trial.err;
+}
+
+TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
+  const auto replayed = [&](const std::string& words) {
+    return asked(words, "replay " + scratch.write("query.json", case_text(query_with_a_contact())) +
+                            " --export " + out("case"));
+  };
+  const auto missed = replayed("miss-inside");
+  ASSERT_EQ(missed.exit_code, 1) << missed.out << missed.err;
+  const auto ends = [](const std::string& command) {
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  const auto compiles = [&](const std::string& file, const std::string& more) {
+    EXPECT_EQ(ends(ASSAY_COMPILER " -std=c++17 -Wall -Wextra -Werror " + out("case/") + file +
+                   more + " -o " + out("program") + " 2>" + out("compiler")),
+              0)
+        << read_text(out("compiler"));
+  };
+  compiles("case.cpp", "");
+  EXPECT_EQ(ends(out("program") + " >/dev/null"), 2) << "not filled in";
+  auto text = read_text(out("case/case.cpp"));
+  const std::string unfilled = "return {false, false, 0};";
+  ASSERT_TRUE(contains(text, unfilled));
+  EXPECT_TRUE(contains(text, "\"1/2\"")) << text;
+  const auto filled = [&](const std::string& answer) {
+    auto changed = text;
+    changed.replace(changed.find(unfilled), unfilled.size(), "return {true, " + answer + "};");
+    scratch.write("case/filled.cpp", changed);
+    compiles("filled.cpp", "");
+    return ends(out("program") + " >" + out("printed"));
+  };
+  EXPECT_EQ(filled("true, 0.5"), 0);
+  EXPECT_EQ(filled("true, 0.75"), 1) << "late";
+  EXPECT_EQ(filled("false, 0"), 1);
+  EXPECT_TRUE(contains(read_text(out("printed")), "answered free at 0, exact collision at [0.5, "))
+      << read_text(out("printed"));
+  compiles("case_plugin.cpp", " -I " ASSAY_SOURCE_DIR " -ldl");
+  const auto judged = [&](const std::string& words) {
+    return ends("ASSAY_QUERY='" + words + "' " + out("program") + " " + plugin("query_alone") +
+                " >/dev/null");
+  };
+  EXPECT_EQ(judged(""), 0);
+  EXPECT_EQ(judged("miss-inside"), 1);
+  EXPECT_EQ(judged("late=0.1"), 1);
+  EXPECT_EQ(ends(out("program") + " " + plugin("candidates_alone") + " >/dev/null"), 2);
 }
 
 TEST_F(Parts, WhatAsksForAPartThatIsNotThereIsRefused) {

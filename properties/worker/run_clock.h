@@ -1,0 +1,28 @@
+// What a case takes in the process that runs it, part by part.
+#pragma once
+
+#include <optional>
+
+#include "properties/worker/case_run.h"
+
+namespace assay::properties {
+
+// Counts the processor time of this process with all of its threads; nothing where it is off.
+class RunClock {
+ public:
+  // Begins with the making of the detector.
+  explicit RunClock(bool is_on);
+  void created();
+  void begin();     // of a step
+  void answered();  // the step that began last
+  std::optional<RunTimes> take();
+
+ private:
+  double lap();
+
+  bool is_on_;
+  double last_ = 0;
+  RunTimes times_;
+};
+
+}  // namespace assay::properties

@@ -1,0 +1,161 @@
+#include "reports/bench/detector/sequence_run.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "properties/campaign/stored/step_measures.h"
+#include "properties/judging/contracted_case.h"
+#include "properties/judging/run_verdict.h"
+#include "reports/bench/interleave.h"
+
+namespace assay::reports {
+namespace {
+
+using detector::Answer;
+using properties::Outcome;
+using properties::RunEnd;
+
+// What a detector took in each round, and its first run, which is judged.
+struct TimedRuns {
+  std::optional<properties::CaseRun> first;
+  std::vector<double> create_ms;  // without that of the first run
+  std::vector<double> ms_a_step;  // the same
+  std::string ended;              // of a run that did not complete
+  bool has_differing_runs = false;
+};
+
+constexpr double ms_a_second = 1e3;
+
+// One more run of a case; milliseconds a step. Nothing more is run once a run has not completed.
+double run_once(properties::WorkerProcess& worker, const corpus::Case& c,
+                const properties::Configuration& configuration, TimedRuns& runs) {
+  if (!runs.ended.empty()) return 0;
+  auto run = std::move(worker.run(c, {&configuration, 1}).front());
+  if (run.end != RunEnd::completed || !run.times) {
+    runs.ended = fmt::format("{}: {}", name_of(run.end), run.what);
+    if (!runs.first) runs.first = std::move(run);
+    return 0;
+  }
+  const auto& steps = run.times->steps;
+  const double all = std::accumulate(steps.begin(), steps.end(), 0.);
+  const double ms = ms_a_second * all / static_cast<double>(steps.size());
+  if (!runs.first) {
+    runs.first = std::move(run);
+    return ms;
+  }
+  runs.has_differing_runs |= !same_answers(run, *runs.first);
+  runs.create_ms.push_back(ms_a_second * run.times->create);
+  runs.ms_a_step.push_back(ms);
+  return ms;
+}
+
+std::optional<ComparedTime> compared(const std::vector<double>& plugin,
+                                     const std::vector<double>& built_in) {
+  if (plugin.empty() || plugin.size() != built_in.size()) return std::nullopt;
+  return ComparedTime{median_of(plugin), median_of(built_in), ratio_of(plugin, built_in)};
+}
+
+FirstTimesOff off(const properties::ByHowMuch& values, std::uint64_t steps) {
+  return {steps, properties::worst_of(values)};
+}
+
+PluginErrors errors_of(const properties::RunVerdict& verdict, const properties::CaseRun& run,
+                       const std::vector<oracle::StepJudgement>& truth, bool claims_pairs) {
+  PluginErrors errors;
+  for (const auto claim : verdict.broken) errors.broken.emplace_back(name_of(claim));
+  properties::Counts counts;
+  count_measures(verdict.steps, run.steps, truth, counts);
+  const auto measures = properties::measures_in(counts);
+  errors.judged = truth.size();
+  errors.undecided = truth.size();
+  errors.missed = measures.answered_free;
+  errors.false_alarms = measures.false_alarms;
+  errors.spurious = measures.spurious_pairs;
+  errors.late = off(measures.late, measures.late_steps());
+  errors.early = off(measures.early, measures.early_steps());
+  for (std::size_t s = 0; s < verdict.steps.size(); ++s) {
+    const auto& diff = verdict.steps[s];
+    const Answer answer = run.steps[s].answer;
+    if (answer == Answer::free || answer == Answer::collision) --errors.undecided;
+    errors.contact += diff.first_contact ? 1 : 0;
+    errors.missing += diff.missing.size();
+    const bool misses_pair = claims_pairs && !diff.missing.empty();
+    errors.unsafe += diff.answered_free || diff.late_first || misses_pair ? 1 : 0;
+  }
+  return errors;
+}
+
+}  // namespace
+
+ComparedWorkers::ComparedWorkers(const BenchedPlugin& plugin)
+    : plugin_(plugin),
+      of_plugin_(properties::worker_program(), plugin.library, plugin.limits),
+      of_built_in_(properties::worker_program(), std::nullopt, {.seconds = plugin.limits.seconds}) {
+}
+
+ComparedSequence ComparedWorkers::compare(const SequenceToCompare& sequence,
+                                          std::vector<std::string>& wrong,
+                                          const std::function<void()>& tick) {
+  const auto& contract = plugin_.description.contract;
+  const auto& name = plugin_.description.name;
+  const auto claims = claims_on_steps(plugin_.description);
+  ComparedSequence out;
+  out.name = sequence.c.id;
+  out.kind = sequence.kind;
+  out.triangles = static_cast<std::uint64_t>(sequence.c.triangles.rows());
+  const auto planned = corpus::steps_of(sequence.c).size();
+  const auto seen = properties::contracted(sequence.c, contract);
+  out.steps = seen ? corpus::steps_of(*seen).size() : 0;
+  out.left_out = planned - out.steps;
+  if (!seen) {
+    out.ended = "beyond the contract";
+    return out;
+  }
+  // A plug-in that takes any start has to look at it: so does the built-in detector then. A gap in
+  // the sequence is a new start, of which nobody says that it is clean.
+  const bool vouches = contract.start != properties::StartRule::any;
+  const auto start = vouches && sequence.starts_clean && out.left_out == 0
+                         ? detector::Start::clean
+                         : detector::Start::verified;
+  const auto pairs = claims.all_pairs ? detector::Pairs::all : detector::Pairs::first;
+  const properties::Configuration own = {name, {}, {}, true};
+  const properties::Configuration built_in = {
+      "built-in", {detector::Culling::view_auto, start, pairs}, {}, true};
+  TimedRuns plugin_runs, built_in_runs;
+  const auto measure = [&](auto& worker, const auto& configuration, TimedRuns& runs) {
+    return [&] {
+      tick();
+      return run_once(worker, *seen, configuration, runs);
+    };
+  };
+  interleave(sequence.rounds, {measure(of_plugin_, own, plugin_runs),
+                               measure(of_built_in_, built_in, built_in_runs)});
+  if (!built_in_runs.ended.empty())
+    wrong.push_back(
+        fmt::format("{}: the built-in detector's run {}", out.name, built_in_runs.ended));
+  out.ended = plugin_runs.ended;
+  if (out.ended.empty()) {
+    out.step = compared(plugin_runs.ms_a_step, built_in_runs.ms_a_step);
+    out.create = compared(plugin_runs.create_ms, built_in_runs.create_ms);
+  }
+  tick();
+  const auto truth = properties::judge_case(*seen, contract, plugin_.jobs);
+  const auto verdict = judge_run(*seen, *plugin_runs.first, truth, claims, contract);
+  out.errors =
+      errors_of(verdict, *plugin_runs.first, truth, claims.all_pairs || claims.first_pairs);
+  if (claims.deterministic && plugin_runs.has_differing_runs)
+    out.errors.broken.emplace_back(name_of(properties::Claim::deterministic));
+  for (const auto& claim : out.errors.broken)
+    wrong.push_back(fmt::format("{}: {} breaks {}", out.name, name, claim));
+  const auto& answers = built_in_runs.first->steps;
+  for (std::size_t s = 0; s < answers.size(); ++s) {
+    const auto diff = properties::compare(answers[s], truth[s], built_in.options);
+    if (diff.outcome == Outcome::holds) continue;
+    wrong.push_back(fmt::format("{}, step {}: the built-in detector: {}", out.name, s + 1,
+                                name_of(diff.outcome)));
+  }
+  return out;
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,95 @@
+// What a plug-in says of a call that failed is told, whichever call it was, and of every step.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "properties/worker/worker_process.h"
+#include "tests/properties/worker/worker_cases.h"
+
+namespace assay::properties {
+namespace {
+
+using detector::Answer;
+using test::plugin_alone;
+
+class ErrorTexts : public testing::Test {
+ protected:
+  explicit ErrorTexts() {
+    c_ = test::small_case(41, 0);
+    // Three steps that commit, forth and back.
+    const auto first = c_.frames[0], second = c_.frames[1];
+    c_.frames = {first, second, first, second};
+    c_.script.clear();
+    c_.view.reset();
+    c_.ghosts.reset();
+    c_.expected = {};
+  }
+  ~ErrorTexts() override { ::unsetenv("ASSAY_SAYS_WHY"); }
+
+  WorkerProcess worker(const char* call, const char* library = "says_why") {
+    ::setenv("ASSAY_SAYS_WHY", call, 1);
+    return {ASSAY_WORKER, test::plugin(library), {}};
+  }
+  corpus::Case c_;
+};
+
+TEST_F(ErrorTexts, OfDescribe) {
+  const auto description = worker("describe").describe();
+  ASSERT_FALSE(description);
+  EXPECT_TRUE(
+      description.error().message.ends_with("describe() returns nothing: no describe today, 0"))
+      << description.error().message;
+}
+
+TEST_F(ErrorTexts, OfCreate) {
+  const auto run = worker("create").run(c_, plugin_alone).front();
+  EXPECT_EQ(run.end, RunEnd::refused);
+  EXPECT_EQ(run.what, "no create today, 0");
+}
+
+TEST_F(ErrorTexts, OfEveryStep) {
+  const auto run = worker("evaluate").run(c_, plugin_alone).front();
+  ASSERT_EQ(run.end, RunEnd::completed) << run.what;
+  EXPECT_EQ(run.what, "step 1: no evaluate today, 1");
+  ASSERT_EQ(run.errors.size(), 3u);
+  for (std::size_t s = 0; s < 3; ++s) {
+    EXPECT_EQ(run.steps[s].answer, Answer::error);
+    const auto number = std::to_string(s + 1);
+    EXPECT_EQ(error_of(run, s), "step " + number + ": no evaluate today, " + number);
+  }
+}
+
+TEST_F(ErrorTexts, OfCommit) {
+  const auto run = worker("commit", "says_why_of_commit").run(c_, plugin_alone).front();
+  ASSERT_EQ(run.end, RunEnd::completed) << run.what;
+  EXPECT_EQ(error_of(run, 0), "step 1: commit returned 3: no commit today, 1");
+  EXPECT_EQ(error_of(run, 1), "step 2: commit returned 3: no commit today, 2");
+}
+
+TEST_F(ErrorTexts, OfCandidates) {
+  const auto run = worker("candidates").run(c_, plugin_alone).front();
+  ASSERT_EQ(run.end, RunEnd::completed) << run.what;
+  EXPECT_EQ(error_of(run, 2), "step 3: candidates returned 3: no candidates today, 3");
+}
+
+TEST_F(ErrorTexts, OfQueries) {
+  const detector::FourPoints query = {};
+  const std::vector<detector::FourPoints> two(2, query);
+  for (const auto& run : worker("query").ask(two)) {
+    ASSERT_EQ(run.steps.size(), 1u) << run.what;
+    EXPECT_EQ(run.steps[0].answer, Answer::error);
+    EXPECT_EQ(run.what, "query returned 3: no query today, 0");
+  }
+  const auto said = worker("query-error").ask(two).front();
+  EXPECT_EQ(said.what, "said by its result");
+}
+
+TEST_F(ErrorTexts, NoneWhereNothingFails) {
+  const auto run = worker("").run(c_, plugin_alone).front();
+  ASSERT_EQ(run.end, RunEnd::completed) << run.what;
+  EXPECT_TRUE(run.errors.empty());
+  EXPECT_EQ(run.what, "");
+}
+
+}  // namespace
+}  // namespace assay::properties

@@ -1,0 +1,134 @@
+// `assay bench --detector`: plug-ins whose answers are known, on small scenes, and the verb.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "corpus/scenes/scenes.h"
+#include "reports/bench/detector/compared_output.h"
+#include "reports/bench/detector/detector_suite.h"
+#include "tests/reports/program.h"
+
+namespace assay::reports {
+namespace {
+
+std::string library(const std::string& name) {
+  return std::string(ASSAY_PLUGIN_DIR) + "/plugin_" + name + ".so";
+}
+
+BenchReport bench(const std::string& name, double seconds = 60) {
+  BenchedPlugin plugin;
+  plugin.library = library(name);
+  plugin.limits.seconds = seconds;
+  properties::WorkerProcess worker(ASSAY_WORKER, plugin.library, plugin.limits);
+  plugin.description = worker.describe().value();
+  Progress progress("bench");
+  return detector_suite({"/nowhere", 0.01}, plugin, progress);
+}
+
+std::uint64_t sum(const BenchReport& report, std::uint64_t PluginErrors::*member) {
+  std::uint64_t all = 0;
+  for (const auto& sequence : report.sequences) all += sequence.errors.*member;
+  return all;
+}
+
+TEST(DetectorBench, TheBuiltInAsAPluginHasNoErrorsAndItsOwnSpeed) {
+  const auto report = bench("wrapped_builtin");
+  EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
+  ASSERT_EQ(report.sequences.size(), corpus::scenes().size());
+  for (const auto& sequence : report.sequences) {
+    ASSERT_TRUE(sequence.step && sequence.create) << sequence.name << ": " << sequence.ended;
+    EXPECT_EQ(sequence.step->over.samples.size(), 2u);
+    EXPECT_GT(sequence.step->plugin_ms.value, 0) << sequence.name;
+    EXPECT_GT(sequence.create->built_in_ms.value, 0) << sequence.name;
+    EXPECT_EQ(sequence.errors.judged, sequence.steps);
+  }
+  EXPECT_GT(sum(report, &PluginErrors::contact), 5u);
+  for (const auto member :
+       {&PluginErrors::unsafe, &PluginErrors::false_alarms, &PluginErrors::missing,
+        &PluginErrors::spurious, &PluginErrors::undecided})
+    EXPECT_EQ(sum(report, member), 0u);
+  // A public sequence that is not there is named.
+  EXPECT_NE(text_of(report).find("/nowhere/ipc-toolkit/bunny.ply is not there"), std::string::npos);
+}
+
+TEST(DetectorBench, ErrorsStandBesideTimes) {
+  const auto free = bench("always_free");
+  const auto contacts = sum(free, &PluginErrors::contact);
+  EXPECT_EQ(sum(free, &PluginErrors::missed), contacts);
+  EXPECT_EQ(sum(free, &PluginErrors::unsafe), contacts);
+  EXPECT_GT(sum(free, &PluginErrors::missing), contacts);
+  EXPECT_EQ(sum(free, &PluginErrors::false_alarms), 0u);
+  EXPECT_FALSE(free.wrong_answers.empty());
+  const auto alarms = bench("always_collision");
+  EXPECT_EQ(sum(alarms, &PluginErrors::false_alarms),
+            sum(alarms, &PluginErrors::judged) - contacts);
+  EXPECT_EQ(sum(alarms, &PluginErrors::missed), 0u);
+  std::uint64_t early = 0;
+  for (const auto& sequence : alarms.sequences) {
+    early += sequence.errors.early.steps;
+    EXPECT_TRUE(sequence.step) << "what is wrong is timed too";
+  }
+  EXPECT_GT(early, 0u);
+}
+
+TEST(DetectorBench, WhatTheContractLeavesOutIsCounted) {
+  ::setenv("ASSAY_BY_CONTRACT", "start=free miss-at-start", 1);
+  const auto report = bench("by_contract");
+  ::unsetenv("ASSAY_BY_CONTRACT");
+  EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
+  std::uint64_t left_out = 0;
+  for (const auto& sequence : report.sequences) left_out += sequence.left_out;
+  EXPECT_GT(left_out, 0u);
+  EXPECT_NE(text_of(report).find("are left out by the contract"), std::string::npos);
+}
+
+TEST(DetectorBench, ARunThatEndsEarlyHasNoTimes) {
+  const auto report = bench("hang", .02);
+  ASSERT_FALSE(report.sequences.empty());
+  for (const auto& sequence : report.sequences) {
+    EXPECT_FALSE(sequence.step) << sequence.name;
+    EXPECT_TRUE(sequence.ended.starts_with("hung: ")) << sequence.ended;
+    EXPECT_EQ(sequence.errors.undecided, sequence.steps);
+  }
+  const auto& first = report.sequences.front();
+  EXPECT_EQ(to_json(std::span(&first, 1))[0]["step"], nullptr);
+  EXPECT_NE(csv_of(std::span(&first, 1)).find(",,,,"), std::string::npos);
+}
+
+TEST(DetectorBench, TheVerbWritesItsFiguresAndSaysWhatIsWrong) {
+  const tests::Scratch scratch;
+  const auto done =
+      tests::run_assay("bench --quick --data /nowhere --detector " + library("always_free") +
+                       " --json " + (scratch / "j") + " --csv " + (scratch / "c"));
+  EXPECT_EQ(done.exit_code, 1) << done.err;
+  EXPECT_NE(done.out.find("plug-in constant answer 1"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("WRONG ANSWER: bend: constant answer breaks free-sound"),
+            std::string::npos)
+      << done.out;
+  const auto json = nlohmann::json::parse(tests::read_text(scratch / "j"));
+  EXPECT_EQ(json["detector"]["name"], "constant answer");
+  ASSERT_EQ(json["sequences"].size(), corpus::scenes().size());
+  EXPECT_EQ(json["sequences"][0]["step"]["over"]["samples"].size(), 2u);
+  const auto csv = tests::read_text(scratch / "c");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
+            1 + 2 * corpus::scenes().size());
+}
+
+TEST(DetectorBench, TheVerbRefusesInOneLine) {
+  for (const std::string& arguments :
+       {std::string("--detector /nowhere/x.so"), "--detector " + library("without_entry"),
+        "--detector " + library("query_alone"), "--detector " + library("candidates_alone"),
+        "--detector " + library("example") + " --suite view",
+        "--detector " + library("example") + " --svg x.svg",
+        "--detector " + library("example") + " --case-seconds 0",
+        "--detector " + library("example") + " --threads 0"}) {
+    const auto outcome = tests::run_assay("bench " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << outcome.out;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace assay::reports

@@ -1,0 +1,137 @@
+// The claim `deterministic` on larger meshes: a plug-in whose answer depends on the number of
+// threads there, and nowhere else, is found; and lines that replay say how many threads it had.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "corpus/scenes/scenes.h"
+#include "tests/reports/json_schema.h"
+#include "tests/reports/tiny_campaign.h"
+
+namespace assay::tests {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Repetitions : public testing::Test {
+ protected:
+  const Scratch scratch;
+  const std::string out = scratch / "out";
+
+  Outcome judge(const std::string& verb, const std::string& library, int triangles,
+                const std::string& more = "", const std::string& prefix = "") const {
+    const auto plan = scratch.write(
+        "plan.json",
+        plan_text(6, R"(, "policy": {"repeated_triangles": )" + std::to_string(triangles) + "}"));
+    return run_assay(verb + " --campaign " + plan + " --jobs 2 --out " + out + " --detector " +
+                         plugin(library) + " " + more,
+                     prefix);
+  }
+  Json predicate() const { return Json::parse(read_text(out + "/certificate.json"))["predicate"]; }
+};
+
+TEST_F(Repetitions, AnAnswerThatDependsOnThreadsOnLargeMeshesIsFound) {
+  const auto made = judge("certify", "threads_matter", 1500);
+  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "DEFECT deterministic: two runs differ, large mesh")) << made.out;
+  EXPECT_TRUE(contains(made.out, "larger meshes on which runs differ") ||
+              contains(made.out, "verdict: defect"))
+      << made.out;
+  const auto stated = predicate();
+  EXPECT_EQ(stated["failed_gate"], "claims");
+  ASSERT_EQ(stated["repeated"].size(), corpus::scenes().size());
+  std::size_t broken = 0;
+  for (const auto& row : stated["repeated"]) {
+    if (!row["broken"].get<bool>()) continue;
+    ++broken;
+    EXPECT_EQ(row["threads"], Json::parse("[1, 2]")) << "the second run tells it";
+    EXPECT_TRUE(contains(row["what"], "with 2 threads: collision, 0 pairs, first time [0, 0.5]"))
+        << row;
+    EXPECT_GT(row["triangles"], 1000);
+  }
+  EXPECT_GT(broken, 3u);
+  ASSERT_EQ(stated["failures"].size(), 1u);
+  EXPECT_TRUE(stated["failures"][0]["flaky"]);
+  const auto schema =
+      Json::parse(read_text(ASSAY_SOURCE_DIR "/reports/certificate/certificate.schema.json"));
+  std::vector<std::string> wrong;
+  check_schema(schema, Json::parse(read_text(out + "/certificate.json")), "", wrong);
+  for (const auto& line : wrong) ADD_FAILURE() << line;
+  EXPECT_EQ(run_assay("verify " + out + "/certificate.json").exit_code, 1);
+  const auto page = scratch / "page.html";
+  ASSERT_EQ(run_assay("report " + out + " --out " + page).exit_code, 0);
+  EXPECT_TRUE(contains(read_text(page), "\"broken\":true"));
+}
+
+TEST_F(Repetitions, OnSmallMeshesItIsNotAndWithoutTheFaultItHolds) {
+  const auto small = judge("run", "threads_matter", 400);
+  EXPECT_EQ(small.exit_code, 0) << small.out << small.err;
+  EXPECT_TRUE(contains(small.out, " sequences of up to ")) << small.out;
+  EXPECT_TRUE(contains(small.out, " steps; 0 differ")) << small.out;
+  std::filesystem::remove_all(out);
+  const auto harmless =
+      judge("certify", "threads_matter", 1500, "", "ASSAY_THREADS_MATTER=harmless ");
+  EXPECT_EQ(harmless.exit_code, 0) << harmless.out << harmless.err;
+  const auto stated = predicate();
+  for (const auto& row : stated["repeated"]) {
+    EXPECT_EQ(row["threads"], Json::parse("[1, 2, 4, 4]")) << row;
+    EXPECT_EQ(row["runs"], 4);
+    EXPECT_EQ(row["what"], "");
+  }
+}
+
+TEST_F(Repetitions, TwoRunsThatDifferByThemselvesAreFoundToo) {
+  const auto made = judge("run", "threads_matter", 1500, "", "ASSAY_THREADS_MATTER=at-random ");
+  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "larger meshes on which runs differ")) << made.out;
+}
+
+TEST_F(Repetitions, TheSameCommandRepeatsNothingTwice) {
+  ASSERT_EQ(judge("run", "threads_matter", 400).exit_code, 0);
+  const auto again = judge("run", "threads_matter", 400);
+  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
+  EXPECT_TRUE(contains(again.out, " steps; 0 differ")) << again.out;
+}
+
+TEST_F(Repetitions, WhoAsksForNoThreadsIsRunTwice) {
+  const auto made = judge("certify", "wrapped_builtin", 400);
+  EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
+  for (const auto& row : predicate()["repeated"]) EXPECT_EQ(row["threads"], Json::parse("[1, 1]"));
+}
+
+TEST_F(Repetitions, PublicSequencesAreRepeatedWhereTheyAreNamed) {
+  const auto refused = judge("run", "threads_matter", 400, "--data /nowhere");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.err, "assay: /nowhere: none of the public sequences is there\n");
+  const char* data = std::getenv("ASSAY_DATA");
+  if (!data) GTEST_SKIP() << "ASSAY_DATA is not set";
+  const auto made = judge("certify", "threads_matter", 400, std::string("--data ") + data);
+  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+  const auto stated = predicate();
+  EXPECT_EQ(stated["repeated"].size(), corpus::scenes().size() + 4);
+  EXPECT_TRUE(contains(stated["replay"][0], " --data "));
+  for (const auto& row : stated["repeated"])
+    EXPECT_EQ(row["broken"],
+              row["input"] == "rod-twist" || row["input"] == "kick" || row["input"] == "bunny-bent")
+        << row;
+}
+
+TEST_F(Repetitions, LinesThatReplayTellTheThreads) {
+  const auto made = judge("certify", "always_free", 0, "--threads 3");
+  ASSERT_EQ(made.exit_code, 1) << made.out << made.err;
+  const auto stated = predicate();
+  EXPECT_EQ(stated["detector"]["threads"], 3);
+  EXPECT_TRUE(contains(stated["replay"][0], "plugin_always_free.so --threads 3 --out AGAIN"))
+      << stated["replay"];
+  ASSERT_FALSE(stated["failures"].empty());
+  for (const auto& failure : stated["failures"])
+    EXPECT_TRUE(contains(failure["replay"], " --threads 3")) << failure["replay"];
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"), " --threads 3"));
+  EXPECT_TRUE(contains(read_text(out + "/junit.xml"), " --threads 3"));
+  // Another number is another run.
+  const auto other = judge("certify", "always_free", 0, "--threads 2");
+  EXPECT_EQ(other.exit_code, 2) << other.out;
+}
+
+}  // namespace
+}  // namespace assay::tests
