@@ -32,8 +32,9 @@ std::optional<std::uint64_t> number(std::string_view word) {
   return value;
 }
 
-// Dies with its host, and before it where memory is short; leaves no core file, prints nothing on stdout; what it prints on a terminal
-// does not stop it, though its process group is in the background there.
+// Dies with its host, and before it where memory is short; leaves no core file, prints nothing on
+// stdout; what it prints on a terminal does not stop it, though its process group is in the
+// background there.
 bool settle(std::uint64_t host) {
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
   // The host may have died before that took hold.

@@ -107,6 +107,7 @@ NOT_RUN = {
     "tests/README.md": {
         "ctest --preset slow": RECURSION,
         "ctest --preset release": RECURSION,
+        "tests/sanitized": "compiles and runs for hours",
     },
     "tests/mutation/README.md": {
         "cmake --build --preset release --target mutation_facts mutant_judge detector_tests "

@@ -29,6 +29,18 @@ class Certify : public testing::Test {
   }
 };
 
+// Too little for it is one line, and no certificate.
+TEST_F(Certify, UnderLimitsOfTheUserIsRefusedInALine) {
+  for (const char* limit : {"--fsize=8192", "--as=40000000"}) {
+    const auto ended = run_assay("certify --campaign " + plan + " --out " + out,
+                                 "prlimit " + std::string(limit) + " ");
+    EXPECT_EQ(ended.exit_code, 2) << limit << ended.out;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+    EXPECT_FALSE(std::filesystem::exists(certificate)) << limit;
+    std::filesystem::remove_all(out);
+  }
+}
+
 void expect_schema(const Json& statement) {
   const auto schema =
       Json::parse(read_text(ASSAY_SOURCE_DIR "/reports/certificate/certificate.schema.json"));

@@ -149,12 +149,12 @@ TEST_F(Commands, TheLimitOfMemoryHolds) {
   for (int i = 0; i < count; ++i) mesh += "0 0 0\n1 0 0\n0 1 0\n";
   for (int i = 0; i < count; ++i) mesh += fmt::format("3 {} {} {}\n", 3 * i, 3 * i + 1, 3 * i + 2);
   const auto a = scratch.write("a.off", mesh), b = scratch.write("b.off", mesh);
-  const auto outcome = run_assay("check --no-oracle --memory 40M --json " + (scratch / "m.json") +
+  const auto outcome = run_assay("check --no-oracle --memory 30M --json " + (scratch / "m.json") +
                                  " " + a + " " + b);
   EXPECT_EQ(outcome.exit_code, 3) << outcome.out << outcome.err;
   const auto report = json::parse(read_text(scratch / "m.json"));
-  EXPECT_EQ(report["limit_reached"], "memory limit of 40 MiB");
-  EXPECT_LE(report["peak_memory_bytes"].get<double>(), 1.05 * (40 << 20));
+  EXPECT_EQ(report["limit_reached"], "memory limit of 30 MiB");
+  EXPECT_LE(report["peak_memory_bytes"].get<double>(), 1.05 * (30 << 20));
   EXPECT_EQ(report["steps"][0]["answer"], "undecided");
   EXPECT_TRUE(report["steps"][0]["pairs"].empty());
 }
