@@ -1,4 +1,5 @@
-// What culling automatic and view_auto keep from step to step: where it looks from, and whether looking has paid.
+// What culling automatic and view_auto keep from step to step: where they look from, and whether
+// looking has paid.
 #pragma once
 
 #include <memory>
@@ -19,7 +20,7 @@ struct ViewChoice {
 
   std::uint64_t rest = 0;        // steps to come without views
   std::uint64_t next_rest = 1;   // should the next look not pay
-  std::uint64_t candidates = 0;  // of the last step that searched; 0: none has
+  std::uint64_t candidates = 0;  // of the last search that proved nothing apart; 0: none has
   // What views took beside the pairs of K (closure, sweep, release) when they were last used in a
   // search, in candidates; halved by each look since.
   double overhead = 0;

@@ -224,7 +224,7 @@ class Step {
   }
 
   // Whether patches are proved apart in this search (L14).
-  bool worth_proving(CandidateSearch& candidates) const {
+  bool worth_proving(CandidateSearch& candidates) {
     return context_.options.culling != Culling::automatic ||
            auto_.proofs_pay(candidates.provable_share(), mesh_.triangles.size());
   }

@@ -63,7 +63,8 @@ constexpr std::size_t seen_at_a_glance = 64, worth_a_glance = 4'096;
 constexpr double cost_of_open = 15;
 
 // Cones take 0.1 us a triangle, and the contours of patches that are not free about as much again.
-// What they leave out are pairs of neighbours: half of these lie within small patches that are free.
+// What they leave out are pairs of neighbours: half of these lie within small patches that are
+// free.
 constexpr double cost_of_cones = 1, worth_of_proved = 0.5, least_provable = 0.5;
 
 constexpr std::uint64_t longest_rest = 32;
@@ -159,10 +160,11 @@ bool ViewAuto::promises(StepWork& work) {
          does_without(ViewUse::among_ghosts);
 }
 
-bool ViewAuto::proofs_pay(double provable, std::size_t triangles) const {
+bool ViewAuto::proofs_pay(double provable, std::size_t triangles) {
   const double left = use() == ViewUse::used ? 1 - share_ : 1;
   const double hoped = worth_of_proved * provable * left * static_cast<double>(adjacent_);
-  return provable >= least_provable && hoped >= cost_of_cones * static_cast<double>(triangles);
+  proves_ = provable >= least_provable && hoped >= cost_of_cones * static_cast<double>(triangles);
+  return proves_;
 }
 
 bool ViewAuto::pays(const StepWork& work) {
@@ -188,7 +190,9 @@ double ViewAuto::cost_beside_k(const StepCounts& counts) const {
 void ViewAuto::weigh(const StepCounts& counts, std::uint64_t candidates_of_k) {
   const auto k = static_cast<double>(candidates_of_k);
   const double all = share_ < 1 ? k / (1 - share_) : k;
-  const double saved = std::max(all, static_cast<double>(adjacent_)) - k;
+  // How much proofs leave out depends on the tree, and so on where the detector was made.
+  const double saved = proves_ ? share_ * static_cast<double>(expected_candidates())
+                               : std::max(all, static_cast<double>(adjacent_)) - k;
   const double closure = static_cast<double>(counts.search.candidate_pairs) - k;
   overhead_ = closure + cost_beside_k(counts);
   paid_ = *overhead_ <= worth_of_saved * saved;
@@ -196,7 +200,8 @@ void ViewAuto::weigh(const StepCounts& counts, std::uint64_t candidates_of_k) {
 
 ViewChoice ViewAuto::after(const StepCounts& counts, bool own) const {
   ViewChoice next = choice_;
-  if (counts.search.candidate_pairs > 0) next.candidates = counts.search.candidate_pairs;
+  if (counts.search.candidate_pairs > 0 && !proves_)
+    next.candidates = counts.search.candidate_pairs;
   ++next.age;
   if (!looks()) {
     --next.rest;

@@ -1,5 +1,5 @@
-// Culling automatic and view_auto: from where a step is looked at, whether its views are worth using,
-// and whether its search is worth proving patches apart (automatic alone).
+// Culling automatic and view_auto: from where a step is looked at, whether its views are worth
+// using, and whether patches are worth proving apart in its search (automatic alone).
 //
 // Everything is decided from the numbers of triangles and pairs of this step and of the steps
 // committed before, never from a clock: same input, same bytes. What is decided is a matter of
@@ -44,8 +44,8 @@ class ViewAuto {
   // views took when last used, and the ghosts are few enough to be swept. Refits the tree of an
   // unclosed mesh.
   bool promises(StepWork& work);
-  // Whether enough is left once it is known what is clean. Where nothing was known of the start, and
-  // too little is left, nothing is said against views in the next step.
+  // Whether enough is left once it is known what is clean. Where nothing was known of the start,
+  // and too little is left, nothing is said against views in the next step.
   bool pays(const StepWork& work);
   // What the release, the sweep and the closure have cost is held against what was saved.
   // `candidates_of_k`: those before the closure.
@@ -53,7 +53,7 @@ class ViewAuto {
 
   // Whether normal cones and contours are worth their cost in the search of this step (L14).
   // provable: of small patches, the share that they tell free.
-  bool proofs_pay(double provable, std::size_t triangles) const;
+  bool proofs_pay(double provable, std::size_t triangles);
 
   // Whether views are used, as far as that is decided.
   ViewUse use() const { return looks() ? use_ : ViewUse::resting; }
@@ -73,6 +73,7 @@ class ViewAuto {
   bool chose_ = false;
   double share_of_signs_ = 1, share_ = 1;  // a free step saves all
   bool paid_ = true;
+  bool proves_ = false;
   ViewUse use_ = ViewUse::used;
   std::optional<double> overhead_;  // of this step
 };

@@ -121,56 +121,86 @@ class PatchCones : public PatchProofs {
   SearchCounts& counts_;
 };
 
-// The node of at most `most` triangles that lies at `place` in [0, 1) of the tree, from its left to
-// its right.
-std::int32_t patch_at(const BoundingVolumeTree& tree, double place, std::size_t triangles,
-                      std::size_t most) {
-  std::int32_t node = BoundingVolumeTree::root;
-  for (; triangles > most && !tree.is_leaf(node); triangles = (triangles + 1) / 2) {
-    place *= 2;
-    const bool is_second = place >= 1;
-    if (is_second) place -= 1;
-    node = tree.child(node) + (is_second ? 1 : 0);
+// Triangles around `seed`, across edges, as many as `most`. The same for every tree: what a step
+// decides by them does not depend on where the detector was made.
+std::vector<std::int32_t> patch_around(const Topology& mesh, std::int32_t seed, std::size_t most) {
+  std::vector<std::int32_t> patch = {seed};
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    for (const auto e : mesh.triangle_edges[at(patch[i])]) {
+      for (const auto t : mesh.edge_triangles.row(e)) {
+        if (patch.size() == most) return patch;
+        if (std::find(patch.begin(), patch.end(), t) == patch.end()) patch.push_back(t);
+      }
+    }
   }
-  return node;
+  return patch;
 }
 
-DirectionSet cone_below(const NormalConeSearch& scheme, const SearchInput& input,
-                        std::int32_t node) {
-  if (!input.tree.is_leaf(node)) {
-    const auto child = input.tree.child(node);
-    const DirectionSet first = cone_below(scheme, input, child);
-    return first == 0 ? first : first & cone_below(scheme, input, child + 1);
+// The directed edges of the triangles, opposite ones cancelled.
+std::vector<DirectedEdge> boundary_of(const Topology& mesh, std::span<const std::int32_t> patch) {
+  std::vector<DirectedEdge> boundary;
+  for (const auto t : patch) {
+    const auto& corners = mesh.triangles[at(t)];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const bool falls = corners[(i + 1) % 3] > corners[(i + 2) % 3];
+      const DirectedEdge edge = 2 * mesh.triangle_edges[at(t)][i] + (falls ? 1 : 0);
+      const auto opposite = std::find(boundary.begin(), boundary.end(), edge ^ 1);
+      if (opposite == boundary.end()) {
+        boundary.push_back(edge);
+      } else {
+        boundary.erase(opposite);
+      }
+    }
   }
-  const auto& corners = input.mesh.triangles[at(input.tree.triangle(node))];
-  return scheme.faced({moving_point(*input.x_t0, *input.x_t1, corners[0]),
-                       moving_point(*input.x_t0, *input.x_t1, corners[1]),
-                       moving_point(*input.x_t0, *input.x_t1, corners[2])});
+  return boundary;
+}
+
+// The boundary as one walk that passes no vertex twice, or nothing.
+std::vector<std::int32_t> walk_along(const Topology& mesh, std::vector<DirectedEdge> boundary) {
+  const auto end_of = [&](DirectedEdge e, bool last) {
+    return mesh.edges[at(e / 2)][(e % 2 != 0) != last ? 1 : 0];
+  };
+  std::vector<std::int32_t> walk;
+  while (!boundary.empty()) {
+    const auto next = walk.empty() ? boundary.begin()
+                                   : std::find_if(boundary.begin(), boundary.end(), [&](auto e) {
+                                       return end_of(e, false) == walk.back();
+                                     });
+    if (next == boundary.end()) return {};
+    const auto to = end_of(*next, true);
+    if (std::find(walk.begin(), walk.end(), to) != walk.end()) return {};
+    walk.push_back(to);
+    boundary.erase(next);
+  }
+  return walk;
 }
 
 }  // namespace
 
 double NormalConeSearch::provable_share(const SearchInput& input) const {
-  const std::size_t triangles = input.mesh.triangles.size();
-  const auto& contours = static_cast<const Kept&>(*input.kept).contours;
+  constexpr std::size_t of_a_patch = 12;
+  const Topology& mesh = input.mesh;
+  const std::size_t patches = std::clamp<std::size_t>(mesh.triangles.size() / 512, 4, 32);
   MovingContour moving(*input.x_t0, *input.x_t1);
-  const auto share_of = [&](std::size_t patches, std::size_t most) {
-    std::size_t free = 0;
-    for (std::size_t i = 0; i < patches; ++i) {
-      const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(patches);
-      const auto node = patch_at(input.tree, place, triangles, most);
-      const Contour contour = contours.of(node);
-      const DirectionSet cone = contour.empty() ? 0 : cone_below(*this, input, node);
-      if (cone == 0) continue;
-      free += moving.stays_simple(contour, nearest_direction(cone, moving.area(contour)));
+  std::size_t free = 0;
+  for (std::size_t i = 0; i < patches; ++i) {
+    const auto seed =
+        static_cast<std::int32_t>((2 * i + 1) * mesh.triangles.size() / (2 * patches));
+    const auto patch = patch_around(mesh, seed, of_a_patch);
+    DirectionSet cone = ~DirectionSet{0};
+    for (const auto t : patch) {
+      const auto& v = mesh.triangles[at(t)];
+      cone &= faced({moving_point(*input.x_t0, *input.x_t1, v[0]),
+                     moving_point(*input.x_t0, *input.x_t1, v[1]),
+                     moving_point(*input.x_t0, *input.x_t1, v[2])});
+      if (cone == 0) break;
     }
-    return static_cast<double>(free) / static_cast<double>(patches);
-  };
-  constexpr std::size_t small = 16, large = 256;
-  const double of_small = share_of(std::clamp<std::size_t>(triangles / 512, 4, 32), small);
-  if (triangles < 16 * large || of_small >= 0.5) return of_small;
-  return std::max(of_small,
-                  share_of(std::clamp<std::size_t>(triangles / (32 * large), 1, 8), large));
+    if (cone == 0) continue;
+    const auto contour = walk_along(mesh, boundary_of(mesh, patch));
+    if (contour.empty()) continue;
+    free += stays_simple(moving, contour, nearest_direction(cone, moving.area(contour)));
+  }
+  return static_cast<double>(free) / static_cast<double>(patches);
 }
 
 std::unique_ptr<KeptBySearch> NormalConeSearch::prepare(const Topology& mesh,

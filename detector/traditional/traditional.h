@@ -6,8 +6,9 @@
 // edges and have both together. All else is told apart by boxes and by the pair rule, as in
 // TreeSearch, so its candidates are some of those. With culling normal_cone the rule asks for every
 // pair: no views, no state, every step stands alone. With culling automatic it asks for K (L14).
-// Either way what L3 and L7 promise is found: no pair that is left out is in contact. A feature pair is tested at one pair of triangles that hold
-// it (feature_pairs.h); where that pair is left out, the features lie in one patch and do not meet.
+// Either way what L3 and L7 promise is found, for no pair that is left out is in contact. A feature
+// pair is tested at one pair of triangles that hold it (feature_pairs.h); where that pair is left
+// out, the features lie in one patch and do not meet.
 #pragma once
 
 #include "detector/search/pair_search.h"
@@ -22,9 +23,7 @@ class NormalConeSearch : public TreeSearch {
                                         PacedStop& pace) const override;
   // 0.1 us a triangle for the cones, besides the descent; a TreeSearch where proofs are not used.
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
-  // Of 4 to 32 patches of about twelve triangles, 3 us each. Where few of them are free also of 1 to
-  // 8 patches of about 200: a split of a regular mesh may leave small patches in pieces, which have
-  // no contour, while larger ones are whole.
+  // Of 4 to 32 patches of 12 triangles around a few that are spread over the mesh, 3 us each.
   double provable_share(const SearchInput& input) const override;
 
   // The tests that the scheme rests on, each replaceable.

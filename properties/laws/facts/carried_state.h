@@ -35,7 +35,8 @@ TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s);
 // L8, L9 and L15, by the oracle alone: what is dirty at the start of step s. At a new start see
 // above; then what was dirty by this account, or touched by a ghost or in contact with its own
 // component during the step before, and is not untouched and of the common layer now. That layer is
-// the one of the triangles not in doubt; in a component without any, that of most untouched triangles.
+// the one of the triangles not in doubt; in a component without any, that of most untouched
+// triangles.
 //
 // A step without views releases nothing: at a new start all is dirty, unless the caller vouched for
 // it, and one that goes on has all that was in doubt after the step before.
