@@ -15,7 +15,7 @@
 
 #include "properties/worker/channel.h"
 #include "properties/worker/isolation/keeper.h"
-#include "properties/worker/memory_limit.h"
+#include "properties/worker/isolation/memory_limit.h"
 #include "properties/worker/plugin/plugin_host.h"
 #include "properties/worker/wire_fields.h"
 

@@ -15,7 +15,7 @@
 #include "properties/worker/isolation/call_filter.h"
 #include "properties/worker/isolation/file_fence.h"
 #include "properties/worker/isolation/namespaces.h"
-#include "properties/worker/memory_limit.h"
+#include "properties/worker/isolation/memory_limit.h"
 
 namespace assay::properties {
 namespace {

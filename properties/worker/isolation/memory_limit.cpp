@@ -1,4 +1,4 @@
-#include "properties/worker/memory_limit.h"
+#include "properties/worker/isolation/memory_limit.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>
