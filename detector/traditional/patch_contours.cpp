@@ -66,14 +66,14 @@ struct PatchContours::Builder {
   PacedStop* pace;
 
   Boundary run(std::int32_t node) {
-    constexpr std::uint64_t work_of_node = 20, work_of_edge = 4;
+    constexpr std::uint64_t work_at_node = 20, work_at_edge = 4;
     if (pace && pace->stopped()) return {};
     Boundary boundary = tree.is_leaf(node)
                             ? boundary_of_triangle(mesh, tree.triangle(node))
                             : joined(run(tree.child(node)), run(tree.child(node) + 1));
     Range& range = contours.ranges_[at(node)];
     range.begin = static_cast<std::uint32_t>(contours.vertices_.size());
-    if (pace && pace->after(work_of_node + work_of_edge * boundary.size())) return {};
+    if (pace && pace->after(work_at_node + work_at_edge * boundary.size())) return {};
     maker.append(boundary, contours.vertices_);
     range.count = static_cast<std::uint32_t>(contours.vertices_.size()) - range.begin;
     return boundary;
