@@ -52,6 +52,7 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
                       const std::vector<oracle::StepJudgement>& truth) {
   std::string culling = properties::name_of(options.culling);
   std::replace(culling.begin(), culling.end(), '-', '_');
+  if (options.culling == detector::Culling::automatic) culling = "automatic";  // auto is a keyword
   const char* const arithmetics[] = {"exact", "bounded", "double_precision", "single_precision"};
   const bool exact = options.arithmetic == detector::Arithmetic::exact;
   std::string out = fmt::format(

@@ -16,7 +16,7 @@ echo "$5"
 exit $3
 FAKE
   chmod +x "$scratch/assay"
-  "$shard" "$scratch/assay" "$scratch/night" tiny 1 1 '' '' 2/3
+  "$shard" "$scratch/assay" "$scratch/night" tiny 1 1 '' '' 1 '' 2/3
   local code=$?
   if [ $code -eq "$2" ]; then echo "ok: $1"; else
     echo "FAILED: $1: exit code $code, not $2"

@@ -83,8 +83,7 @@ bool CaseFacts::has_views(std::size_t s) const {
 }
 
 bool CaseFacts::starts_by_view_alone() const {
-  return options_.start == detector::Start::verified &&
-         detector::chooses_views(options_.culling);
+  return options_.start == detector::Start::verified && detector::chooses_views(options_.culling);
 }
 
 bool CaseFacts::has_ghosts(std::size_t component) const {

@@ -14,8 +14,8 @@
 
 #include "properties/worker/isolation/call_filter.h"
 #include "properties/worker/isolation/file_fence.h"
-#include "properties/worker/isolation/namespaces.h"
 #include "properties/worker/isolation/memory_limit.h"
+#include "properties/worker/isolation/namespaces.h"
 
 namespace assay::properties {
 namespace {

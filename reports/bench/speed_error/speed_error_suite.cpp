@@ -82,8 +82,7 @@ void add_ratios(std::span<const FamilySummary> families, BenchReport& report) {
     const std::string note = fmt::format("{:.0f} ns a triangle", family.ns_a_triangle.value);
     report.add("auto over bvh, " + name, "times", family.over_reference,
                wanted_if(large, wanted::view_auto_over_bvh), note);
-    report.add("auto over normal-cone, " + name, "times",
-               time_over(families, name, chosen, cones));
+    report.add("auto over normal-cone, " + name, "times", time_over(families, name, chosen, cones));
     report.add("exact over double, auto, " + name, "times",
                time_over(families, name, chosen, doubles),
                wanted_if(large, wanted::exact_over_double));

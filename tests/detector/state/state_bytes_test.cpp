@@ -102,9 +102,9 @@ TEST(StateBytes, AreTheSameStateAgain) {
 }
 
 TEST(StateBytes, OfEveryCullingBeforeAndAfterSteps) {
-  for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
-                             Culling::normal_cone, Culling::bvh, Culling::none,
-                             Culling::automatic}) {
+  for (const auto culling :
+       {Culling::view_auto, Culling::view_point, Culling::view_line, Culling::normal_cone,
+        Culling::bvh, Culling::none, Culling::automatic}) {
     for (const int steps : {0, 1, 2}) {
       Detector detector = passed(culling, steps);
       const auto bytes = detector.state().bytes();

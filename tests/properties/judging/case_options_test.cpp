@@ -44,9 +44,8 @@ TEST(CaseOptions, SurviveTheirText) {
 
 // Stored failures stay what they are in every byte.
 TEST(CaseOptions, DefaultsAreNotStatedButForTheFirstThree) {
-  EXPECT_EQ(options_text({}),
-            (std::map<std::string, std::string, std::less<>>{
-                {"culling", "view-auto"}, {"pairs", "all"}, {"start", "verified"}}));
+  EXPECT_EQ(options_text({}), (std::map<std::string, std::string, std::less<>>{
+                                  {"culling", "auto"}, {"pairs", "all"}, {"start", "verified"}}));
   EXPECT_EQ(options_text({.release = Release::model}).at("release"), "model");
   EXPECT_EQ(options_text({.ghost_test = GhostTest::boxes}).at("ghost_test"), "boxes");
 }

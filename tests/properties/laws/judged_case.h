@@ -9,6 +9,7 @@
 #include "oracle/mesh/step.h"
 #include "properties/generators/families.h"
 #include "properties/laws/facts/case_facts.h"
+#include "properties/laws/law.h"
 #include "properties/worker/case_player.h"
 
 namespace assay::properties::test {
@@ -32,6 +33,13 @@ inline Setting setting_of(std::string_view id) {
   if (random.one_in(4))
     setting.options.culling =
         random.one_in(2) ? detector::Culling::view_auto : detector::Culling::automatic;
+  return setting;
+}
+
+// Of steps that prove patches apart L14 speaks, and of culling auto alone.
+inline Setting setting_for(const Law& law, std::string_view id) {
+  Setting setting = setting_of(id);
+  if (law.number == "L14") setting.options.culling = detector::Culling::automatic;
   return setting;
 }
 

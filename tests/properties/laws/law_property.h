@@ -38,7 +38,7 @@ inline LawTally tally_of(const Law& law, const std::string& id) {
   LawTally tally;
   corpus::Case c = case_of(id).c;
   if (c.triangles.rows() > most_triangles) return tally;
-  const JudgedCase judged(std::move(c), setting_of(id));
+  const JudgedCase judged(std::move(c), setting_for(law, id));
   CaseFacts facts = judged.facts();
   law.check(facts, tally);
   if (tally.broken != 0) {

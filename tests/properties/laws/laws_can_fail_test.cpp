@@ -203,7 +203,7 @@ TEST(LawsCanFail, EachNoticesWhatIsWrong) {
       auto c = make_case(family, id).c;
       constexpr Eigen::Index most_triangles = 40;
       if (c.triangles.rows() > most_triangles) continue;
-      Setting setting = setting_of(id);
+      Setting setting = setting_for(law, id);
       setting.stages_of = wrong->second.stages_of;
       JudgedCase judged(std::move(c), std::move(setting));
       wrong->second.tamper(judged);

@@ -16,7 +16,7 @@ TEST_F(Run, SaysWhatItWillDoAndHowItEnded) {
        {"campaign tiny, seed 5, shard 1/1: 32 trials of 3 families, 10 configurations; 2 jobs; "
         "until",
         "writes ", "canary pair/zero-zero-dropped: found after", "32 trials in", "stratum",
-        "closed-generic           each of 9               16      16       0         0",
+        "closed-generic           each of 10              16      16       0         0",
         "triangles", "sets of a pair", "cases by tag", "L3_FirstContactIsACandidate",
         "\nholds: 0 trials with a defect, 0 undecided, 0 laws broken"}) {
     EXPECT_TRUE(contains(first.out, word)) << word << "\n" << first.out;
