@@ -3,6 +3,7 @@
 #include "detector/assembly.h"
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/paced_stop.h"
+#include "detector/parallel/shared_stop.h"
 #include "detector/state/state_bytes.h"
 #include "detector/step/step.h"
 
@@ -75,7 +76,10 @@ Expected<Detector> Detector::create(const TrianglesView& triangles, const Positi
 
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop) {
-  PacedStop pace(stop);
+  Workers workers(options.threads);
+  SharedStop shared(stop);
+  const StopFunction asked = shared.function();
+  PacedStop pace(asked, workers);
   if (auto problem = check_triangles(triangles, positions.rows(), pace)) return std::move(*problem);
   if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
   // Once it has said so it is not asked again.
@@ -107,7 +111,8 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   search.kept = stages.pair_search->prepare(surface.mesh, tree, pace);
   if (pace.now()) return stopped();
   StepContext context{options,           std::move(stages),  std::move(surface), std::move(tree),
-                      std::move(search), std::move(anchors), std::move(rules),   0};
+                      std::move(search), std::move(anchors), std::move(rules),   0,
+                      std::move(workers)};
   if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
   return Detector(
       std::unique_ptr<Detector::Parts>(new Detector::Parts{std::move(context), {}, {}}));

@@ -58,6 +58,9 @@ struct Options {
   Arithmetic arithmetic = Arithmetic::exact;
   Release release = Release::pieces;
   GhostTest ghost_test = GhostTest::exact;
+  // How many threads a step and create() may use; 0: as many as the machine has. What comes out is
+  // the same, counts too. Where the library was built without oneTBB it is one.
+  std::uint32_t threads = 1;
 };
 
 }  // namespace assay::detector

@@ -13,6 +13,8 @@
 
 namespace assay::detector {
 
+class Workers;  // parallel/workers.h
+
 // Of work that nobody wants to end.
 inline const StopFunction never_stops;
 
@@ -23,6 +25,9 @@ class PacedStop {
 
   explicit PacedStop(const StopFunction& stop, std::uint64_t interval = usual_interval)
       : stop_(stop), interval_(interval) {}
+  // Of work that the workers share (parallel/for_all.h); one thread asks for all of them.
+  PacedStop(const StopFunction& stop, const Workers& workers)
+      : stop_(stop), workers_(&workers), interval_(usual_interval) {}
 
   // Whether to end: asks when as much work was done since it last asked.
   bool after(std::uint64_t work) {
@@ -37,8 +42,19 @@ class PacedStop {
   }
   bool stopped() const { return stopped_; }
 
+  // With the same workers, and never stopped.
+  PacedStop unasked() const {
+    PacedStop pace(never_stops, usual_interval);
+    pace.workers_ = workers_;
+    return pace;
+  }
+
+  const StopFunction& stop() const { return stop_; }
+  const Workers* workers() const { return workers_; }  // null: one thread does it all
+
  private:
   const StopFunction& stop_;
+  const Workers* workers_ = nullptr;
   std::uint64_t interval_, done_ = 0;
   bool stopped_ = false;
 };

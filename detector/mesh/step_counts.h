@@ -17,6 +17,14 @@ struct ContactRungCounts {
                                      : open);
   }
   std::uint64_t total() const { return axis + filter + exact + open; }
+
+  ContactRungCounts& operator+=(const ContactRungCounts& other) {
+    axis += other.axis;
+    filter += other.filter;
+    exact += other.exact;
+    open += other.open;
+    return *this;
+  }
 };
 
 struct SearchCounts {
@@ -25,6 +33,15 @@ struct SearchCounts {
   std::uint64_t skipped = 0;        // nodes with a single such child, left without a box test
   std::uint64_t contour_tests = 0;  // of patches with a normal cone
   std::uint64_t candidate_pairs = 0;
+
+  SearchCounts& operator+=(const SearchCounts& other) {
+    box_tests += other.box_tests;
+    child_counts += other.child_counts;
+    skipped += other.skipped;
+    contour_tests += other.contour_tests;
+    candidate_pairs += other.candidate_pairs;
+    return *this;
+  }
 };
 
 struct MarkingCounts {
@@ -36,6 +53,12 @@ struct MarkingCounts {
 struct NarrowCounts {
   std::uint64_t elementary_tests = 0;  // feature pairs tested beyond rung 0, each once
   ContactRungCounts rungs;             // `axis`: those whose boxes met only as floats
+
+  NarrowCounts& operator+=(const NarrowCounts& other) {
+    elementary_tests += other.elementary_tests;
+    rungs += other.rungs;
+    return *this;
+  }
 };
 
 struct ViewCounts {

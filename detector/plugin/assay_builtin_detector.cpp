@@ -87,6 +87,7 @@ const char* read_options(const assay_builtin_options& given, Options& options) {
     return "no such arithmetic";
   if (!choose(options.release, given.release, Release::view)) return "no such release";
   if (!choose(options.ghost_test, given.ghost_test, GhostTest::boxes)) return "no such ghost test";
+  options.threads = given.threads;
   return nullptr;
 }
 

@@ -102,10 +102,11 @@ typedef struct assay_builtin_options {
   int32_t arithmetic;   /* ASSAY_ARITHMETIC_... */
   int32_t release;      /* ASSAY_RELEASE_... */
   int32_t ghost_test;   /* ASSAY_GHOST_TEST_... */
+  uint32_t threads;     /* that it may use, with equal results; 0: as many as the machine has */
 } assay_builtin_options;
 
 #define ASSAY_BUILTIN_DEFAULTS \
-  { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 0, 0 }
+  { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 0, 0, 1 }
 
 /* As the table's create. options: NULL for the defaults. *handle is left alone unless ASSAY_OK. */
 int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,

@@ -1,4 +1,6 @@
 // The table of assay_detector.h for the built-in detector.
+#include <atomic>
+
 #include "detector/plugin/builtin_handle.h"
 
 namespace assay::detector {
@@ -22,13 +24,20 @@ const assay_description* describe() {
   return &description;
 }
 
+// The table says it for all handles to come.
+std::atomic<std::uint32_t> threads_to_use = 1;
+
+void use_threads(std::uint32_t count) { threads_to_use = count; }
+
 std::int32_t create(const std::int32_t* triangles, std::uint64_t triangle_count,
                     const double* positions, std::uint64_t vertex_count, assay_handle** handle,
                     const char** message) {
   return guarded([&]() -> std::int32_t {
     assay_builtin_error error;
+    assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
+    options.threads = threads_to_use;
     const auto code = assay_builtin_create(triangles, triangle_count, positions, vertex_count,
-                                           nullptr, handle, &error);
+                                           &options, handle, &error);
     if (code == ASSAY_REFUSED) *message = assay_builtin_error_name(error.code);
     return code;
   });
@@ -85,6 +94,7 @@ const assay_detector_api* assay_builtin_detector() {
     table.commit = commit;
     table.result = result;
     table.destroy = destroy;
+    table.use_threads = use_threads;
     return table;
   }();
   return &api;

@@ -130,6 +130,26 @@ BoundingVolumeTree::BoundingVolumeTree(const Topology& mesh, const PositionsView
   std::iota(components.begin(), components.end(), 0);
   Builder builder(*this, mesh, x, pace);
   if (!(pace && pace->stopped())) builder.grow_over_components(root, components);
+  if (!(pace && pace->stopped())) make_blocks();
+}
+
+void BoundingVolumeTree::make_blocks() {
+  std::vector<Block> open = {{root, 1, static_cast<std::int32_t>(node_count())}};
+  while (!open.empty()) {
+    const Block block = open.back();
+    open.pop_back();
+    if (block.last - block.first < nodes_of_block) {
+      blocks_.push_back(block);
+      continue;
+    }
+    above_blocks_.push_back(block.top);
+    // After the two children all below the first one, then all below the second.
+    const auto child = block.first, below = child + 2;
+    const auto middle = is_leaf(child + 1) ? block.last : this->child(child + 1);
+    open.push_back({child, below, middle});
+    open.push_back({child + 1, middle, block.last});
+  }
+  std::sort(above_blocks_.begin(), above_blocks_.end());
 }
 
 MovingBox BoundingVolumeTree::box_of_triangle(const std::array<std::int32_t, 3>& corners,
@@ -149,12 +169,10 @@ bool BoundingVolumeTree::refit(const Topology& mesh, const PositionsView& x_t0,
                                const PositionsView& x_t1, PacedStop& pace) {
   constexpr std::uint64_t work_of_node = 4;
   if (!points_.assign(x_t0, x_t1, pace)) return false;
-  const std::size_t last = child_.size() - 1;
-  return for_each_paced(child_.size(), work_of_node, pace, [&](std::size_t i) {
-    const std::size_t n = last - i;
-    const std::int32_t child = child_[n];
-    boxes_[n] = child < 0 ? points_.box(mesh.triangles[at(~child)])
-                          : join(boxes_[at(child)], boxes_[at(child) + 1]);
+  return for_each_upward(work_of_node, &pace, [&](std::int32_t node) {
+    const std::int32_t child = child_[at(node)];
+    boxes_[at(node)] = child < 0 ? points_.box(mesh.triangles[at(~child)])
+                                 : join(boxes_[at(child)], boxes_[at(child) + 1]);
   });
 }
 

@@ -1,20 +1,32 @@
 #include "detector/search/candidate_search.h"
 
+#include <algorithm>
+
+#include "detector/parallel/workers.h"
+
 namespace assay::detector {
 CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,
                                  const BoundingVolumeTree& tree, SearchMemory& memory,
                                  const PositionsView& x_t0, const PositionsView& x_t1,
                                  const StopFunction& stop)
+    : CandidateSearch(stages, mesh, tree, memory, x_t0, x_t1, PacedStop(stop)) {}
+
+CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,
+                                 const BoundingVolumeTree& tree, SearchMemory& memory,
+                                 const PositionsView& x_t0, const PositionsView& x_t1,
+                                 const PacedStop& pace)
     : stages_(stages),
       mesh_(mesh),
       tree_(tree),
       memory_(memory),
       x_t0_(x_t0),
       x_t1_(x_t1),
-      stop_(stop),
-      pace_(stop),
+      stop_(pace.stop()),
+      pace_(pace),
       contacts_(mesh, x_t0, x_t1, stages.elementary, Want::first_time, memory.representatives,
-                memory.marks.types, &pace_) {}
+                memory.marks.types, &pace_) {
+  if (pace.workers()) contacts_.make_lanes(pace.workers()->count());
+}
 
 bool CandidateSearch::mark(std::span<const TriangleType> types) {
   if (pace_.stopped()) return false;
@@ -57,17 +69,29 @@ double CandidateSearch::provable_share() {
 
 bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
   const auto& types = memory_.marks.types;
-  std::uint64_t pairs = 0;
-  const auto sink = [&](std::int32_t a, std::int32_t b) {
-    constexpr std::uint64_t pairs_between_stops = 4096;
-    if (pairs++ % pairs_between_stops == 0 && stop_ && stop_()) return false;
-    // A clean triangle is in no contact with its own component at t=0.
-    const bool may_pierce =
-        (types[at(a)] == TriangleType::dirty && types[at(b)] == TriangleType::dirty) ||
-        !same_component(a, b);
-    return contacts_.add_candidate(a, b, may_pierce, stop_);
+  struct alignas(64) Asking {
+    std::size_t pairs_until = 0;
   };
-  return stages_.search.search(input(tables, uses_proofs), counts_, sink) && contacts_.run(stop_);
+  std::vector<Asking> asking(pace_.workers() ? pace_.workers()->count() : 1);
+  const auto take = [&](std::span<const CandidatePair> pairs, std::size_t lane) {
+    constexpr std::size_t pairs_between_stops = 4096;
+    auto& until = asking[lane].pairs_until;
+    if (until < pairs.size()) {
+      if (stop_ && stop_()) return false;
+      until = pairs_between_stops;
+    }
+    until -= std::min(until, pairs.size());
+    return std::all_of(pairs.begin(), pairs.end(), [&](const CandidatePair& pair) {
+      const auto [a, b] = pair;
+      // A clean triangle is in no contact with its own component at t=0.
+      const bool may_pierce =
+          (types[at(a)] == TriangleType::dirty && types[at(b)] == TriangleType::dirty) ||
+          !same_component(a, b);
+      return contacts_.add_candidate(a, b, may_pierce, stop_, lane);
+    });
+  };
+  return stages_.search.search(input(tables, uses_proofs), counts_, PairSink::in_lanes(take)) &&
+         contacts_.run(stop_, &pace_);
 }
 
 bool CandidateSearch::collect(bool uses_proofs) {
@@ -93,6 +117,9 @@ bool CandidateSearch::close() {
       }
     }
     if (grown.empty()) return true;
+    // The counts of marking rest on the order, and that on which lane was the first.
+    std::sort(grown.begin(), grown.end(),
+              [](const auto& x, const auto& y) { return x.triangle < y.triangle; });
     if (!change_types(grown)) return false;
     ++closure_rounds_;
     if (!search(tables, false)) return false;

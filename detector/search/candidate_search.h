@@ -32,6 +32,10 @@ class CandidateSearch {
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
                   SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop);
+  // The same by several workers; their stop function is one that they may share (SharedStop).
+  CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
+                  SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
+                  const PacedStop& pace);
 
   // Brings the marks to the step: the types of all triangles, without those of the closure. This,
   // `collect` and `close` return false when `stop` ended it.
@@ -50,7 +54,7 @@ class CandidateSearch {
 
   // See FeatureContacts.
   std::vector<PairContact> take_contacts() { return contacts_.take(); }
-  const NarrowCounts& narrow_counts() const { return contacts_.counts(); }
+  NarrowCounts narrow_counts() const { return contacts_.counts(); }
   double test_time() const { return contacts_.test_time(); }
   const SearchCounts& search_counts() const { return counts_; }
   const MarkingCounts& marking_counts() const { return marking_counts_; }

@@ -1,5 +1,7 @@
 #include "detector/search/feature_boxes.h"
 
+#include "detector/parallel/for_all.h"
+
 namespace assay::detector {
 namespace {
 
@@ -17,11 +19,11 @@ FeaturePoints::FeaturePoints(const PositionsView& x_t0, const PositionsView& x_t
   const FloatGrid f(x_t0, x_t1, pace);
   if (pace && pace->stopped()) return;
   const auto count = static_cast<std::size_t>(x_t0.rows());
-  points_.reserve(count);
-  for_each_paced(count, work_of_vertex, pace, [&](std::size_t v) {
+  points_ = std::make_unique_for_overwrite<FeaturePoint[]>(count);
+  for_all_paced(count, work_of_vertex, pace, [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);
-    points_.push_back({f(x_t0, x_t1, vertex),
-                       {diagonals(f.scaled(x_t0, vertex)), diagonals(f.scaled(x_t1, vertex))}});
+    points_[v] = {f(x_t0, x_t1, vertex),
+                  {diagonals(f.scaled(x_t0, vertex)), diagonals(f.scaled(x_t1, vertex))}};
   });
 }
 

@@ -12,6 +12,8 @@
 // Lengths below a millionth of the mesh are thus not told apart by diagonals.
 #pragma once
 
+#include <memory>
+
 #include "detector/search/moving_box.h"
 
 namespace assay::detector {
@@ -58,7 +60,7 @@ class FeaturePoints {
   }
 
  private:
-  std::vector<FeaturePoint> points_;
+  std::unique_ptr<FeaturePoint[]> points_;
 };
 
 }  // namespace assay::detector

@@ -1,6 +1,9 @@
 #include "detector/search/feature_contacts.h"
 
+#include <atomic>
+
 #include "detector/contact/contact_filter.h"
+#include "detector/parallel/workers.h"
 #include "detector/search/stopwatch.h"
 
 namespace assay::detector {
@@ -26,7 +29,7 @@ FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0
       elementary_(elementary),
       want_(want),
       pairs_(mesh, x_t0, x_t1, representatives, types, pace) {
-  untested_.reserve(tests_at_once + FeaturePairs::max_keys);
+  make_lanes(1);
 }
 
 FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
@@ -57,15 +60,39 @@ FourPoints FeatureContacts::query(FeatureKey key) const {
   return {{point(a[0]), point(a[1]), point(b[0]), point(b[1])}, 2};
 }
 
-bool FeatureContacts::add_candidate(std::int32_t a, std::int32_t b, bool may_pierce,
-                                    const StopFunction& stop) {
-  pairs_.append(a, b, may_pierce, untested_);
-  return untested_.size() < tests_at_once || run(stop);
+void FeatureContacts::make_lanes(std::size_t count) {
+  while (lanes_.size() < count) {
+    lanes_.push_back(std::make_unique<Lane>());
+    lanes_.back()->untested.reserve(tests_at_once + FeaturePairs::max_keys);
+  }
 }
 
-void FeatureContacts::test(FeatureKey key) {
+NarrowCounts FeatureContacts::counts() const {
+  NarrowCounts sum;
+  for (const auto& lane : lanes_) sum += lane->counts;
+  return sum;
+}
+
+double FeatureContacts::test_time() const {
+  double sum = 0;
+  for (const auto& lane : lanes_) sum += lane->test_time;
+  return sum / static_cast<double>(lanes_.size());
+}
+
+bool FeatureContacts::add_candidate(std::int32_t a, std::int32_t b, bool may_pierce,
+                                    const StopFunction& stop, std::size_t lane) {
+  Lane& of_lane = *lanes_[lane];
+  pairs_.append(a, b, may_pierce, of_lane.untested);
+  return of_lane.untested.size() < tests_at_once || run(of_lane, stop);
+}
+
+void FeatureContacts::test(FeatureKey key, Lane& lane) const {
   const auto first = first_of(key), second = second_of(key);
   const auto& face = mesh_.triangles[at(second)];
+  const auto add = [&](std::int32_t a, std::int32_t b, const TimeEnclosure& time,
+                       const Feature& feature) {
+    lane.found.push_back({{std::min(a, b), std::max(a, b)}, time, feature});
+  };
   if (kind_of(key) == FeatureKind::piercing) {
     const auto& e = mesh_.edges[at(first)];
     const Point e0 = point_of(x_t0_, e[0]), e1 = point_of(x_t0_, e[1]);
@@ -78,12 +105,12 @@ void FeatureContacts::test(FeatureKey key) {
   } else {
     const FourPoints points = query(key);
     if (separated_along_an_axis(points)) {
-      counts_.rungs.add(ContactRung::axis);
+      lane.counts.rungs.add(ContactRung::axis);
       return;
     }
-    ++counts_.elementary_tests;
+    ++lane.counts.elementary_tests;
     const ContactResult result = elementary_.test(points, want_);
-    counts_.rungs.add(result.rung);
+    lane.counts.rungs.add(result.rung);
     if (!result.contact) return;
     if (kind_of(key) == FeatureKind::vertex_face) {
       const Feature feature{FeatureKind::vertex_face, {first, face[0], face[1], face[2], -1}};
@@ -98,16 +125,43 @@ void FeatureContacts::test(FeatureKey key) {
   }
 }
 
-bool FeatureContacts::run(const StopFunction& stop) {
-  Stopwatch watch(test_time_);
-  constexpr std::size_t tests_between_stops = 256;
-  for (std::size_t i = 0; i < untested_.size(); ++i) {
-    if (i % tests_between_stops == 0 && stop && stop()) return false;
+// The order in which lanes come does not show: of the contacts of a pair the first one is kept.
+bool FeatureContacts::hand_over(Lane& lane, const StopFunction& stop) {
+  if (lane.found.empty()) return true;
+  const std::lock_guard guard(handing_over_);
+  for (const PairContact& contact : lane.found) {
     if (contacts_.is_nearly_full() && !contacts_.make_room(stop)) return false;
-    test(untested_[i]);
+    contacts_.add(contact);
   }
-  untested_.clear();
+  lane.found.clear();
   return true;
+}
+
+bool FeatureContacts::run(Lane& lane, const StopFunction& stop) {
+  Stopwatch watch(lane.test_time);
+  constexpr std::size_t tests_between_stops = 256, found_at_once = 1024;
+  for (std::size_t i = 0; i < lane.untested.size(); ++i) {
+    if (i % tests_between_stops == 0 && stop && stop()) return false;
+    test(lane.untested[i], lane);
+    if (lane.found.size() >= found_at_once && !hand_over(lane, stop)) return false;
+  }
+  lane.untested.clear();
+  return hand_over(lane, stop);
+}
+
+bool FeatureContacts::run(const StopFunction& stop, const PacedStop* pace) {
+  std::atomic<bool> completed = true;
+  const auto run_lanes = [&](const Piece& piece) {
+    for (std::size_t lane = piece.begin; lane < piece.end; ++lane) {
+      if (!run(*lanes_[lane], stop)) completed = false;
+    }
+  };
+  if (pace && pace->workers()) {
+    pace->workers()->share_out(lanes_.size(), 1, run_lanes);
+  } else {
+    run_lanes({0, lanes_.size(), 0});
+  }
+  return completed;
 }
 
 }  // namespace assay::detector

@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <mutex>
+#include <span>
 #include <vector>
 
 #include "detector/contact/elementary.h"
@@ -39,20 +41,24 @@ class FeatureContacts {
   // The candidates to come are those of a search that asks for these types.
   void ask(const AskedTypes& asked) { pairs_.ask(asked); }
 
-  // Takes the feature pairs of a candidate pair; `may_pierce`: also those of piercing at t=0. Tests
-  // what has come together now and then. Returns false when `stop` asked for an end.
-  bool add_candidate(std::int32_t a, std::int32_t b, bool may_pierce,
-                     const StopFunction& stop = {});
+  // Candidates come in lanes (parallel/workers.h): as many as this says, at first one.
+  void make_lanes(std::size_t count);
 
-  // Tests what is left. Returns false when `stop` asked for an end; contacts found until then are
-  // kept.
-  bool run(const StopFunction& stop);
+  // Takes the feature pairs of a candidate pair; `may_pierce`: also those of piercing at t=0. Tests
+  // what has come together now and then. Returns false when `stop` asked for an end. Calls for
+  // several lanes may run at the same time.
+  bool add_candidate(std::int32_t a, std::int32_t b, bool may_pierce, const StopFunction& stop = {},
+                     std::size_t lane = 0);
+
+  // Tests what is left, by the workers of `pace` where it has some. Returns false when `stop` asked
+  // for an end; contacts found until then are kept.
+  bool run(const StopFunction& stop, const PacedStop* pace = nullptr);
 
   // Triangle pairs in contact that were found since this was last asked, each once.
   std::deque<TrianglePair> take_new_pairs() { return contacts_.take_new_pairs(); }
-  const NarrowCounts& counts() const { return counts_; }
-  // Of the tests, in milliseconds.
-  double test_time() const { return test_time_; }
+  NarrowCounts counts() const;
+  // Of the tests, in milliseconds: of several lanes the mean.
+  double test_time() const;
 
   // The first contact of each triangle pair, ascending by pair; {0, 0} is its time when only yes or
   // no was wanted. Nothing is left behind.
@@ -63,10 +69,16 @@ class FeatureContacts {
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
                   const ElementaryTest& elementary, Want want, std::unique_ptr<OneType> own,
                   PacedStop* pace);
-  void test(FeatureKey key);
-  void add(std::int32_t a, std::int32_t b, const TimeEnclosure& time, const Feature& feature) {
-    contacts_.add({{std::min(a, b), std::max(a, b)}, time, feature});
-  }
+  // What one lane has taken and found.
+  struct Lane {
+    std::vector<FeatureKey> untested;
+    std::vector<PairContact> found;  // and not yet among the contacts
+    NarrowCounts counts;
+    double test_time = 0;
+  };
+  bool run(Lane& lane, const StopFunction& stop);
+  void test(FeatureKey key, Lane& lane) const;
+  bool hand_over(Lane& lane, const StopFunction& stop);
   FourPoints query(FeatureKey key) const;
 
   const Topology& mesh_;
@@ -75,10 +87,9 @@ class FeatureContacts {
   Want want_;
   std::unique_ptr<OneType> own_;
   FeaturePairs pairs_;
-  std::vector<FeatureKey> untested_;
+  std::vector<std::unique_ptr<Lane>> lanes_;
+  std::mutex handing_over_;
   PairContacts contacts_;
-  NarrowCounts counts_;
-  double test_time_ = 0;
 };
 
 }  // namespace assay::detector

@@ -1,77 +1,162 @@
 #include "detector/search/pair_search.h"
 
+#include <atomic>
+
+#include "detector/parallel/for_all.h"
+
 namespace assay::detector {
 namespace {
 
+// A pair of nodes below which pairs may lie: flags and boxes have been looked at.
+struct NodePair {
+  std::int32_t a, b;
+};
+
+// What the lanes of a search have in common.
+struct Hunt {
+  Hunt(const SearchInput& input, bool skips_nodes, const PairSink& taker)
+      : tree(input.tree),
+        flags(input.marks.node_flags.data()),
+        within(input.tables.within),
+        across(input.tables.across),
+        either(within.joined_with(across)),
+        skips(skips_nodes),
+        sink(taker) {}
+
+  const BoundingVolumeTree& tree;
+  const std::uint8_t* flags;
+  const PairTable within, across, either;
+  const bool skips;
+  const PairSink& sink;
+  std::atomic<bool> is_stopped = false;
+};
+
+// The descent of one lane.
 class Descent {
  public:
-  Descent(const SearchInput& input, bool skips, PatchProofs* proofs, SearchCounts& counts,
-          const PairSink& sink)
-      : tree_(input.tree),
-        flags_(input.marks.node_flags.data()),
-        within_(input.tables.within),
-        across_(input.tables.across),
-        either_(within_.joined_with(across_)),
-        skips_(skips),
+  Descent(Hunt& hunt, PatchProofs* proofs, std::size_t lane, SearchCounts& counts)
+      : hunt_(hunt),
+        tree_(hunt.tree),
+        flags_(hunt.flags),
+        skips_(hunt.skips),
         proofs_(proofs),
-        counts_(counts),
-        sink_(sink) {}
+        lane_(lane),
+        counts_(counts) {
+    found_.reserve(found_at_once);
+  }
 
-  // False when the sink stopped it.
-  bool run() {
-    below_mixed(BoundingVolumeTree::root, BoundingVolumeTree::root);
-    return !stopped_ && !(proofs_ && proofs_->is_stopped());
+  // The root against itself, cut into as many pairs as wanted or a few more, the highest first; all
+  // of them, where it is not to be cut.
+  std::vector<NodePair> cut(std::size_t wanted) {
+    arrive(BoundingVolumeTree::root, BoundingVolumeTree::root);
+    std::vector<NodePair> left;
+    for (std::size_t first = 0;; ++first) {
+      left.insert(left.end(), stack_.begin(), stack_.end());
+      stack_.clear();
+      if (first == left.size() || left.size() - first >= wanted || is_ended()) {
+        left.erase(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(first));
+        return left;
+      }
+      split(left[first]);
+    }
+  }
+
+  // All that lies below.
+  void run(const NodePair& pair) {
+    above_.push_back(pair);
+    while (!above_.empty() && !is_ended()) {
+      const NodePair p = above_.back();
+      above_.pop_back();
+      split(p);
+      if (is_mixed(p)) {
+        above_.insert(above_.end(), stack_.begin(), stack_.end());
+      } else {
+        drain(table_of(p));
+      }
+      stack_.clear();
+    }
+    above_.clear();
+  }
+
+  // Hands over what was found last. False where the search has ended early.
+  bool finish() {
+    hand_over();
+    return !is_ended();
   }
 
  private:
-  struct NodePair {
-    std::int32_t a, b;
-  };
+  static constexpr std::size_t found_at_once = 256;
 
+  bool is_ended() const {
+    return hunt_.is_stopped.load(std::memory_order_relaxed) || (proofs_ && proofs_->is_stopped());
+  }
   std::uint8_t flags(std::int32_t node) const { return flags_[at(node)]; }
+  bool is_mixed(const NodePair& p) const {
+    return tree_.component(p.a) == mixed_components || tree_.component(p.b) == mixed_components;
+  }
+  const PairTable& table_of(const NodePair& p) const {
+    return tree_.component(p.a) == tree_.component(p.b) ? hunt_.within : hunt_.across;
+  }
 
-  // Nodes above the components, and pairs of which one is such a node.
-  void below_mixed(std::int32_t a, std::int32_t b) {
-    const auto c = tree_.component(a), d = tree_.component(b);
-    if (c != mixed_components && d != mixed_components) {
-      below(a, b, c == d ? within_ : across_);
-      return;
-    }
-    if (stopped_ || !either_.asks(flags(a), flags(b))) return;
-    if (a == b) {
-      const auto child = tree_.child(a);
-      below_mixed(child, child);
-      below_mixed(child + 1, child + 1);
-      below_mixed(child, child + 1);
-      return;
-    }
-    ++counts_.box_tests;
-    if (apart(tree_.box(a), tree_.box(b))) return;
-    const bool splits_a = c == mixed_components, splits_b = d == mixed_components;
-    const auto first_a = splits_a ? tree_.child(a) : a, first_b = splits_b ? tree_.child(b) : b;
-    for (auto i = first_a; i <= first_a + splits_a; ++i) {
-      for (auto j = first_b; j <= first_b + splits_b; ++j) below_mixed(i, j);
+  // One table serves all pairs below a pair that is not mixed.
+  void drain(const PairTable& table) {
+    while (!stack_.empty() && !is_ended()) {
+      const NodePair p = stack_.back();
+      stack_.pop_back();
+      split(p, table);
     }
   }
 
-  // A node of one component against another or itself: one table serves all pairs below.
-  void below(std::int32_t a, std::int32_t b, const PairTable& table) {
-    if (stopped_ || !table.asks(flags(a), flags(b))) return;
+  void split(const NodePair& p) {
+    if (is_mixed(p)) {
+      split_mixed(p);
+    } else {
+      split(p, table_of(p));
+    }
+  }
+  void split(const NodePair& p, const PairTable& table) {
+    if (p.a == p.b) {
+      split_one(p.a, table);
+    } else {
+      split_both(p, table);
+    }
+  }
+
+  // Nodes above the components, and pairs of which one is such a node.
+  void split_mixed(const NodePair& p) {
+    if (p.a == p.b) {
+      const auto child = tree_.child(p.a);
+      arrive(child, child);
+      arrive(child + 1, child + 1);
+      arrive(child, child + 1);
+      return;
+    }
+    const bool splits_a = tree_.component(p.a) == mixed_components,
+               splits_b = tree_.component(p.b) == mixed_components;
+    const auto first_a = splits_a ? tree_.child(p.a) : p.a,
+               first_b = splits_b ? tree_.child(p.b) : p.b;
+    for (auto i = first_a; i <= first_a + splits_a; ++i) {
+      for (auto j = first_b; j <= first_b + splits_b; ++j) arrive(i, j);
+    }
+  }
+
+  // Two nodes of any components, onto the stack if a pair may lie below.
+  void arrive(std::int32_t a, std::int32_t b) {
+    if (is_mixed({a, b})) {
+      if (!hunt_.either.asks(flags(a), flags(b))) return;
+      if (a != b) {
+        ++counts_.box_tests;
+        if (apart(tree_.box(a), tree_.box(b))) return;
+      }
+      stack_.push_back({a, b});
+      return;
+    }
+    const PairTable& table = table_of({a, b});
     if (a == b) {
       enter_alone(a, table);
-    } else {
+    } else if (table.asks(flags(a), flags(b))) {
       enter(a, b, table);
     }
-    while (!stack_.empty() && !stopped_ && !(proofs_ && proofs_->is_stopped())) {
-      const NodePair p = stack_.back();
-      stack_.pop_back();
-      if (p.a == p.b) {
-        split_one(p.a, table);
-      } else {
-        split_both(p, table);
-      }
-    }
-    stack_.clear();
   }
 
   void split_one(std::int32_t node, const PairTable& table) {
@@ -113,7 +198,8 @@ class Descent {
       return;
     }
     ++counts_.candidate_pairs;
-    if (!stopped_ && !sink_(tree_.triangle(a), tree_.triangle(b))) stopped_ = true;
+    found_.push_back({tree_.triangle(a), tree_.triangle(b)});
+    if (found_.size() == found_at_once) hand_over();
   }
 
   // Goes on to the only child of `node` that may hold a partner of `other`, if there is only one.
@@ -130,16 +216,49 @@ class Descent {
     return true;
   }
 
+  void hand_over() {
+    if (!found_.empty() && !is_ended() && !hunt_.sink(found_, lane_)) hunt_.is_stopped = true;
+    found_.clear();
+  }
+
+  Hunt& hunt_;
   const BoundingVolumeTree& tree_;
-  const std::uint8_t* flags_;
-  const PairTable within_, across_, either_;
+  const std::uint8_t* const flags_;
   const bool skips_;
   PatchProofs* const proofs_;  // or null
+  const std::size_t lane_;
   SearchCounts& counts_;
-  const PairSink& sink_;
-  std::vector<NodePair> stack_;  // of `below`: their boxes meet
-  bool stopped_ = false;
+  std::vector<NodePair> above_, stack_;
+  std::vector<CandidatePair> found_;  // and not handed over
 };
+
+// One of several lanes that look at pairs of nodes, whichever lane has time for the next one.
+struct Lane {
+  Lane(Hunt& hunt, const PatchProofs* all_proofs, const StopFunction& stop, std::size_t index)
+      : pace(stop),
+        proofs(all_proofs ? all_proofs->in_lane(index, counts, pace) : nullptr),
+        descent(hunt, proofs.get(), index, counts) {}
+  SearchCounts counts;
+  PacedStop pace;
+  std::unique_ptr<PatchProofs> proofs;
+  Descent descent;
+};
+
+bool run_in_lanes(Hunt& hunt, const PatchProofs* proofs, std::span<const NodePair> pairs,
+                  PacedStop& pace, SearchCounts& counts) {
+  std::vector<std::unique_ptr<Lane>> lanes;
+  for (std::size_t i = 0; i < pace.workers()->count(); ++i)
+    lanes.push_back(std::make_unique<Lane>(hunt, proofs, pace.stop(), i));
+  pace.workers()->share_out(pairs.size(), 1, [&](const Piece& piece) {
+    lanes[piece.lane]->descent.run(pairs[piece.begin]);
+  });
+  bool completed = true;
+  for (const auto& lane : lanes) {
+    completed = lane->descent.finish() && completed;
+    counts += lane->counts;
+  }
+  return completed;
+}
 
 }  // namespace
 
@@ -150,7 +269,17 @@ bool TreeSearch::search(const SearchInput& input, SearchCounts& counts,
 
 bool TreeSearch::descend(const SearchInput& input, PatchProofs* proofs, SearchCounts& counts,
                          const PairSink& sink) const {
-  return Descent(input, skipping_ == Skipping::on, proofs, counts, sink).run();
+  // Below so many pairs of nodes a lane finds enough to do, and they come out alike.
+  constexpr std::size_t pairs_of_lane = 64;
+  Hunt hunt(input, skipping_ == Skipping::on, sink);
+  Descent descent(hunt, proofs, 0, counts);
+  const bool has_lanes = has_workers(input.pace) && sink.takes_lanes();
+  const std::size_t wanted = has_lanes ? pairs_of_lane * input.pace->workers()->count() : 1;
+  const auto pairs = descent.cut(wanted);
+  if (has_lanes && pairs.size() >= wanted)
+    return descent.finish() && run_in_lanes(hunt, proofs, pairs, *input.pace, counts);
+  for (const auto& pair : pairs) descent.run(pair);
+  return descent.finish();
 }
 
 bool ExhaustiveSearch::search(const SearchInput& input, SearchCounts& counts,

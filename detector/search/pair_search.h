@@ -1,8 +1,11 @@
 // Broad phase: triangle pairs whose moving boxes are not apart and that the pair rule asks for.
 #pragma once
 
+#include <algorithm>
+#include <concepts>
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_counts.h"
@@ -26,10 +29,45 @@ class PatchProofs {
   virtual bool are_free(std::int32_t a, std::int32_t b) = 0;
   // Whether the search has to end; the two above say false then.
   virtual bool is_stopped() const { return false; }
+  // The same proofs for one lane of several (parallel/workers.h), which counts and asks for itself.
+  virtual std::unique_ptr<PatchProofs> in_lane(std::size_t lane, SearchCounts& counts,
+                                               PacedStop& pace) const = 0;
 };
 
-// Takes a candidate pair (any order); false: stop the search.
-using PairSink = std::function<bool(std::int32_t, std::int32_t)>;
+// Two triangles, in any order.
+struct CandidatePair {
+  std::int32_t a, b;
+};
+
+// Takes candidate pairs; false: stop the search.
+class PairSink {
+ public:
+  // Several at once, in lanes (parallel/workers.h) that may run at the same time.
+  using Take = std::function<bool(std::span<const CandidatePair>, std::size_t lane)>;
+  static PairSink in_lanes(Take take) { return PairSink(std::move(take), true); }
+
+  // One pair after the other, take(a, b): the search then runs in one lane.
+  template <class TakeOne>
+  requires std::invocable<TakeOne&, std::int32_t, std::int32_t> PairSink(TakeOne take)
+      : take_([take = std::move(take)](std::span<const CandidatePair> pairs, std::size_t) mutable {
+          return std::all_of(pairs.begin(), pairs.end(),
+                             [&](const CandidatePair& pair) { return take(pair.a, pair.b); });
+        }) {}
+
+  bool operator()(std::span<const CandidatePair> pairs, std::size_t lane) const {
+    return take_(pairs, lane);
+  }
+  bool operator()(std::int32_t a, std::int32_t b) const {
+    const CandidatePair pair = {a, b};
+    return take_({&pair, 1}, 0);
+  }
+  bool takes_lanes() const { return takes_lanes_; }
+
+ private:
+  PairSink(Take take, bool takes_lanes) : take_(std::move(take)), takes_lanes_(takes_lanes) {}
+  Take take_;
+  bool takes_lanes_ = false;
+};
 
 struct SearchInput {
   const Topology& mesh;
@@ -38,8 +76,10 @@ struct SearchInput {
   const PairTables& tables;
   KeptBySearch* kept = nullptr;  // of PairSearch::prepare
   const PositionsView *x_t0 = nullptr, *x_t1 = nullptr;
-  PacedStop* pace = nullptr;  // asked for what is done before and between the pairs; null: never
-  bool uses_proofs = true;    // where the search has any: whether they are worth their cost
+  // Asked for what is done before and between the pairs, and it says who searches; null: never, and
+  // the calling thread.
+  PacedStop* pace = nullptr;
+  bool uses_proofs = true;  // where the search has any: whether they are worth their cost
 };
 
 // A stage of the detector; returns false when it was stopped, by the sink or by `pace`.
@@ -73,6 +113,10 @@ class PairSearch {
 //
 // What patch proofs tell apart is left out (L14). They are asked where a pair may lie below, for
 // they cost more than a look at flags and boxes.
+//
+// Where the pace has workers, the descent is cut into pairs of nodes near the root, and each worker
+// takes one of these after the other. What is looked at for a pair of nodes does not depend on
+// others, so candidates and counts are the same for any number of workers.
 class TreeSearch : public PairSearch {
  public:
   enum class Skipping : std::uint8_t { on, off };

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
 #include "detector/state/view_choice.h"
@@ -27,8 +28,9 @@ struct StepState {
   // From evaluation to evaluation this stays as it was committed.
   ViewChoice choice;
 
-  void keep(const PositionsView& x);
-  bool holds_at(const PositionsView& x) const;
+  // By the workers of the pace, which is not asked to stop.
+  void keep(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops));
+  bool holds_at(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops)) const;
 };
 
 }  // namespace assay::detector

@@ -52,7 +52,7 @@ StepState state_at_end(const StepWork& work, const ReleaseRule& release,
                        const std::vector<PairContact>& pairs, bool complete,
                        const PositionsView& mesh_x_t1) {
   StepState state;
-  state.keep(mesh_x_t1);
+  state.keep(mesh_x_t1, work.pace);
   state.inside.resize(work.surface.mesh.components.size());
   for (std::size_t c = 0; c < state.inside.size(); ++c) {
     if (work.free[c]) state.inside[c] = {work.primitives[c].q0.t1, work.primitives[c].q1.t1};

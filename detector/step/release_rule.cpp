@@ -1,8 +1,10 @@
 #include "detector/step/release_rule.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "detector/geometry/winding.h"
+#include "detector/parallel/for_all.h"
 #include "detector/search/feature_contacts.h"
 #include "detector/state/layers.h"
 #include "detector/step/static_touches.h"
@@ -48,10 +50,19 @@ bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& compo
 
 bool ReleaseRule::is_free(StepWork& work, std::size_t c) const {
   const auto& triangles = work.component(c).triangles;
-  const bool all_positive = std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
-    return work.signs[at(t)] == ViewSign::positive;
-  });
-  if (!all_positive) return false;
+  constexpr std::uint64_t work_of_sign = 1;
+  std::atomic<bool> all_positive = true;
+  for_all_pieces(triangles.size(), shared_piece, work_of_sign, &work.pace,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                   const auto piece = std::span(triangles).subspan(begin, end - begin);
+                   if (!all_positive.load(std::memory_order_relaxed)) return;
+                   if (!std::all_of(piece.begin(), piece.end(), [&](std::int32_t t) {
+                         return work.signs[at(t)] == ViewSign::positive;
+                       })) {
+                     all_positive = false;
+                   }
+                 });
+  if (!all_positive || work.pace.stopped()) return false;
   const ViewPrimitive& primitive = work.primitives[c];
   const std::array<Point, 2> start = {primitive.q0.t0, primitive.q1.t0};
   if (work.known && work.known->inside[c] == start) return true;

@@ -21,8 +21,9 @@ class ReleaseRule {
   virtual ~ReleaseRule() = default;
 
   // L8: whether the state of the last commit serves a step that starts at x_t0.
-  virtual bool still_holds(const StepState& state, const PositionsView& x_t0) const {
-    return state.holds_at(x_t0);
+  virtual bool still_holds(const StepState& state, const PositionsView& x_t0,
+                           const PacedStop& pace) const {
+    return state.holds_at(x_t0, pace);
   }
 
   // L5 over the step: every triangle of the component and every ghost of it positive, and winding

@@ -34,6 +34,8 @@
 
 #include <algorithm>
 
+#include "detector/parallel/for_all.h"
+#include "detector/parallel/shared_stop.h"
 #include "detector/search/stopwatch.h"
 #include "detector/step/clean_triangles.h"
 #include "detector/step/step_input.h"
@@ -42,13 +44,6 @@
 
 namespace assay::detector {
 namespace {
-
-// In box tests. The classifier asks by itself within a large component.
-std::uint64_t work_of_signs(const ViewCounts& before, const ViewCounts& after) {
-  constexpr std::uint64_t of_component = 200, of_lanes = 4, of_filter = 40, of_exact = 600;
-  return of_component + of_lanes * (after.lanes - before.lanes) +
-         of_filter * (after.filter - before.filter) + of_exact * (after.exact - before.exact);
-}
 
 class Step {
  public:
@@ -62,6 +57,7 @@ class Step {
               *context.stages.boundary,
               *context.stages.elementary,
               stop,
+              context.workers,
               x_t0,
               x_t1,
               known} {}
@@ -143,13 +139,13 @@ class Step {
     Stopwatch watch(result_.times.view_test);
     work_.signs.assign(work_.surface.all().triangles.size(), ViewSign::zero);
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      const ViewCounts before = work_.counts.view;
+      constexpr std::uint64_t work_of_component = 200;  // the classifier asks by itself, within it
       if (!context_.stages.classifier->classify(work_.surface.all(), work_.component(c), work_.x_t0,
                                                 work_.x_t1, work_.primitives[c], work_.signs,
-                                                work_.counts.view, work_.stop)) {
+                                                work_.counts.view, work_.pace)) {
         return false;
       }
-      if (work_.pace.after(work_of_signs(before, work_.counts.view))) return false;
+      if (work_.pace.after(work_of_component)) return false;
       work_.free[c] = context_.stages.release->is_free(work_, c);
       if (work_.pace.stopped()) return false;
       work_.counts.free_components += work_.free[c];
@@ -188,7 +184,9 @@ class Step {
 
   bool search() {
     std::vector<TriangleType> types(mesh_.triangles.size());
-    for (std::size_t t = 0; t < types.size(); ++t) types[t] = type_of(work_, t);
+    constexpr std::uint64_t work_of_type = 1;
+    for_all_paced(types.size(), work_of_type, work_.pace,
+                  [&](std::size_t t) { types[t] = type_of(work_, t); });
     StepTimes& times = result_.times;
     const Stages& stages = context_.stages;
     const SearchStages search_stages{*stages.pair_rule, *stages.marking, *stages.pair_search,
@@ -200,7 +198,7 @@ class Step {
       }
     }
     CandidateSearch candidates(search_stages, mesh_, work_.tree, context_.search, work_.x_t0,
-                               work_.x_t1, work_.stop);
+                               work_.x_t1, work_.pace);
     bool completed = true;
     {
       Stopwatch watch(times.broad_phase);
@@ -255,12 +253,15 @@ StepResult undecided() {
 
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
                          const PositionsView& x_t0, const PositionsView& x_t1,
-                         std::span<const ViewPrimitive> primitives, const StopFunction& stop,
+                         std::span<const ViewPrimitive> primitives, const StopFunction& asked,
                          std::optional<StepState>& next) {
-  if (auto problem = check_step_input(context.surface, x_t0, x_t1, primitives))
+  SharedStop shared(asked);
+  const StopFunction stop = shared.function();
+  PacedStop pace(stop, context.workers);
+  if (auto problem = check_step_input(context.surface, x_t0, x_t1, primitives, pace))
     return refused(std::move(*problem));
   const StepState* state =
-      known && context.stages.release->still_holds(*known, x_t0) ? &*known : nullptr;
+      known && context.stages.release->still_holds(*known, x_t0, pace) ? &*known : nullptr;
   const Culling culling = context.options.culling;
   ViewAuto view_auto(context.surface, context.adjacent_pairs, known ? known->choice : ViewChoice{});
   const bool may_look = uses_views(culling) && (!chooses_views(culling) || view_auto.looks());
@@ -271,7 +272,6 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
     if (context.surface.is_closed() || !may_look) {
       result = Step(context, state, x_t0, x_t1, view_auto, stop).run(x_t0, x_t1, primitives, next);
     } else {
-      PacedStop pace(stop);
       constexpr std::uint64_t work_of_ghost = 10, work_of_vertex = 3;
       auto apexes =
           context.stages.boundary->place_apexes(context.surface, context.apex_rules, x_t0, x_t1);

@@ -1,6 +1,7 @@
 // One step through the stages of the detector.
 #pragma once
 
+#include "detector/parallel/workers.h"
 #include "detector/step/stages.h"
 #include "detector/step/view_auto.h"
 #include "detector/step_result.h"
@@ -17,6 +18,7 @@ struct StepContext {
   std::vector<ViewAnchor> anchors;   // one for each component
   std::vector<ApexRule> apex_rules;  // one for each loop
   std::uint64_t adjacent_pairs = 0;  // of view-auto, see view_auto.h
+  Workers workers;
 };
 
 // Answers the step from `known`, the state of the last commit if any. `next` is set to the state

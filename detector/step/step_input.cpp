@@ -1,19 +1,40 @@
 #include "detector/step/step_input.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/step_types.h"
+#include "detector/parallel/for_all.h"
 #include "detector/step_result.h"
 
 namespace assay::detector {
 
+namespace {
+
+// Whether check_positions finds nothing; by the workers, of rows that need not be named.
+bool is_whole(const PositionsView& x, Eigen::Index vertex_count, const PacedStop& pace) {
+  if (x.rows() != vertex_count) return false;
+  std::atomic<bool> found_nothing = true;
+  PacedStop unasked = pace.unasked();
+  for_all_pieces(static_cast<std::size_t>(x.rows()), rows_of_piece, 0, &unasked,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                   const auto first = static_cast<Eigen::Index>(begin),
+                              count = static_cast<Eigen::Index>(end - begin);
+                   if (check_positions(x.middleRows(first, count), count)) found_nothing = false;
+                 });
+  return found_nothing;
+}
+
+}  // namespace
+
 std::optional<Problem> check_step_input(const Surface& surface, const PositionsView& x_t0,
                                         const PositionsView& x_t1,
-                                        std::span<const ViewPrimitive> primitives) {
+                                        std::span<const ViewPrimitive> primitives,
+                                        PacedStop& pace) {
   for (const auto* x : {&x_t0, &x_t1}) {
-    if (auto problem = check_positions(*x, surface.first_apex)) return problem;
+    if (!is_whole(*x, surface.first_apex, pace)) return check_positions(*x, surface.first_apex);
   }
   const auto components = surface.mesh.components.size();
   if (primitives.size() > 1 && primitives.size() != components) {

@@ -6,6 +6,7 @@
 #include "detector/boundary/boundary_handler.h"
 #include "detector/mesh/paced_stop.h"
 #include "detector/options.h"
+#include "detector/parallel/workers.h"
 #include "detector/state/step_state.h"
 
 namespace assay::detector {
@@ -15,7 +16,8 @@ struct StepWork {
   BoundingVolumeTree& tree;  // of the mesh; whoever searches refits it first
   const BoundaryHandler& boundary;
   const ElementaryTest& elementary;
-  const StopFunction& stop;
+  const StopFunction& stop;  // all workers may ask it
+  const Workers& workers;
   PositionsView x_t0, x_t1;  // rows: vertices of the mesh, then apexes
   const StepState* known;    // the state of the last commit, where the step starts there; or null
 
@@ -27,7 +29,7 @@ struct StepWork {
   std::vector<std::uint8_t> near_ghosts = {};  // the same by moving boxes; for the counts
   StepCounts counts = {};
   // Of what is done for one component after another: a component alone may be too small to ask.
-  mutable PacedStop pace = PacedStop(stop);
+  mutable PacedStop pace = PacedStop(stop, workers);
 
   // Whether nothing but K and its closure is tested. Else every pair is.
   bool has_views() const { return !signs.empty(); }

@@ -38,6 +38,8 @@
 
 #include <algorithm>
 
+#include "detector/parallel/workers.h"
+
 namespace assay::detector {
 namespace {
 
@@ -46,24 +48,29 @@ constexpr std::uint64_t work_of_cone = 12, work_of_vertex = 6, work_to_join = 3;
 
 struct Kept : KeptBySearch {
   PatchContours contours;
-  ContourUnion joined;
-  std::vector<DirectionSet> cones;  // by node, of the step at hand
+  std::vector<ContourUnion> joined;  // by lane
+  std::vector<DirectionSet> cones;   // by node, of the step at hand
   Kept(PatchContours of, const Topology& mesh, const BoundingVolumeTree& tree)
       : contours(std::move(of)),
-        joined(mesh.vertex_triangles.starts.size()),
+        joined(1, ContourUnion(mesh.vertex_triangles.starts.size())),
         cones(tree.node_count()) {}
 };
 
 class PatchCones : public PatchProofs {
  public:
   PatchCones(const NormalConeSearch& scheme, const SearchInput& input, SearchCounts& counts)
-      : scheme_(scheme),
-        kept_(static_cast<Kept&>(*input.kept)),
-        moving_(*input.x_t0, *input.x_t1),
-        pace_(input.pace),
-        counts_(counts) {
-    moving_.ask(pace_);
-    is_stopped_ = !merge_cones(input.mesh, input.tree, *input.x_t0, *input.x_t1);
+      : PatchCones(scheme, static_cast<Kept&>(*input.kept), *input.x_t0, *input.x_t1, 0, counts,
+                   input.pace) {
+    if (pace_ && pace_->workers())
+      kept_.joined.resize(std::max(kept_.joined.size(), pace_->workers()->count()),
+                          kept_.joined[0]);
+    is_stopped_ = !merge_cones(input.mesh, input.tree);
+  }
+
+  std::unique_ptr<PatchProofs> in_lane(std::size_t lane, SearchCounts& counts,
+                                       PacedStop& pace) const override {
+    return std::unique_ptr<PatchProofs>(
+        new PatchCones(scheme_, kept_, x_t0_, x_t1_, lane, counts, &pace));
   }
 
   bool is_free(std::int32_t node) override {
@@ -77,27 +84,37 @@ class PatchCones : public PatchProofs {
     const Contour of_a = kept_.contours.of(a), of_b = kept_.contours.of(b);
     if (of_a.empty() || of_b.empty()) return false;
     if (has_to_end(work_to_join * (of_a.size() + of_b.size()))) return false;
-    return is_free(cone, kept_.joined.join(of_a, of_b));
+    return is_free(cone, kept_.joined[lane_].join(of_a, of_b));
   }
 
-  bool is_stopped() const override { return is_stopped_; }
+  bool is_stopped() const override { return is_stopped_ || (pace_ && pace_->stopped()); }
 
  private:
+  PatchCones(const NormalConeSearch& scheme, Kept& kept, const PositionsView& x_t0,
+             const PositionsView& x_t1, std::size_t lane, SearchCounts& counts, PacedStop* pace)
+      : scheme_(scheme),
+        kept_(kept),
+        x_t0_(x_t0),
+        x_t1_(x_t1),
+        moving_(x_t0, x_t1),
+        lane_(lane),
+        pace_(pace),
+        counts_(counts) {
+    moving_.ask(pace_);
+  }
+
   // False when it was stopped.
-  bool merge_cones(const Topology& mesh, const BoundingVolumeTree& tree, const PositionsView& x_t0,
-                   const PositionsView& x_t1) {
-    const std::size_t last = tree.node_count() - 1;
-    return for_each_paced(tree.node_count(), work_of_cone, pace_, [&](std::size_t i) {
-      const std::size_t n = last - i;
-      const auto node = static_cast<std::int32_t>(n);
+  bool merge_cones(const Topology& mesh, const BoundingVolumeTree& tree) {
+    return tree.for_each_upward(work_of_cone, pace_, [&](std::int32_t node) {
+      auto& cone = kept_.cones[at(node)];
       if (tree.is_leaf(node)) {
         const auto& corners = mesh.triangles[at(tree.triangle(node))];
-        kept_.cones[n] = scheme_.faced({moving_point(x_t0, x_t1, corners[0]),
-                                        moving_point(x_t0, x_t1, corners[1]),
-                                        moving_point(x_t0, x_t1, corners[2])});
+        cone = scheme_.faced({moving_point(x_t0_, x_t1_, corners[0]),
+                              moving_point(x_t0_, x_t1_, corners[1]),
+                              moving_point(x_t0_, x_t1_, corners[2])});
       } else {
         const auto child = at(tree.child(node));
-        kept_.cones[n] = kept_.cones[child] & kept_.cones[child + 1];
+        cone = kept_.cones[child] & kept_.cones[child + 1];
       }
     });
   }
@@ -115,7 +132,9 @@ class PatchCones : public PatchProofs {
 
   const NormalConeSearch& scheme_;
   Kept& kept_;
+  const PositionsView &x_t0_, &x_t1_;
   MovingContour moving_;
+  const std::size_t lane_;
   PacedStop* pace_;
   bool is_stopped_ = false;
   SearchCounts& counts_;

@@ -44,6 +44,7 @@
 
 #include "detector/bernstein/bernstein.h"
 #include "detector/mesh/topology.h"
+#include "detector/parallel/for_all.h"
 
 namespace assay::detector {
 namespace {
@@ -51,6 +52,18 @@ namespace {
 struct Box {
   Point lo, hi;
 };
+
+void include(Box& box, const double* p) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.lo[k] = p[k] < box.lo[k] ? p[k] : box.lo[k];
+    box.hi[k] = p[k] > box.hi[k] ? p[k] : box.hi[k];
+  }
+}
+
+void include(Box& box, const Box& other) {
+  include(box, other.lo.data());
+  include(box, other.hi.data());
+}
 
 // Several boxes in turn: one alone would wait for each comparison before the next.
 Box box_around(std::span<const std::int32_t> vertices, const PositionsView& x) {
@@ -61,22 +74,28 @@ Box box_around(std::span<const std::int32_t> vertices, const PositionsView& x) {
   const double* const first = row(0);
   std::array<Box, chains> boxes;
   boxes.fill({{first[0], first[1], first[2]}, {first[0], first[1], first[2]}});
-  const auto include = [](Box& box, const double* p) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.lo[k] = p[k] < box.lo[k] ? p[k] : box.lo[k];
-      box.hi[k] = p[k] > box.hi[k] ? p[k] : box.hi[k];
-    }
-  };
   std::size_t i = 0;
   for (; i + chains <= vertices.size(); i += chains) {
     for (std::size_t c = 0; c < chains; ++c) include(boxes[c], row(i + c));
   }
   for (; i < vertices.size(); ++i) include(boxes[0], row(i));
-  for (std::size_t c = 1; c < chains; ++c) {
-    include(boxes[0], boxes[c].lo.data());
-    include(boxes[0], boxes[c].hi.data());
-  }
+  for (std::size_t c = 1; c < chains; ++c) include(boxes[0], boxes[c]);
   return boxes[0];
+}
+
+Box box_around(std::span<const std::int32_t> vertices, const PositionsView& x, PacedStop* pace) {
+  constexpr std::uint64_t work_of_vertex = 1;
+  if (!has_workers(pace)) {
+    if (pace) pace->after(work_of_vertex * vertices.size());
+    return box_around(vertices, x);
+  }
+  std::vector<Box> of_lanes(pace->workers()->count(), box_around(vertices.first(1), x));
+  for_all_pieces(vertices.size(), shared_piece, work_of_vertex, pace,
+                 [&](std::size_t begin, std::size_t end, std::size_t lane) {
+                   include(of_lanes[lane], box_around(vertices.subspan(begin, end - begin), x));
+                 });
+  for (const Box& box : of_lanes) include(of_lanes[0], box);
+  return of_lanes[0];
 }
 
 // The sizes of edges and of p - q over one end of the step.
@@ -112,7 +131,8 @@ void make_axial(LaneInput& input, const Vector& reach, double scale) {
 }  // namespace
 
 bool make_lane_input(std::span<const std::int32_t> vertices, const PositionsView& x_t0,
-                     const PositionsView& x_t1, const ViewPrimitive& primitive, LaneInput& input) {
+                     const PositionsView& x_t1, const ViewPrimitive& primitive, LaneInput& input,
+                     PacedStop* pace) {
   input.x_t0 = x_t0.data();
   input.x_t1 = x_t1.data();
   input.stride_t0 = x_t0.outerStride();
@@ -127,8 +147,8 @@ bool make_lane_input(std::span<const std::int32_t> vertices, const PositionsView
     input.d_t1[k] = d.t1[k];
   }
   Vector edge = {0, 0, 0}, reach = {0, 0, 0};
-  grow(edge, reach, box_around(vertices, x_t0), primitive.q0.t0, primitive.q1.t0);
-  grow(edge, reach, box_around(vertices, x_t1), primitive.q0.t1, primitive.q1.t1);
+  grow(edge, reach, box_around(vertices, x_t0, pace), primitive.q0.t0, primitive.q1.t0);
+  grow(edge, reach, box_around(vertices, x_t1, pace), primitive.q0.t1, primitive.q1.t1);
   if (!in_range(edge) || !in_range(reach)) return false;
   const double scale =
       reach[0] * edge[1] * edge[2] + reach[1] * edge[2] * edge[0] + reach[2] * edge[0] * edge[1];

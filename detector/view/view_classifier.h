@@ -16,9 +16,9 @@ class ViewClassifier {
   virtual bool classify(const Topology& surface, const Component& component,
                         const PositionsView& x_t0, const PositionsView& x_t1,
                         const ViewPrimitive& primitive, std::vector<ViewSign>& signs,
-                        ViewCounts& counts, const StopFunction& stop) const {
+                        ViewCounts& counts, PacedStop& pace) const {
     return detector::classify(surface, component, x_t0, x_t1, primitive, signs, counts,
-                              best_instruction_set(), arithmetic_, stop);
+                              best_instruction_set(), arithmetic_, &pace);
   }
 
  private:

@@ -1,8 +1,10 @@
 #include "detector/view/view_signs.h"
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
 
-#include "detector/mesh/paced_stop.h"
+#include "detector/parallel/for_all.h"
 #include "detector/view/view_bounds.h"
 #include "detector/view/view_exact.h"
 
@@ -33,7 +35,7 @@ class Rungs {
         kernels_(lane_kernels(set)),
         is_point_(primitive.is_point()),
         usable_(arithmetic != Arithmetic::single_precision &&
-                make_lane_input(vertices, x_t0, x_t1, primitive, input_)) {
+                make_lane_input(vertices, x_t0, x_t1, primitive, input_, pace)) {
     input_.corners = mesh.triangles.front().data();
     if (arithmetic == Arithmetic::double_precision) {
       input_.cubic_error = input_.value_error = input_.end_error = 0;
@@ -63,6 +65,8 @@ class Rungs {
   }
 
   const ViewCounts& counts() const { return counts_; }
+  // Who is asked in the runs to come.
+  void ask(PacedStop* pace) { pace_ = pace; }
 
  private:
   // What stays open, in open_, which may hold `triangles`.
@@ -99,6 +103,39 @@ class Rungs {
   ViewCounts counts_;
 };
 
+template <class Put>
+bool run_alone(Rungs& rungs, std::span<const std::int32_t> triangles, const Put& put) {
+  for (std::size_t begin = 0; begin < triangles.size(); begin += block_size) {
+    if (!rungs.run(triangles.subspan(begin, std::min(block_size, triangles.size() - begin)), put))
+      return false;
+  }
+  return true;
+}
+
+template <class Put>
+bool run_in_lanes(const Rungs& rungs, std::span<const std::int32_t> triangles, const Put& put,
+                  const PacedStop& pace, ViewCounts& counts) {
+  struct Lane {
+    Lane(const Rungs& all, const StopFunction& stop) : asked(stop), rungs(all) {
+      rungs.ask(&asked);
+    }
+    PacedStop asked;
+    Rungs rungs;
+  };
+  std::vector<std::unique_ptr<Lane>> lanes;
+  for (std::size_t i = 0; i < pace.workers()->count(); ++i)
+    lanes.push_back(std::make_unique<Lane>(rungs, pace.stop()));
+  std::atomic<bool> completed = true;
+  pace.workers()->share_out(triangles.size(), shared_piece, [&](const Piece& piece) {
+    if (completed && !run_alone(lanes[piece.lane]->rungs,
+                                triangles.subspan(piece.begin, piece.end - piece.begin), put)) {
+      completed = false;
+    }
+  });
+  for (const auto& lane : lanes) counts += lane->rungs.counts();
+  return completed;
+}
+
 }  // namespace
 
 ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive,
@@ -123,19 +160,18 @@ ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitiv
 bool classify(const Topology& mesh, const Component& component, const PositionsView& x_t0,
               const PositionsView& x_t1, const ViewPrimitive& primitive,
               std::vector<ViewSign>& signs, ViewCounts& counts, InstructionSet set,
-              Arithmetic arithmetic, const StopFunction& stop) {
-  PacedStop pace(stop);
-  Rungs rungs(mesh, component.vertices, x_t0, x_t1, primitive, set, arithmetic, &pace);
+              Arithmetic arithmetic, PacedStop* pace) {
   const std::span<const std::int32_t> triangles = component.triangles;
-  for (std::size_t begin = 0; begin < triangles.size(); begin += block_size) {
-    const auto block = triangles.subspan(begin, std::min(block_size, triangles.size() - begin));
-    if (!rungs.run(block, [&](std::int32_t t, ViewSign sign) {
-          signs[static_cast<std::size_t>(t)] = sign;
-        }))
-      return false;
-  }
+  const auto put = [&](std::int32_t t, ViewSign sign) {
+    signs[static_cast<std::size_t>(t)] = sign;
+  };
+  Rungs rungs(mesh, component.vertices, x_t0, x_t1, primitive, set, arithmetic, pace);
+  if (pace && pace->stopped()) return false;
+  const bool completed = has_workers(pace) && triangles.size() > shared_piece
+                             ? run_in_lanes(rungs, triangles, put, *pace, counts)
+                             : run_alone(rungs, triangles, put);
   counts += rungs.counts();
-  return true;
+  return completed;
 }
 
 bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,

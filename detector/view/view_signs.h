@@ -20,14 +20,13 @@ ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitiv
                    ViewCounts& counts, Arithmetic arithmetic = Arithmetic::exact);
 
 // Signs over the step of the component's triangles, written to signs[triangle]: lanes first (none
-// in float), then view_sign for what they leave open. Counts and signs do not depend on `set`.
-// `stop` is asked after a millisecond's work or so, and more often where integers decide. False
-// when it ended it.
+// in float), then view_sign for what they leave open. Counts and signs do not depend on `set`. By
+// the workers of `pace` where it has some; false when it was stopped.
 bool classify(const Topology& mesh, const Component& component, const PositionsView& x_t0,
               const PositionsView& x_t1, const ViewPrimitive& primitive,
               std::vector<ViewSign>& signs, ViewCounts& counts,
               InstructionSet set = best_instruction_set(),
-              Arithmetic arithmetic = Arithmetic::exact, const StopFunction& stop = {});
+              Arithmetic arithmetic = Arithmetic::exact, PacedStop* pace = nullptr);
 
 // Whether all triangles of the component are positive at one instant. Stops soon after the first
 // that is not; also false once `pace` says to end. Bounded arithmetic says so only where it is

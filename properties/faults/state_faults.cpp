@@ -94,7 +94,10 @@ struct OnlyMetAgainstGhosts : ReleaseRule {
 };
 
 struct KeptElsewhere : ReleaseRule {
-  bool still_holds(const StepState&, const detector::PositionsView&) const override { return true; }
+  bool still_holds(const StepState&, const detector::PositionsView&,
+                   const detector::PacedStop&) const override {
+    return true;
+  }
 };
 
 // What an evaluation found that was not committed is used by the next one from the same place: "it

@@ -145,7 +145,7 @@ bool TriangleSigns::classify(const detector::Topology& surface,
                              const detector::PositionsView& x_t0,
                              const detector::PositionsView& x_t1, const ViewPrimitive& primitive,
                              std::vector<ViewSign>& signs, detector::ViewCounts& counts,
-                             const detector::StopFunction&) const {
+                             detector::PacedStop&) const {
   for (const auto t : component.triangles) {
     const auto& v = surface.triangles[at(t)];
     const auto corner = [&](std::size_t i) { return detector::moving_point(x_t0, x_t1, v[i]); };

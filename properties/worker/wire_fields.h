@@ -69,8 +69,8 @@ inline constexpr auto last_of<ProblemKind> = last_problem_kind;
 
 template <class Wire>
 void fields(Wire& wire, detector::Options& options) {
-  auto& [culling, start, pairs, arithmetic, release, ghost_test] = options;
-  wire(culling, start, pairs, arithmetic, release, ghost_test);
+  auto& [culling, start, pairs, arithmetic, release, ghost_test, threads] = options;
+  wire(culling, start, pairs, arithmetic, release, ghost_test, threads);
 }
 
 template <class Wire>

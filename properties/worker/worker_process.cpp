@@ -408,7 +408,9 @@ std::vector<CaseRun> WorkerProcess::run(const corpus::Case& c,
   while (runs.size() < configurations.size()) {
     const auto rest = configurations.subspan(runs.size());
     if (const auto ready = parts_->ensure()) {
-      parts_->run_rest(c, {rest.begin(), rest.end()}, runs);
+      std::vector<Configuration> configured(rest.begin(), rest.end());
+      for (auto& one : configured) one.options.threads = parts_->limits.threads;
+      parts_->run_rest(c, std::move(configured), runs);
     } else {
       parts_->keep({parts_->end_of_loading, ready.error().message, {}}, runs);
     }

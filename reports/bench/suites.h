@@ -39,6 +39,10 @@ BenchReport stability_suite(const BenchSettings& settings, Progress& progress);
 // oracle.
 BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress);
 
+// Whole sequences by each culling and by several threads: what the default costs beside the best
+// choice.
+BenchReport sequences_suite(const BenchSettings& settings, Progress& progress);
+
 // What judging costs: the oracle on a real step and on queries, a campaign's steps a second.
 BenchReport harness_suite(const BenchSettings& settings, Progress& progress);
 

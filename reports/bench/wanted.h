@@ -65,6 +65,14 @@ inline constexpr Wanted rod_twist_step_over_bvh = at_most(0.85);
 inline constexpr Wanted view_auto_over_bvh = at_most(1.05);
 inline constexpr Wanted exact_over_double = at_most(1.3);
 
+// Whole sequences with culling auto, over the single culling that takes the least for the whole of
+// each: the sum, the median step, and any step of a millisecond or more. A first step over bvh's,
+// whose pairs it has to look at. One thread over two.
+inline constexpr Wanted auto_over_best_culling = at_most(1.05);
+inline constexpr Wanted auto_step_over_best_culling = at_most(1.15);
+inline constexpr Wanted first_step_over_bvh = at_most(1.1);
+inline constexpr Wanted two_threads_gain = at_least(1.8);
+
 // Marking of the vBVHs in percent of a step that searches: how the thesis's "low" is read here.
 inline constexpr Wanted marking_percent = at_most(5);
 

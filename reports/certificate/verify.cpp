@@ -83,30 +83,27 @@ std::optional<std::string> other_schema(const Json& statement) {
   return is_version ? std::optional(text) : std::nullopt;
 }
 
-}  // namespace
-
-Verification verify_certificate(const std::filesystem::path& certificate) {
-  Verification result;
+// Reads the certificate into the result; false where that says already why it does not verify.
+bool read_certificate(const std::filesystem::path& certificate, Verification& result) {
   auto& lines = result.differences;
-  const auto folder = certificate.has_parent_path() ? certificate.parent_path() : ".";
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(certificate, ignored)) {
     lines.push_back(fmt::format("{}: no such file", certificate.string()));
-    return result;
+    return false;
   }
   const auto bytes = corpus::read_bytes(certificate);
   if (!bytes) {
     lines.push_back(bytes.error().message);
-    return result;
+    return false;
   }
   auto stated = corpus::parse_json(bytes.value(), certificate);
   if (!stated) {
     lines.push_back(stated.error().message);
-    return result;
+    return false;
   }
   if (!stated.value().is_object()) {
     lines.push_back(fmt::format("{}: is no JSON object", certificate.string()));
-    return result;
+    return false;
   }
   result.statement = std::move(stated.value());
   if (const auto older = other_schema(result.statement)) {
@@ -114,13 +111,23 @@ Verification verify_certificate(const std::filesystem::path& certificate) {
         fmt::format("{}: of schema {}, this assay verifies {}: verify it with the assay "
                     "that issued it",
                     certificate.string(), *older, certificate_schema));
-    return result;
+    return false;
   }
-  const auto made = make_statement(folder);
+  return true;
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& certificate) {
+  return certificate.has_parent_path() ? certificate.parent_path() : ".";
+}
+
+void compare(const std::filesystem::path& certificate, const properties::Expected<Json>& made,
+             Verification& result) {
+  auto& lines = result.differences;
   if (!made) {
     lines.push_back(made.error().message);
-    return result;
+    return;
   }
+  const auto folder = folder_of(certificate);
   const Json& computed = made.value();
   compare_fields(result.statement, computed, lines);
   // A compressed file is read as what it holds, and assay writes none.
@@ -130,6 +137,21 @@ Verification verify_certificate(const std::filesystem::path& certificate) {
     compare_file(folder / failure["file"].get<std::string>(), failure["sha256"], lines);
   compare_file(folder / "junit.xml", corpus::sha256_of(junit_text(predicate)), lines);
   compare_file(folder / "summary.md", corpus::sha256_of(summary_text(predicate)), lines);
+}
+
+}  // namespace
+
+Verification verify_certificate(const std::filesystem::path& certificate) {
+  Verification result;
+  if (read_certificate(certificate, result))
+    compare(certificate, make_statement(folder_of(certificate)), result);
+  return result;
+}
+
+Verification verify_certificate(const std::filesystem::path& certificate,
+                                const properties::Expected<Json>& computed) {
+  Verification result;
+  if (read_certificate(certificate, result)) compare(certificate, computed, result);
   return result;
 }
 

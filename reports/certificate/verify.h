@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/certificate/statement.h"
+
 namespace assay::reports {
 
 struct Verification {
@@ -17,5 +19,8 @@ struct Verification {
 // beside the certificate, and every field and byte is compared; so are the failing meshes that it
 // names, junit.xml and summary.md.
 Verification verify_certificate(const std::filesystem::path& certificate);
+// The same, where make_statement(folder) of its folder has been called before.
+Verification verify_certificate(const std::filesystem::path& certificate,
+                                const properties::Expected<nlohmann::ordered_json>& computed);
 
 }  // namespace assay::reports

@@ -18,6 +18,7 @@ detector::Options options_of(const BuiltInChoice& choice, const CheckInput& inpu
   options.start = choice.start.value_or(options.start);
   options.pairs = choice.pairs.value_or(options.pairs);
   options.arithmetic = choice.arithmetic.value_or(options.arithmetic);
+  options.threads = choice.threads;
   return options;
 }
 

@@ -9,10 +9,10 @@ namespace assay::reports {
 
 Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request) {
   request.detector = properties::built_in_detector();
+  request.threads = words.threads;
   if (words.library.empty()) return outcome::success();
   request.plugin = words.library;
   request.isolation = words.isolation;
-  request.threads = words.threads;
   properties::WorkerProcess worker(request.worker, request.plugin,
                                    {.isolation = request.isolation, .threads = request.threads});
   const auto description = worker.describe();

@@ -66,6 +66,7 @@ struct BuiltInChoice {
   std::optional<detector::Start> start;
   std::optional<detector::Pairs> pairs;
   std::optional<detector::Arithmetic> arithmetic;
+  std::uint32_t threads = 1;  // 0: all cores
 };
 
 // `input` outlives the subject; its coordinates are rounded where the plug-in's contract says so.

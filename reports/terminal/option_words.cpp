@@ -80,6 +80,8 @@ void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about) {
   verb.add("--seed", seed, about).with(whole_number()).shows_default();
 }
 
+constexpr int most_threads = 1024;
+
 void add_part(Verb& verb, DetectorPart& part) {
   const auto parse = [](std::string_view word) {
     return word == "steps"   ? std::optional(DetectorPart::steps)
@@ -91,16 +93,29 @@ void add_part(Verb& verb, DetectorPart& part) {
              "has them), or its elementary query");
 }
 
-VerbOption add_detector(Verb& verb, DetectorWords& detector, const std::string& about) {
+VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::string& about) {
   auto library = verb.add("--detector", detector.library, about);
   add_choice(verb, "--isolation", detector.isolation, "none, best, required",
              properties::isolation_mode_of,
              "Of the plug-in's process: best takes what the system offers (default), required "
              "refuses where something is lacking, none lets it print");
-  verb.add("--threads", detector.threads, "How many threads the plug-in is told that it may use")
-      .in_range(1, 1024)
+  return library;
+}
+
+VerbOption add_detector(Verb& verb, DetectorWords& detector, const std::string& about) {
+  auto library = add_detector_alone(verb, detector, about);
+  verb.add("--threads", detector.threads,
+           "How many threads the detector may use; a plug-in is told")
+      .in_range(1, most_threads)
       .shows_default();
   return library;
+}
+
+void add_threads(Verb& verb, std::uint64_t& threads) {
+  verb.add("--threads", threads,
+           "How many threads the detector may use; 0: all cores, and a plug-in is told 1")
+      .in_range(0, most_threads)
+      .shows_default();
 }
 
 }  // namespace assay::reports

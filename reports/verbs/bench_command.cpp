@@ -37,6 +37,7 @@ constexpr Suite suites[] = {{"elementary", elementary_suite, nullptr},
                             {"claims", claims_suite, share_picture},
                             {"stability", stability_suite, heat_picture},
                             {"speed-error", speed_error_suite, speed_error_picture},
+                            {"sequences", sequences_suite, nullptr},
                             {"harness", harness_suite, nullptr}};
 
 const Suite* suite_named(std::string_view name) {
@@ -130,9 +131,11 @@ int run_bench(const BenchRequest& request) try {
 void add_options(Verb& verb, BenchRequest& request) {
   const char* data = std::getenv("ASSAY_DATA");
   request.data = data && *data ? data : "../shared/data";
-  auto suite = verb.add("--suite", request.suite, "What to measure")
-                   .with(one_of("elementary, view, growth, claims, stability, speed-error, harness",
-                                suite_named));
+  auto suite =
+      verb.add("--suite", request.suite, "What to measure")
+          .with(one_of("elementary, view, growth, claims, stability, speed-error, sequences, "
+                       "harness",
+                       suite_named));
   add_detector(verb, request.detector,
                "In place of a suite: a plug-in's library, timed beside the built-in detector on "
                "scenes and public sequences, its answers judged by its claims")

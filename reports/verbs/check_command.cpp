@@ -32,6 +32,7 @@ struct CheckRequest {
   std::vector<std::string> files;  // frames of one mesh, or one case file
   BuiltInChoice built_in;
   DetectorWords detector;
+  std::uint64_t threads = 0;
   bool no_oracle = false;
   std::optional<double> second_opinion;  // share in (0,1]; needs the oracle
   int jobs = 1;
@@ -269,14 +270,16 @@ int run_check(const CheckRequest& request) {
     return refuse(fmt::format("{}: {}", request.files[0], bad->message));
   }
   Limits limits(request.time_limit, request.memory_limit);
+  BuiltInChoice built_in = request.built_in;
+  built_in.threads = static_cast<std::uint32_t>(request.threads);
   auto subject = request.detector.library.empty()
-                     ? make_built_in(request.built_in, input.value(), limits)
+                     ? make_built_in(built_in, input.value(), limits)
                      : make_plugin_subject(request.detector.library,
                                            {request.time_limit.value_or(no_limit_seconds),
                                             request.memory_limit.value_or(0),
                                             request.detector.isolation,
                                             {},
-                                            request.detector.threads},
+                                            std::max<std::uint64_t>(request.threads, 1)},
                                            input.value());
   if (!subject) return refuse(subject.error());
   auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());
@@ -287,7 +290,9 @@ void add_options(Verb& verb, CheckRequest& request) {
   verb.add("frames", request.files,
            "Two or more frames (OBJ, PLY, OFF; .gz too), or one case file (.json)")
       .required();
-  auto plugin = add_detector(verb, request.detector);
+  auto plugin =
+      add_detector_alone(verb, request.detector, "A plug-in's library (default: the built-in)");
+  add_threads(verb, request.threads);
   auto& built_in = request.built_in;
   plugin
       .excludes(add_choice(verb, "--culling", built_in.culling,

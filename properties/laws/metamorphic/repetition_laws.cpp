@@ -137,6 +137,25 @@ void check_row_stride(CaseFacts& facts, LawTally& tally) {
   }
 }
 
+void check_threads(CaseFacts& facts, LawTally& tally) {
+  auto options = facts.options();
+  const auto make = [&](std::uint32_t threads) {
+    options.threads = threads;
+    return CasePlayer::make(facts.source(), options, facts.stages_of()(options));
+  };
+  auto alone = make(1), shared = make(3);
+  if (!alone || !shared) return;
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    alone.value().play(s);
+    std::string what = difference(facts.result(s), shared.value().play(s));
+    if (what.empty() &&
+        alone.value().detector().state().bytes() != shared.value().detector().state().bytes()) {
+      what = "the state after the step";
+    }
+    note(facts, s, what.empty() ? holds() : what + " differs", tally);
+  }
+}
+
 void check_equal_ends(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);
   if (!run || facts.options().culling != detector::Culling::view_point) return;
@@ -177,6 +196,9 @@ constexpr Law repetition_law_table[] = {
     {"Change_RowStride", "change",
      "Positions that stand in wider rows give the same bytes as packed ones.", "nothing",
      check_row_stride, dear},
+    {"Change_ThreadsDoNotShow", "change",
+     "A detector of three threads gives the same bytes as one of one thread, counts and state too.",
+     "nothing", check_threads, dear},
     {"Change_RestoredStateGoesOn", "change",
      "A state that went through bytes into another detector of the mesh, made from other positions "
      "and in the middle of another step, gives the results and the states that would have come, "

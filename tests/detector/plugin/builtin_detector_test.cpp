@@ -29,11 +29,11 @@ TEST_F(BuiltinDetector, EveryOptionReachesTheDetector) {
         r.first.hi, std::uint64_t{r.pairs.size()}, std::uint64_t{r.view_positive},
         std::uint64_t{r.against_all}, std::uint64_t{r.dirty});
   };
-  for (std::int32_t culling = 0; culling < 6; ++culling) {
+  for (std::int32_t culling = 0; culling < 7; ++culling) {
     for (std::int32_t start = 0; start < 3; ++start) {
       for (std::int32_t pairs = 0; pairs < 2; ++pairs) {
         for (std::int32_t arithmetic = 0; arithmetic < 4; ++arithmetic) {
-          const assay_builtin_options c = {sizeof c, culling, start, pairs, arithmetic, 0, 0};
+          const assay_builtin_options c = {sizeof c, culling, start, pairs, arithmetic, 0, 0, 1};
           EXPECT_EQ(in_c(c),
                     in_cpp({static_cast<Culling>(culling), static_cast<Start>(start),
                             static_cast<Pairs>(pairs), static_cast<Arithmetic>(arithmetic)}));
@@ -53,8 +53,8 @@ TEST_F(BuiltinDetector, ReleaseAndGhostTestReachTheDetector) {
   std::map<std::vector<std::uint64_t>, int> outcomes;
   for (std::int32_t release = 0; release < 3; ++release) {
     for (std::int32_t ghost_test = 0; ghost_test < 2; ++ghost_test) {
-      const assay_builtin_options c = {sizeof c,  ASSAY_CULLING_VIEW_POINT, 0, 0, 0, release,
-                                       ghost_test};
+      const assay_builtin_options c = {
+          sizeof c, ASSAY_CULLING_VIEW_POINT, 0, 0, 0, release, ghost_test, 2};
       const auto handle = make(&c, 7);
       auto made =
           Detector::create(triangles.bottomRows(7), in,

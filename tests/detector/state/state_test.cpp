@@ -61,13 +61,14 @@ TEST(Layers, L9_TouchedTrianglesStayDirty) {
 struct Still {
   Still(const Triangles& triangles, const Positions& at)
       : x(at), surface(make_surface(triangles, at.rows())), tree(surface.mesh, x) {}
-  StepWork work() { return {surface, tree, boundary, elementary, stop, x, x, nullptr}; }
+  StepWork work() { return {surface, tree, boundary, elementary, stop, workers, x, x, nullptr}; }
   Positions x;
   Surface surface;
   BoundingVolumeTree tree;
   BoundaryHandler boundary;
   ElementaryTest elementary;
   StopFunction stop;
+  Workers workers;
 };
 
 TEST(Release, L5_ReleasesWithWindingOneOnly) {

@@ -29,10 +29,9 @@ class NotedClassifier : public ViewClassifier {
   explicit NotedClassifier(Trace& trace) : trace_(trace) {}
   bool classify(const Topology& surface, const Component& component, const PositionsView& x_t0,
                 const PositionsView& x_t1, const ViewPrimitive& primitive,
-                std::vector<ViewSign>& signs, ViewCounts& counts,
-                const StopFunction& stop) const override {
+                std::vector<ViewSign>& signs, ViewCounts& counts, PacedStop& pace) const override {
     trace_.note("view test");
-    return ViewClassifier::classify(surface, component, x_t0, x_t1, primitive, signs, counts, stop);
+    return ViewClassifier::classify(surface, component, x_t0, x_t1, primitive, signs, counts, pace);
   }
 
  private:
@@ -136,9 +135,10 @@ class NotedTest : public ElementaryTest {
 class NotedRelease : public ReleaseRule {
  public:
   explicit NotedRelease(Trace& trace) : trace_(trace) {}
-  bool still_holds(const StepState& state, const PositionsView& x_t0) const override {
+  bool still_holds(const StepState& state, const PositionsView& x_t0,
+                   const PacedStop& pace) const override {
     trace_.note("known?");
-    return ReleaseRule::still_holds(state, x_t0);
+    return ReleaseRule::still_holds(state, x_t0, pace);
   }
   bool is_free(StepWork& work, std::size_t component) const override {
     trace_.note("free?");

@@ -24,7 +24,7 @@ struct TwoOpen {
     return x;
   }
   StepWork work(bool first_is_free, bool second_is_free) {
-    StepWork work{surface, tree, boundary, elementary, stop, x, x, nullptr};
+    StepWork work{surface, tree, boundary, elementary, stop, workers, x, x, nullptr};
     work.primitives.resize(2);
     work.signs.assign(surface.all().triangles.size(), ViewSign::positive);
     work.free = {first_is_free, second_is_free};
@@ -36,6 +36,7 @@ struct TwoOpen {
   BoundaryHandler boundary;
   ElementaryTest elementary;
   StopFunction stop;
+  Workers workers;
 };
 
 // The fewest pairs of culling bvh at which the views of a step are used.

@@ -179,6 +179,7 @@ const std::map<std::string, Wrong, std::less<>>& wrongs() {
       {"Change_EvaluateChangesNothing", {wrong_size}},
       {"Change_ResetStartsAnew", {wrong_size}},
       {"Change_RowStride", {wrong_size}},
+      {"Change_ThreadsDoNotShow", {wrong_size}},
       {"Change_RestoredStateGoesOn", {no_doubts}},
   };
   return all;

@@ -71,6 +71,7 @@ LAW_TEST(Change_RepeatedCall)
 LAW_TEST(Change_EvaluateChangesNothing)
 LAW_TEST(Change_ResetStartsAnew)
 LAW_TEST(Change_RowStride)
+LAW_TEST(Change_ThreadsDoNotShow)
 LAW_TEST(Change_RestoredStateGoesOn)
 // clang-format on
 

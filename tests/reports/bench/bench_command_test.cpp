@@ -257,6 +257,17 @@ TEST_F(Suites, Claims) {
   EXPECT_EQ(report.scatter.size(), corpus::scenes().size() * 20u * 3u * 2u);
 }
 
+TEST_F(Suites, Sequences) {
+  const auto report = run(sequences_suite);
+  for (const char* row : {"bend, view-line, 1 thread: sum over bvh's",
+                          "twist, auto over the best single culling, sum",
+                          "open-tube, auto over the best single culling, median step",
+                          "arm-in-box, auto over bvh, first step"}) {
+    EXPECT_TRUE(has(report, row)) << row;
+  }
+  EXPECT_TRUE(report.wrong_answers.empty()) << report.wrong_answers[0];
+}
+
 TEST_F(Suites, Harness) {
   const auto report = run(harness_suite);
   for (const char* row : {"oracle, rod-twist step", "oracle, a simulation query, yes/no",

@@ -117,8 +117,8 @@ class CallsZeroPositive : public detector::ViewClassifier {
   bool classify(const detector::Topology& surface, const detector::Component& component,
                 const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
                 const detector::ViewPrimitive& primitive, std::vector<detector::ViewSign>& signs,
-                detector::ViewCounts& counts, const detector::StopFunction& stop) const override {
-    ViewClassifier::classify(surface, component, x_t0, x_t1, primitive, signs, counts, stop);
+                detector::ViewCounts& counts, detector::PacedStop& pace) const override {
+    ViewClassifier::classify(surface, component, x_t0, x_t1, primitive, signs, counts, pace);
     for (const auto t : component.triangles) {
       auto& sign = signs[static_cast<std::size_t>(t)];
       if (sign == detector::ViewSign::zero) sign = detector::ViewSign::positive;

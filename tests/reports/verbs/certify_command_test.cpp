@@ -102,7 +102,11 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
 
   expect_schema(statement);
 
-  // Every leaf in turn.
+  // Every leaf in turn; what the files come to is computed once, and anew for some of them.
+  const auto computed = reports::make_statement(out);
+  ASSERT_TRUE(computed);
+  constexpr std::size_t between_anew = 60;
+  std::size_t leaf = 0;
   const std::string whole = read_text(certificate);
   const Json leaves = statement.flatten();
   EXPECT_GT(leaves.size(), 300u);
@@ -110,7 +114,9 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
     Json tampered = statement;
     tampered[Json::json_pointer(place)] = changed(value);
     write(certificate, tampered.dump(1) + "\n");
-    const auto lines = verify_certificate(certificate).differences;
+    const auto lines = (leaf++ % between_anew == 0 ? verify_certificate(certificate)
+                                                   : verify_certificate(certificate, computed))
+                           .differences;
     ASSERT_FALSE(lines.empty()) << place;
     EXPECT_EQ(lines[0].rfind(place, 0), 0u) << place << ": " << lines[0];
   }

@@ -1,0 +1,52 @@
+#include "detector/parallel/workers.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+namespace assay::detector {
+namespace {
+
+// oneTBB orders what happens before, in and after a piece, but is not compiled for ThreadSanitizer,
+// which therefore has to be told. Pieces are not ordered among each other, so it still finds what
+// two of them do to the same place.
+#ifdef __SANITIZE_THREAD__
+std::atomic<unsigned> loops_begun = 0, pieces_done = 0;
+void begins_loop() { loops_begun.fetch_add(1, std::memory_order_release); }
+void begins_piece() { loops_begun.load(std::memory_order_acquire); }
+void ends_piece() { pieces_done.fetch_add(1, std::memory_order_release); }
+void ends_loop() { pieces_done.load(std::memory_order_acquire); }
+#else
+void begins_loop() {}
+void begins_piece() {}
+void ends_piece() {}
+void ends_loop() {}
+#endif
+
+}  // namespace
+
+Workers::Workers(std::uint32_t threads) {
+  constexpr std::uint32_t most_threads = 1024;
+  const std::uint32_t wanted = threads != 0 ? threads : std::thread::hardware_concurrency();
+  const std::size_t count = std::clamp(wanted, 1u, most_threads);
+  if (count > 1) arena_ = ThreadArena::make(count);
+  if (arena_) count_ = count;
+}
+
+void Workers::share_out(std::size_t count, std::size_t most,
+                        const std::function<void(const Piece&)>& body) const {
+  if (!arena_ || count <= most) {
+    for (std::size_t begin = 0; begin < count; begin += most)
+      body({begin, std::min(begin + most, count), 0});
+    return;
+  }
+  begins_loop();
+  arena_->run((count + most - 1) / most, [&](std::size_t i, std::size_t lane) {
+    begins_piece();
+    body({i * most, std::min((i + 1) * most, count), lane});
+    ends_piece();
+  });
+  ends_loop();
+}
+
+}  // namespace assay::detector
