@@ -22,10 +22,10 @@ class TbbArena : public ThreadArena {
                  std::max(threads, Control::active_value(Control::max_allowed_parallelism))),
         arena_(static_cast<int>(threads)) {}
 
-  void run(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) override {
+  void run(std::size_t count, const Work& work) override {
     arena_.execute([&] {
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-        work(i, static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
+        work.run(i, static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
       });
     });
   }

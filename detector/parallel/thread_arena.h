@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 
 namespace assay::detector {
@@ -12,10 +11,14 @@ class ThreadArena {
   // Null where the library was built without oneTBB.
   static std::unique_ptr<ThreadArena> make(std::size_t threads);
   virtual ~ThreadArena() = default;
-  // work(i, lane) for i = 0 .. count - 1, with lane < threads; returns when all have returned, and
-  // throws what the first one threw that threw.
-  virtual void run(std::size_t count,
-                   const std::function<void(std::size_t i, std::size_t lane)>& work) = 0;
+  class Work {
+   public:
+    virtual ~Work() = default;
+    virtual void run(std::size_t i, std::size_t lane) const = 0;
+  };
+  // work.run(i, lane) for i = 0 .. count - 1, with lane < threads; returns when all have returned,
+  // and throws what the first one threw that threw.
+  virtual void run(std::size_t count, const Work& work) = 0;
 };
 
 }  // namespace assay::detector

@@ -23,6 +23,22 @@ void ends_piece() {}
 void ends_loop() {}
 #endif
 
+// The pieces of one loop.
+class Pieces : public ThreadArena::Work {
+ public:
+  Pieces(std::size_t count, std::size_t most, const std::function<void(const Piece&)>& body)
+      : count_(count), most_(most), body_(body) {}
+  void run(std::size_t i, std::size_t lane) const override {
+    begins_piece();
+    body_({i * most_, std::min((i + 1) * most_, count_), lane});
+    ends_piece();
+  }
+
+ private:
+  const std::size_t count_, most_;
+  const std::function<void(const Piece&)>& body_;
+};
+
 }  // namespace
 
 Workers::Workers(std::uint32_t threads) {
@@ -40,12 +56,9 @@ void Workers::share_out(std::size_t count, std::size_t most,
       body({begin, std::min(begin + most, count), 0});
     return;
   }
+  const Pieces pieces(count, most, body);
   begins_loop();
-  arena_->run((count + most - 1) / most, [&](std::size_t i, std::size_t lane) {
-    begins_piece();
-    body({i * most, std::min((i + 1) * most, count), lane});
-    ends_piece();
-  });
+  arena_->run((count + most - 1) / most, pieces);
   ends_loop();
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <thread>
 
 #include "properties/judging/case_options.h"
@@ -51,15 +52,20 @@ std::vector<SequenceVariant> variants_of(std::uint32_t cores) {
           {Culling::automatic, cores}};
 }
 
+// Of the rounds in which both were played.
+Estimate ratio_in_common(const std::vector<double>& a, const std::vector<double>& b) {
+  const std::size_t rounds = std::min(a.size(), b.size());
+  return ratio_of(std::span(a).first(rounds), std::span(b).first(rounds));
+}
+
 // All cullings over bvh, for whoever wants to choose by himself.
 void add_table_rows(const Played& played, BenchReport& report) {
-  const auto of_bvh = played.bvh().sums();
   for (std::size_t i = 0; i < played.variants.size(); ++i) {
     const auto& variant = played.variants[i];
     report.add(fmt::format("{}, {}, {} thread{}: sum over bvh's", played.name,
                            properties::name_of(variant.culling), variant.threads,
                            variant.threads == 1 ? "" : "s"),
-               "times", ratio_of(variant.sums(), of_bvh), {},
+               "times", ratio_in_common(variant.sums(), played.bvh().sums()), {},
                fmt::format("{:.2f} ms a step",
                            median_of(variant.sums()).value / static_cast<double>(played.steps())));
   }
@@ -70,13 +76,13 @@ void judge_automatic(const Played& played, BenchReport& report) {
   const auto& best = played.best_single();
   const std::string name = played.name + ", auto over the best single culling";
   const std::string note = properties::name_of(best.culling);
-  report.add(name + ", sum", "times", ratio_of(automatic.sums(), best.sums()),
+  report.add(name + ", sum", "times", ratio_in_common(automatic.sums(), best.sums()),
              wanted::auto_over_best_culling, note);
   std::vector<double> ratios;
   double worst = 0;
   std::size_t worst_step = 0;
   for (std::size_t s = 0; s < played.steps(); ++s) {
-    const double ratio = ratio_of(automatic.of_step(s), best.of_step(s)).value;
+    const double ratio = ratio_in_common(automatic.of_step(s), best.of_step(s)).value;
     ratios.push_back(ratio);
     constexpr double long_enough_ms = 1;
     if (ratio > worst && median_of(automatic.of_step(s)).value >= long_enough_ms) {
@@ -91,7 +97,8 @@ void judge_automatic(const Played& played, BenchReport& report) {
                wanted::auto_step_over_best_culling, fmt::format("step {}", worst_step + 1));
   }
   report.add(played.name + ", auto over bvh, first step", "times",
-             ratio_of(automatic.of_step(0), played.bvh().of_step(0)), wanted::first_step_over_bvh);
+             ratio_in_common(automatic.of_step(0), played.bvh().of_step(0)),
+             wanted::first_step_over_bvh);
 }
 
 void judge_threads(const Played& played, std::uint32_t cores, BenchReport& report) {
@@ -100,7 +107,7 @@ void judge_threads(const Played& played, std::uint32_t cores, BenchReport& repor
                                    std::pair(Played::automatic, Played::automatic_of_all)}) {
     report.add(fmt::format("{}, {}: one thread over {}", played.name,
                            properties::name_of(played.variants[alone].culling), cores),
-               "times", ratio_of(played.variants[alone].sums(), played.variants[all].sums()),
+               "times", ratio_in_common(played.variants[alone].sums(), played.variants[all].sums()),
                wanted_if(is_asked, wanted::two_threads_gain));
   }
 }
