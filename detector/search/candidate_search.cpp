@@ -67,6 +67,21 @@ double CandidateSearch::provable_share() {
   return stages_.search.provable_share(input(none, true));
 }
 
+double CandidateSearch::asked_share() const {
+  constexpr std::size_t most_edges = 512;
+  const PairTables k = stages_.rule.candidates();
+  const std::size_t edges = std::min(mesh_.edges.size(), most_edges);
+  std::size_t asked = 0, pairs = 0;
+  for (std::size_t i = 0; i < edges; ++i) {
+    const auto holders =
+        mesh_.edge_triangles.row(static_cast<std::int32_t>(i * mesh_.edges.size() / edges));
+    if (holders.size() < 2) continue;
+    ++pairs;
+    asked += k.within.asks(memory_.marks.flags(holders[0]), memory_.marks.flags(holders[1]));
+  }
+  return pairs == 0 ? 0 : static_cast<double>(asked) / static_cast<double>(pairs);
+}
+
 bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
   const auto& types = memory_.marks.types;
   struct alignas(64) Asking {

@@ -45,6 +45,9 @@ class CandidateSearch {
   bool collect(bool uses_proofs = true);
   // See PairSearch.
   double provable_share();
+  // Of the pairs of triangles at a few hundred edges that are spread over the mesh, the share that
+  // the rule asks for. REQUIRES that types are marked.
+  double asked_share() const;
   // L7. H := the triangles found in contact with their own component (pairs of two components were
   // all tested, and layers count the own component only: L10). Tests (U,H), adds what is found,
   // until H is stable. V0 and Vv were looked at against everything already. A round costs what it

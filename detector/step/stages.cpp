@@ -14,8 +14,11 @@ Stages standard_stages(const Options& options) {
   stages.marking = std::make_shared<Marking>();
   if (culling == Culling::none) {
     stages.pair_search = std::make_shared<ExhaustiveSearch>();
-  } else if (culling == Culling::normal_cone || culling == Culling::automatic) {
+  } else if (culling == Culling::normal_cone) {
     stages.pair_search = std::make_shared<NormalConeSearch>();
+  } else if (culling == Culling::automatic) {
+    stages.pair_search =
+        std::make_shared<NormalConeSearch>(NormalConeSearch::Asked::of_four_triangles_or_more);
   } else {
     stages.pair_search = std::make_shared<TreeSearch>();
   }

@@ -223,8 +223,11 @@ class Step {
 
   // Whether patches are proved apart in this search (L14).
   bool worth_proving(CandidateSearch& candidates) {
-    return context_.options.culling != Culling::automatic ||
-           auto_.proofs_pay(candidates.provable_share(), mesh_.triangles.size());
+    if (context_.options.culling != Culling::automatic) return true;
+    // Proofs are about pairs of one component.
+    if (work_.has_views() && work_.all_free()) return false;
+    return auto_.proofs_pay(candidates.provable_share(), candidates.asked_share(),
+                            mesh_.triangles.size());
   }
 
   // Whether the pairs found are all there are.

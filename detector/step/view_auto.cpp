@@ -160,9 +160,8 @@ bool ViewAuto::promises(StepWork& work) {
          does_without(ViewUse::among_ghosts);
 }
 
-bool ViewAuto::proofs_pay(double provable, std::size_t triangles) {
-  const double left = use() == ViewUse::used ? 1 - share_ : 1;
-  const double hoped = worth_of_proved * provable * left * static_cast<double>(adjacent_);
+bool ViewAuto::proofs_pay(double provable, double asked, std::size_t triangles) {
+  const double hoped = worth_of_proved * provable * asked * static_cast<double>(adjacent_);
   proves_ = provable >= least_provable && hoped >= cost_of_cones * static_cast<double>(triangles);
   return proves_;
 }

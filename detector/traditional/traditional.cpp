@@ -59,8 +59,8 @@ struct Kept : KeptBySearch {
 class PatchCones : public PatchProofs {
  public:
   PatchCones(const NormalConeSearch& scheme, const SearchInput& input, SearchCounts& counts)
-      : PatchCones(scheme, static_cast<Kept&>(*input.kept), *input.x_t0, *input.x_t1, 0, counts,
-                   input.pace) {
+      : PatchCones(scheme, input.tree, static_cast<Kept&>(*input.kept), *input.x_t0, *input.x_t1, 0,
+                   counts, input.pace) {
     if (pace_ && pace_->workers())
       kept_.joined.resize(std::max(kept_.joined.size(), pace_->workers()->count()),
                           kept_.joined[0]);
@@ -70,29 +70,32 @@ class PatchCones : public PatchProofs {
   std::unique_ptr<PatchProofs> in_lane(std::size_t lane, SearchCounts& counts,
                                        PacedStop& pace) const override {
     return std::unique_ptr<PatchProofs>(
-        new PatchCones(scheme_, kept_, x_t0_, x_t1_, lane, counts, &pace));
+        new PatchCones(scheme_, tree_, kept_, x_t0_, x_t1_, lane, counts, &pace));
   }
 
   bool is_free(std::int32_t node) override {
-    return !has_to_end(1) && is_free(kept_.cones[at(node)], kept_.contours.of(node));
+    return !has_to_end(1) && is_asked(size(node)) &&
+           is_free(kept_.cones[at(node)], kept_.contours.of(node));
   }
 
   bool are_free(std::int32_t a, std::int32_t b) override {
-    if (has_to_end(1)) return false;
+    if (has_to_end(1) || !is_asked(size(a) + size(b))) return false;
     const DirectionSet cone = kept_.cones[at(a)] & kept_.cones[at(b)];
     if (cone == 0) return false;
     const Contour of_a = kept_.contours.of(a), of_b = kept_.contours.of(b);
     if (of_a.empty() || of_b.empty()) return false;
     if (has_to_end(work_to_join * (of_a.size() + of_b.size()))) return false;
-    return is_free(cone, kept_.joined[lane_].join(of_a, of_b));
+    return is_free(cone, scheme_.joined(kept_.joined[lane_], of_a, of_b));
   }
 
   bool is_stopped() const override { return is_stopped_ || (pace_ && pace_->stopped()); }
 
  private:
-  PatchCones(const NormalConeSearch& scheme, Kept& kept, const PositionsView& x_t0,
-             const PositionsView& x_t1, std::size_t lane, SearchCounts& counts, PacedStop* pace)
+  PatchCones(const NormalConeSearch& scheme, const BoundingVolumeTree& tree, Kept& kept,
+             const PositionsView& x_t0, const PositionsView& x_t1, std::size_t lane,
+             SearchCounts& counts, PacedStop* pace)
       : scheme_(scheme),
+        tree_(tree),
         kept_(kept),
         x_t0_(x_t0),
         x_t1_(x_t1),
@@ -101,6 +104,16 @@ class PatchCones : public PatchProofs {
         pace_(pace),
         counts_(counts) {
     moving_.ask(pace_);
+  }
+
+  // Triangles below the node, as far as it matters: 1, 2 or more.
+  int size(std::int32_t node) const {
+    if (tree_.is_leaf(node)) return 1;
+    const auto child = tree_.child(node);
+    return tree_.is_leaf(child) && tree_.is_leaf(child + 1) ? 2 : 4;
+  }
+  bool is_asked(int triangles) const {
+    return triangles >= 4 || scheme_.asked() == NormalConeSearch::Asked::all;
   }
 
   // False when it was stopped.
@@ -131,6 +144,7 @@ class PatchCones : public PatchProofs {
   }
 
   const NormalConeSearch& scheme_;
+  const BoundingVolumeTree& tree_;
   Kept& kept_;
   const PositionsView &x_t0_, &x_t1_;
   MovingContour moving_;

@@ -18,6 +18,12 @@ namespace assay::detector {
 
 class NormalConeSearch : public TreeSearch {
  public:
+  // Patches of which proofs are asked. A proof costs about what four candidates cost and, of so few
+  // triangles, leaves out fewer.
+  enum class Asked : std::uint8_t { all, of_four_triangles_or_more };
+  explicit NormalConeSearch(Asked asked = Asked::all) : asked_(asked) {}
+  Asked asked() const { return asked_; }
+
   // The contours of all nodes: they are of the mesh alone.
   std::unique_ptr<KeptBySearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
                                         PacedStop& pace) const override;
@@ -33,9 +39,13 @@ class NormalConeSearch : public TreeSearch {
   virtual bool stays_simple(MovingContour& moving, Contour contour, int direction_bit) const {
     return moving.stays_simple(contour, direction_bit);
   }
+  virtual Contour joined(ContourUnion& both, Contour a, Contour b) const { return both.join(a, b); }
   virtual std::unique_ptr<ContourMaker> contour_maker(const Topology& mesh) const {
     return std::make_unique<ContourMaker>(mesh);
   }
+
+ private:
+  Asked asked_;
 };
 
 }  // namespace assay::detector

@@ -97,6 +97,13 @@ struct JoinedAtVertex : NormalConeSearch {
   }
 };
 
+// Two patches that are free, each by itself, and face one way: held to be free together.
+struct PatchesOneByOne : NormalConeSearch {
+  Contour joined(detector::ContourUnion&, Contour a, Contour b) const override {
+    return a.size() < b.size() ? b : a;
+  }
+};
+
 template <class Search>
 Fault cone(std::string_view name, std::string_view about, std::string_view curated, int vertices) {
   return planted<Search>(name, about, "all-pairs (L13)", curated, vertices, with_cones);
@@ -119,6 +126,13 @@ std::vector<Fault> cone_faults() {
                          "F_cone_contour_at_end", 5),
       cone<JoinedAtVertex>("cone/joined-at-a-vertex", "patches that share a vertex only are merged",
                            "F_cone_joined_at_vertex", 4),
+      cone<PatchesOneByOne>("cone/patches-one-by-one",
+                            "two patches that are each free and face one way are free together",
+                            "F_cone_patches_one_by_one", 5),
+      planted<PatchesOneByOne>("auto/patches-one-by-one",
+                               "what culling auto leaves out are patches that are each free", "L14",
+                               "F_auto_patches_one_by_one", 71,
+                               {detector::Culling::automatic, detector::Start::verified}),
       planted<NormalsAtEnd>("auto/normals-at-end",
                             "what culling auto leaves out faces one direction at t=1 alone", "L14",
                             "F_auto_normals_at_end", 49,
