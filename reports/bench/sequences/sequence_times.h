@@ -23,10 +23,10 @@ struct SequenceVariant {
 };
 
 // In each round every variant makes a detector and plays the whole sequence, forward and backward
-// by turns; a round before them is thrown away, and what took three times as long as another variant in
-// that one is played in the first two rounds only. Answers, pairs and times that differ from those of
-// the first variant are wrong answers of the report, and of variants that differ in threads alone
-// so is anything else.
+// by turns; a round before them is thrown away. What took three times as long as another variant
+// in that one is played in the first two rounds only. Answers, pairs and times that differ from
+// those of the first variant are wrong answers of the report, and of variants that differ in
+// threads alone so is anything else.
 void time_sequence(const std::string& name, const corpus::Sequence& sequence, bool starts_clean,
                    int rounds, std::vector<SequenceVariant>& variants, BenchReport& report);
 
