@@ -1,0 +1,122 @@
+// Culling auto proves patches apart (L14) where counts say that it pays, and nowhere else.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "detector/detector.h"
+#include "detector/step/view_auto.h"
+#include "detector/traditional/traditional.h"
+#include "tests/detector/contact/same_contacts.h"
+#include "tests/detector/points.h"
+#include "tests/detector/view/revolved.h"
+
+namespace assay::detector {
+namespace {
+
+using tests::revolved;
+using tests::sphere;
+using tests::sphere_rings;
+
+// Squares of unit size, in two triangles each.
+struct Sheet {
+  explicit Sheet(int squares) : triangles(2 * squares * squares, 3), flat(side(squares), 3) {
+    Eigen::Index row = 0;
+    for (int i = 0; i <= squares; ++i) {
+      for (int j = 0; j <= squares; ++j) {
+        const int v = i * (squares + 1) + j;
+        flat.row(v) << i, j, 0;
+        if (i == squares || j == squares) continue;
+        triangles.row(row++) << v, v + squares + 1, v + squares + 2;
+        triangles.row(row++) << v, v + squares + 2, v + 1;
+      }
+    }
+  }
+  static Eigen::Index side(int squares) {
+    return static_cast<Eigen::Index>(squares + 1) * (squares + 1);
+  }
+  // Each vertex somewhere else: neighbours face all ways.
+  Positions crumpled() const {
+    Positions x = flat;
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+      for (int k = 0; k < 3; ++k) x(v, k) += 4 * std::sin(12.9898 * double(v) + 78.2 * k);
+    return x;
+  }
+  Triangles triangles;
+  Positions flat;
+};
+
+StepResult step(const Triangles& triangles, const Positions& x_t0, const Positions& x_t1,
+                Culling culling = Culling::automatic) {
+  return Detector::create(triangles, x_t0, {culling, Start::clean}).value().step(x_t0, x_t1);
+}
+
+TEST(ProofsPolicy, L14_AFlatSheetIsProvedFreeAtOnce) {
+  const Sheet sheet(30);
+  const Positions lifted = sheet.flat.rowwise() + Eigen::RowVector3d(0, 0, 1);
+  const auto result = step(sheet.triangles, sheet.flat, lifted);
+  EXPECT_EQ(result.counts.search.contour_tests, 1u);
+  EXPECT_EQ(result.counts.search.candidate_pairs, 0u);
+}
+
+TEST(ProofsPolicy, L14_ACrumpledSheetIsNotAskedForProofs) {
+  const Sheet sheet(30);
+  const Positions x = sheet.crumpled(), moved = x.rowwise() + Eigen::RowVector3d(0, 0, 1);
+  const auto result = step(sheet.triangles, x, moved),
+             bvh = step(sheet.triangles, x, moved, Culling::bvh);
+  EXPECT_EQ(result.counts.search.contour_tests, 0u);
+  EXPECT_EQ(result.counts.search.candidate_pairs, bvh.counts.search.candidate_pairs);
+  tests::expect_same_contacts(result, bvh);
+}
+
+TEST(ProofsPolicy, WhereAllComponentsAreFreeNothingIsProved) {
+  Triangles one = revolved(sphere_rings), two(2 * one.rows(), 3);
+  const Positions x = sphere(1);
+  two << one, one.array() + static_cast<std::int32_t>(x.rows());
+  const auto both = [&](double shift) {
+    Positions apart(2 * x.rows(), 3);
+    apart << x, x.rowwise() + Eigen::RowVector3d(shift, 0, 0);
+    return apart;
+  };
+  const auto result = step(two, both(5), both(4));
+  EXPECT_EQ(result.counts.free_components, 2u);
+  EXPECT_EQ(result.counts.search.contour_tests, 0u);
+}
+
+// Two triangles are neighbours in one place at most: their proof would leave out one candidate.
+TEST(ProofsPolicy, PatchesOfFewerThanFourTrianglesAreNotAskedFor) {
+  Triangles strip(2, 3);
+  strip << 0, 1, 2, 1, 3, 2;
+  Positions x(4, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0;
+  const NormalConeSearch all, few(NormalConeSearch::Asked::of_four_triangles_or_more);
+  const Topology mesh = make_topology(strip, 4);
+  BoundingVolumeTree tree(mesh, x);
+  tree.refit(mesh, x, x);
+  const Marks marks(tree);
+  const PairTables tables = EveryPair().candidates();
+  const PositionsView view = x;
+  for (const auto* search : {&all, &few}) {
+    PacedStop never(never_stops);
+    const auto kept = search->prepare(mesh, tree, never);
+    SearchCounts counts;
+    search->search({mesh, tree, marks, tables, kept.get(), &view, &view, &never}, counts,
+                   [](std::int32_t, std::int32_t) { return true; });
+    EXPECT_EQ(counts.contour_tests, search == &all ? 1u : 0u);
+    EXPECT_EQ(counts.candidate_pairs, search == &all ? 0u : 1u);
+  }
+}
+
+TEST(ProofsPolicy, WhatIsHopedForIsHeldAgainstTheCostOfCones) {
+  const Sheet sheet(10);
+  const Surface surface = make_surface(sheet.triangles, sheet.flat.rows());
+  const std::uint64_t adjacent = adjacent_pairs(surface.mesh);
+  const std::size_t triangles = surface.mesh.triangles.size();
+  ViewAuto policy(surface, adjacent, {});
+  EXPECT_TRUE(policy.proofs_pay(1, 1, triangles));
+  EXPECT_FALSE(policy.proofs_pay(.4, 1, triangles)) << "few patches are free";
+  EXPECT_FALSE(policy.proofs_pay(1, .1, triangles)) << "few pairs of neighbours are asked for";
+  EXPECT_FALSE(policy.proofs_pay(1, 1, adjacent)) << "cones cost more than they leave out";
+}
+
+}  // namespace
+}  // namespace assay::detector
