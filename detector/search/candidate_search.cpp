@@ -62,9 +62,9 @@ SearchInput CandidateSearch::input(const PairTables& tables, bool uses_proofs) {
           &x_t0_, &x_t1_, &pace_,        uses_proofs};
 }
 
-double CandidateSearch::provable_share() {
+ProvableShares CandidateSearch::provable_shares() {
   const PairTables none;
-  return stages_.search.provable_share(input(none, true));
+  return stages_.search.provable_shares(input(none, true));
 }
 
 double CandidateSearch::asked_share() const {

@@ -44,7 +44,7 @@ class CandidateSearch {
   // where that is worth its cost.
   bool collect(bool uses_proofs = true);
   // See PairSearch.
-  double provable_share();
+  ProvableShares provable_shares();
   // Of the pairs of triangles at a few hundred edges that are spread over the mesh, the share that
   // the rule asks for. REQUIRES that types are marked.
   double asked_share() const;

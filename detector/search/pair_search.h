@@ -34,6 +34,11 @@ class PatchProofs {
                                                PacedStop& pace) const = 0;
 };
 
+// Of patches of a dozen triangles and of a hundred, the share that is proved free over the step.
+struct ProvableShares {
+  double of_small = 0, of_large = 0;
+};
+
 // Two triangles, in any order.
 struct CandidatePair {
   std::int32_t a, b;
@@ -99,9 +104,8 @@ class PairSearch {
   }
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;
-  // Of a few small patches of the mesh, the share that its proofs tell free over the step: an
-  // estimate from a fixed choice of them. 0 where it has no proofs.
-  virtual double provable_share(const SearchInput&) const { return 0; }
+  // An estimate from a few patches, the same for every tree. None where it has no proofs.
+  virtual ProvableShares provable_shares(const SearchInput&) const { return {}; }
 };
 
 // Descends the tree against itself, along the partial trees that hold partners: (V+,V-), (U,V0),

@@ -13,6 +13,11 @@ Representatives::Representatives(const Topology& mesh, PacedStop* pace)
       vertex_types_(mesh.vertex_triangles.starts.size() - 1),
       edge_types_(mesh.edges.size()) {
   const std::vector<TriangleType> types(mesh.triangles.size(), TriangleType::positive);
+  choose_all(mesh, types, pace);
+}
+
+bool Representatives::choose_all(const Topology& mesh, const std::vector<TriangleType>& types,
+                                 PacedStop* pace) {
   const auto around_vertex = [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);
     vertex_types_[v] = choose(mesh.triangles, mesh.vertex_triangles.row(vertex), vertex, 0, types);
@@ -21,12 +26,14 @@ Representatives::Representatives(const Topology& mesh, PacedStop* pace)
     const auto edge = static_cast<std::int32_t>(e);
     edge_types_[e] = choose(mesh.triangle_edges, mesh.edge_triangles.row(edge), edge, 3, types);
   };
-  if (for_each_paced(vertex_types_.size(), work_of_vertex, pace, around_vertex))
-    for_each_paced(edge_types_.size(), work_of_edge, pace, around_edge);
+  return for_each_paced(vertex_types_.size(), work_of_vertex, pace, around_vertex) &&
+         for_each_paced(edge_types_.size(), work_of_edge, pace, around_edge);
 }
 
 bool Representatives::update(const Topology& mesh, const std::vector<TriangleType>& types,
                              std::span<const std::int32_t> changed, PacedStop* pace) {
+  // Around changed triangles, a vertex comes up once for each of them, and an edge too.
+  if (changed.size() > mesh.triangles.size() / 4) return choose_all(mesh, types, pace);
   return for_each_paced(changed.size(), work_of_triangle, pace, [&](std::size_t i) {
     const auto t = changed[i];
     for (const auto v : mesh.triangles[at(t)]) {

@@ -50,6 +50,7 @@ class Representatives {
   TypeSet types_of_edge(std::int32_t edge) const { return edge_types_[at(edge)]; }
 
  private:
+  bool choose_all(const Topology& mesh, const std::vector<TriangleType>& types, PacedStop* pace);
   // The lowest triangle of each type in `holders` represents the feature that is `index` in `lists`
   // of these; returns the types. first_bit: 0 for corners, 3 for edges.
   TypeSet choose(const std::vector<std::array<std::int32_t, 3>>& lists,

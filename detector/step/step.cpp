@@ -226,8 +226,11 @@ class Step {
     if (context_.options.culling != Culling::automatic) return true;
     // Proofs are about pairs of one component.
     if (work_.has_views() && work_.all_free()) return false;
-    return auto_.proofs_pay(candidates.provable_share(), candidates.asked_share(),
-                            mesh_.triangles.size());
+    const double asked = candidates.asked_share();
+    const std::size_t triangles = mesh_.triangles.size();
+    constexpr ProvableShares at_best = {1, 1};
+    return auto_.proofs_pay(at_best, asked, triangles) &&
+           auto_.proofs_pay(candidates.provable_shares(), asked, triangles);
   }
 
   // Whether the pairs found are all there are.

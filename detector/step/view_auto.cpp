@@ -62,10 +62,12 @@ bool has_more_ghost_pairs(const StepWork& work, double limit) {
 constexpr std::size_t seen_at_a_glance = 64, worth_a_glance = 4'096;
 constexpr double cost_of_open = 15;
 
-// Cones take 0.1 us a triangle, and the contours of patches that are not free about as much again.
-// What they leave out are pairs of neighbours: half of these lie within small patches that are
-// free.
-constexpr double cost_of_cones = 1, worth_of_proved = 0.5, least_provable = 0.5;
+// In candidates a triangle: cones take 0.1 us a triangle; where patches of a hundred triangles are
+// not free, a proof is asked for at each of the many small ones, for half a microsecond a triangle.
+// What proofs leave out are pairs of neighbours: half of these lie within small patches that are
+// free, nearly all within large ones.
+constexpr double cost_of_cones = 0.6, cost_of_small = 3, worth_of_small = 0.5,
+                 worth_of_large = 0.45, least_provable = 0.5;
 
 constexpr std::uint64_t longest_rest = 32;
 
@@ -160,9 +162,11 @@ bool ViewAuto::promises(StepWork& work) {
          does_without(ViewUse::among_ghosts);
 }
 
-bool ViewAuto::proofs_pay(double provable, double asked, std::size_t triangles) {
-  const double hoped = worth_of_proved * provable * asked * static_cast<double>(adjacent_);
-  proves_ = provable >= least_provable && hoped >= cost_of_cones * static_cast<double>(triangles);
+bool ViewAuto::proofs_pay(const ProvableShares& provable, double asked, std::size_t triangles) {
+  const double hoped = (worth_of_small * provable.of_small + worth_of_large * provable.of_large) *
+                       asked * static_cast<double>(adjacent_);
+  const double cost = cost_of_cones + cost_of_small * (1 - provable.of_large);
+  proves_ = provable.of_small >= least_provable && hoped >= cost * static_cast<double>(triangles);
   return proves_;
 }
 

@@ -52,9 +52,8 @@ class ViewAuto {
   void weigh(const StepCounts& counts, std::uint64_t candidates_of_k);
 
   // Whether normal cones and contours are worth their cost in the search of this step (L14).
-  // provable: of small patches, the share that they tell free. asked: of pairs of neighbours, the
-  // share that K asks for.
-  bool proofs_pay(double provable, double asked, std::size_t triangles);
+  // asked: of pairs of neighbours, the share that K asks for.
+  bool proofs_pay(const ProvableShares& provable, double asked, std::size_t triangles);
 
   // Whether views are used, as far as that is decided.
   ViewUse use() const { return looks() ? use_ : ViewUse::resting; }

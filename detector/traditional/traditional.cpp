@@ -210,30 +210,35 @@ std::vector<std::int32_t> walk_along(const Topology& mesh, std::vector<DirectedE
 
 }  // namespace
 
-double NormalConeSearch::provable_share(const SearchInput& input) const {
-  constexpr std::size_t of_a_patch = 12;
-  const Topology& mesh = input.mesh;
-  const std::size_t patches = std::clamp<std::size_t>(mesh.triangles.size() / 512, 4, 32);
+ProvableShares NormalConeSearch::provable_shares(const SearchInput& input) const {
+  constexpr std::size_t small = 12, large = 96;
+  const std::size_t patches = std::clamp<std::size_t>(input.mesh.triangles.size() / 512, 4, 32);
   MovingContour moving(*input.x_t0, *input.x_t1);
-  std::size_t free = 0;
-  for (std::size_t i = 0; i < patches; ++i) {
-    const auto seed =
-        static_cast<std::int32_t>((2 * i + 1) * mesh.triangles.size() / (2 * patches));
-    const auto patch = patch_around(mesh, seed, of_a_patch);
-    DirectionSet cone = ~DirectionSet{0};
-    for (const auto t : patch) {
-      const auto& v = mesh.triangles[at(t)];
-      cone &= faced({moving_point(*input.x_t0, *input.x_t1, v[0]),
-                     moving_point(*input.x_t0, *input.x_t1, v[1]),
-                     moving_point(*input.x_t0, *input.x_t1, v[2])});
-      if (cone == 0) break;
+  const auto share = [&](std::size_t of_a_patch, std::size_t count) {
+    std::size_t free = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto seed = (2 * i + 1) * input.mesh.triangles.size() / (2 * count);
+      free += is_free(input, moving,
+                      patch_around(input.mesh, static_cast<std::int32_t>(seed), of_a_patch));
     }
-    if (cone == 0) continue;
-    const auto contour = walk_along(mesh, boundary_of(mesh, patch));
-    if (contour.empty()) continue;
-    free += stays_simple(moving, contour, nearest_direction(cone, moving.area(contour)));
+    return static_cast<double>(free) / static_cast<double>(count);
+  };
+  return {share(small, patches), share(large, patches / 4)};
+}
+
+bool NormalConeSearch::is_free(const SearchInput& input, MovingContour& moving,
+                               const std::vector<std::int32_t>& patch) const {
+  DirectionSet cone = ~DirectionSet{0};
+  for (const auto t : patch) {
+    const auto& v = input.mesh.triangles[at(t)];
+    cone &= faced({moving_point(*input.x_t0, *input.x_t1, v[0]),
+                   moving_point(*input.x_t0, *input.x_t1, v[1]),
+                   moving_point(*input.x_t0, *input.x_t1, v[2])});
+    if (cone == 0) return false;
   }
-  return static_cast<double>(free) / static_cast<double>(patches);
+  const auto contour = walk_along(input.mesh, boundary_of(input.mesh, patch));
+  return !contour.empty() &&
+         stays_simple(moving, contour, nearest_direction(cone, moving.area(contour)));
 }
 
 std::unique_ptr<KeptBySearch> NormalConeSearch::prepare(const Topology& mesh,

@@ -112,10 +112,12 @@ TEST(ProofsPolicy, WhatIsHopedForIsHeldAgainstTheCostOfCones) {
   const std::uint64_t adjacent = adjacent_pairs(surface.mesh);
   const std::size_t triangles = surface.mesh.triangles.size();
   ViewAuto policy(surface, adjacent, {});
-  EXPECT_TRUE(policy.proofs_pay(1, 1, triangles));
-  EXPECT_FALSE(policy.proofs_pay(.4, 1, triangles)) << "few patches are free";
-  EXPECT_FALSE(policy.proofs_pay(1, .1, triangles)) << "few pairs of neighbours are asked for";
-  EXPECT_FALSE(policy.proofs_pay(1, 1, adjacent)) << "cones cost more than they leave out";
+  EXPECT_TRUE(policy.proofs_pay({1, 1}, 1, triangles));
+  EXPECT_TRUE(policy.proofs_pay({1, .5}, 1, triangles));
+  EXPECT_FALSE(policy.proofs_pay({.4, 1}, 1, triangles)) << "few patches are free";
+  EXPECT_FALSE(policy.proofs_pay({.7, 0}, 1, triangles)) << "only small patches are free";
+  EXPECT_FALSE(policy.proofs_pay({1, 1}, .05, triangles)) << "few neighbours are asked for";
+  EXPECT_FALSE(policy.proofs_pay({1, 1}, 1, 2 * adjacent)) << "cones cost more than they save";
 }
 
 }  // namespace
