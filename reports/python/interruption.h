@@ -3,15 +3,18 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <chrono>
+#include <thread>
 
 #include "detector/mesh/step_types.h"
 
 namespace assay::python {
 
 // Asks Python now and then whether a signal has come, such as that of ctrl-C; the clock says only
-// how often, for asking waits for the interpreter. In threads other than the main one Python says
-// no. REQUIRES that the interpreter was released, and that raise() is called with it.
+// how often, for asking waits for the interpreter. Only the thread that made it asks: others may
+// help with the work. REQUIRES that it is made and raises with the interpreter, which is released in
+// between.
 class Interruption {
  public:
   detector::StopFunction stop_function() {
@@ -26,15 +29,16 @@ class Interruption {
  private:
   bool check() {
     constexpr std::chrono::milliseconds interval{50};
-    const auto now = std::chrono::steady_clock::now();
-    if (has_come_ || now - last_ < interval) return has_come_;
+    if (has_come_ || std::this_thread::get_id() != maker_) return has_come_;
+    if (std::chrono::steady_clock::now() - last_ < interval) return false;
     const pybind11::gil_scoped_acquire interpreter;
     last_ = std::chrono::steady_clock::now();
     return has_come_ = PyErr_CheckSignals() != 0;
   }
 
-  bool has_come_ = false;
+  std::thread::id maker_ = std::this_thread::get_id();
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::atomic<bool> has_come_ = false;
 };
 
 }  // namespace assay::python

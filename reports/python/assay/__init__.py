@@ -10,6 +10,8 @@ reports/python/README.md has an example of everything.
 
 from .detector import Detector, State, edge_edge, vertex_face
 from .errors import AssayError, InputError
+from .frames import Frames, read_frames
+from .judging import CheckedStep, CheckReport, Contact, StepDiff, WrongTime, check, judge
 from .results import (
     DIRTY,
     FEATURE_KINDS,
@@ -20,3 +22,4 @@ from .results import (
     StepResult,
     StepTimes,
 )
+from .vtk import write_vtk

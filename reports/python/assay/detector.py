@@ -58,10 +58,11 @@ class Detector:
     ):
         options = {"culling": culling, "start": start, "pairs": pairs, "arithmetic": arithmetic}
         self._detector = _detector.Detector(triangles, positions, options)
+        self._triangles = triangles
 
     def evaluate(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> StepResult:
         """The step from x_t0 to x_t1, real numbers (n, 3) each; the state stays as it is."""
-        return step_result(self._detector.evaluate(x_t0, x_t1))
+        return step_result(self._detector.evaluate(x_t0, x_t1), self._triangles, x_t0, x_t1)
 
     def commit(self) -> None:
         """Advances the state to the end of the step evaluated last. InputError without one."""
@@ -69,7 +70,7 @@ class Detector:
 
     def step(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> StepResult:
         """evaluate() and commit()."""
-        return step_result(self._detector.step(x_t0, x_t1))
+        return step_result(self._detector.step(x_t0, x_t1), self._triangles, x_t0, x_t1)
 
     def state(self) -> State:
         """What later steps rest on, as a value to keep."""

@@ -4,7 +4,7 @@ Triangles are numbered as the rows of the mesh, times are shares of the step, in
 to be between two doubles is those two, adjacent; one that is a double stands twice.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Mapping, Optional, Tuple
 
 import numpy as np
@@ -114,6 +114,7 @@ class StepResult:
     views: whether the step was made with views, else why not.
     signs: int8 (m + ghosts,), view signs of the triangles, then of the ghosts; empty without views.
     doubts: uint8 (m,), VIOLATED and DIRTY; empty without views.
+    triangles, x_t0, x_t1: what was asked, as it was given: no copies.
     """
 
     answer: str
@@ -132,15 +133,18 @@ class StepResult:
     doubts: npt.NDArray[np.uint8]
     counts: StepCounts
     milliseconds: StepTimes
+    triangles: Any = field(repr=False)
+    x_t0: Any = field(repr=False)
+    x_t1: Any = field(repr=False)
 
     def __bool__(self) -> bool:
         raise TypeError("a result is no answer: compare result.answer with 'free' or 'collision'")
 
 
-def step_result(raw: Mapping[str, Any]) -> StepResult:
+def step_result(raw: Mapping[str, Any], triangles: Any, x_t0: Any, x_t1: Any) -> StepResult:
     """Of the fields as the extension module gives them."""
     counts = raw["counts"]
-    fields = dict(raw)
+    fields = dict(raw, triangles=triangles, x_t0=x_t0, x_t1=x_t1)
     fields["milliseconds"] = StepTimes(*raw["milliseconds"])
     fields["counts"] = StepCounts(
         SearchCounts(*counts["search"]),
@@ -178,6 +182,9 @@ class Judgement:
     times: Float64Array
     features: Int32Array
     feature_candidates: int
+    triangles: Any = field(repr=False)
+    x_t0: Any = field(repr=False)
+    x_t1: Any = field(repr=False)
 
     def __bool__(self) -> bool:
         raise TypeError("a judgement is no answer: compare its answer with 'free' or 'collision'")
