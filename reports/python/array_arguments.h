@@ -1,8 +1,8 @@
 // Arrays of NumPy as the views that the detector reads: no copy where the layout allows a view.
 //
 // A view of positions is taken of float64 in rows of three adjacent numbers (rows may be apart: a
-// slice of a larger array is one), of triangles of int32 likewise; read-only arrays too. All else is
-// converted once by assay/arrays.py, or refused there with its dtype and shape.
+// slice of a larger array is one), of triangles of int32 likewise; read-only arrays too. All else
+// is converted once by assay/arrays.py, or refused there with its dtype and shape.
 #pragma once
 
 #include <pybind11/numpy.h>

@@ -13,8 +13,8 @@ namespace assay::python {
 
 // Asks Python now and then whether a signal has come, such as that of ctrl-C; the clock says only
 // how often, for asking waits for the interpreter. Only the thread that made it asks: others may
-// help with the work. REQUIRES that it is made and raises with the interpreter, which is released in
-// between.
+// help with the work. REQUIRES that it is made and raises with the interpreter, which is released
+// in between.
 class Interruption {
  public:
   detector::StopFunction stop_function() {

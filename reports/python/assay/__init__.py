@@ -12,6 +12,8 @@ from .detector import Detector, State, edge_edge, vertex_face
 from .errors import AssayError, InputError
 from .frames import Frames, read_frames
 from .judging import CheckedStep, CheckReport, Contact, StepDiff, WrongTime, check, judge
+from .hosting import Refused
+from .programs import Outcome, Page, certify, replay, report, run
 from .results import (
     DIRTY,
     FEATURE_KINDS,
