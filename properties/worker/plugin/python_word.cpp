@@ -26,6 +26,17 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
   return parts;
 }
 
+// Where the package may be: built; around the programs, as pip has it; installed by CMake.
+std::vector<std::filesystem::path> places_beside(const std::filesystem::path& programs) {
+  std::vector<std::filesystem::path> places = {programs / "python" / "assay", programs / ".."};
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(programs / ".." / "lib", none)) {
+    if (entry.path().filename().string().starts_with("python3"))
+      places.push_back(entry.path() / "dist-packages" / "assay");
+  }
+  return places;
+}
+
 Problem not_here(std::string_view word, const std::string& what) {
   return {ProblemKind::not_found, std::string(word) + ": " + what};
 }
@@ -48,10 +59,8 @@ std::optional<PythonWord> python_word_of(std::string_view word) {
 Expected<std::filesystem::path> python_plugin(std::string_view word,
                                               const std::filesystem::path& worker) {
   if (!python_word_of(word)) return not_here(word, no_word);
-  const auto folder = worker.parent_path();
-  // Built; in a package of pip's; installed by CMake.
-  for (const char* place : {"python/assay", "..", "../lib/python3/dist-packages/assay"}) {
-    auto file = folder / place / "python_detector.so";
+  for (const auto& place : places_beside(worker.parent_path())) {
+    auto file = place / "python_detector.so";
     std::error_code ignored;
     if (std::filesystem::is_regular_file(file, ignored)) return file;
   }

@@ -39,5 +39,11 @@ def cloud():
 
 @pytest.fixture
 def long_step():
-    """With culling none it takes seconds."""
-    return tetrahedra(4000)
+    """With culling none others have time to look at it."""
+    return tetrahedra(1500)
+
+
+@pytest.fixture
+def endless_step():
+    """With culling none it takes as long as it is let."""
+    return tetrahedra(50000)
