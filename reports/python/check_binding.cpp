@@ -39,7 +39,7 @@ CheckQuestion question_of(const py::dict& given) {
   choose(given, "isolation", properties::isolation_mode_of, question.detector.isolation);
   choose(given, "memory", reports::memory_size, question.memory_limit);
   take(given, "detector", question.detector.library);
-  take(given, "detector_threads", question.detector.threads);
+  take(given, "threads", question.threads);
   take(given, "jobs", question.jobs);
   if (given.contains("time") && !given["time"].is_none())
     question.time_limit = given["time"].cast<double>();

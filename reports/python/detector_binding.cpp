@@ -1,5 +1,7 @@
 #include "reports/python/detector_binding.h"
 
+#include <unistd.h>
+
 #include <atomic>
 
 #include "detector/detector.h"
@@ -33,11 +35,23 @@ class OneAtATime {
   std::atomic_flag& busy_;
 };
 
+// After a fork the threads of the process that forked are not there: who would wait for them is
+// refused.
+void threads_in_this_process(std::uint32_t threads) {
+  static std::atomic<pid_t> process = 0;  // the first that had several
+  if (threads == 1) return;
+  pid_t first = 0;
+  if (!process.compare_exchange_strong(first, ::getpid()) && first != ::getpid())
+    throw std::runtime_error(
+        "threads: this process was forked from one that had several; use 1, or spawn it");
+}
+
 class PythonDetector {
  public:
-  // options: words by their names, as a case file states them.
-  PythonDetector(const py::object& triangles, const py::object& positions, const py::dict& options)
-      : detector_(made(triangles, positions, options)) {}
+  // options: words by their names, as a case file states them. threads: 0: all cores.
+  PythonDetector(const py::object& triangles, const py::object& positions, const py::dict& options,
+                 std::uint32_t threads)
+      : threads_(threads), detector_(made(triangles, positions, options, threads)) {}
 
   py::dict evaluate(const py::object& x_t0, const py::object& x_t1) {
     return answered(x_t0, x_t1, [this](const auto& from, const auto& to, const auto& stop) {
@@ -73,15 +87,17 @@ class PythonDetector {
 
  private:
   static Detector made(const py::object& triangles, const py::object& positions,
-                       const py::dict& options) {
+                       const py::dict& options, std::uint32_t threads) {
+    threads_in_this_process(threads);
     corpus::Case stated;
     for (const auto& [name, word] : options) {
       if (!py::isinstance<py::str>(word))
         throw py::type_error(py::str("{}: a word is wanted, not {!r}").format(name, word));
       stated.options[name.cast<std::string>()] = word.cast<std::string>();
     }
-    const auto chosen = properties::read_options(stated);
+    auto chosen = properties::read_options(stated);
     if (!chosen) throw py::value_error(chosen.error().message);
+    chosen.value().threads = threads;
     const TrianglesArgument mesh(triangles, "triangles");
     const PositionsArgument places(positions, "positions");
     Interruption interruption;
@@ -98,6 +114,7 @@ class PythonDetector {
   template <class Ask>
   py::dict answered(const py::object& x_t0, const py::object& x_t1, const Ask& ask) {
     const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
+    threads_in_this_process(threads_);
     const OneAtATime alone(busy_);
     Interruption interruption;
     auto result = [&] {
@@ -109,6 +126,7 @@ class PythonDetector {
     return arrays_of(std::move(result));
   }
 
+  std::uint32_t threads_;
   Detector detector_;
   std::atomic_flag busy_;
 };
@@ -132,7 +150,7 @@ void bind_detector(py::module_& module) {
       .def("__bytes__", bytes_of)
       .def_static("from_bytes", state_of);
   py::class_<PythonDetector>(module, "Detector")
-      .def(py::init<const py::object&, const py::object&, const py::dict&>())
+      .def(py::init<const py::object&, const py::object&, const py::dict&, std::uint32_t>())
       .def("evaluate", &PythonDetector::evaluate)
       .def("commit", &PythonDetector::commit)
       .def("step", &PythonDetector::step)

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <thread>
 
 #include "detector/mesh/step_types.h"
@@ -23,7 +24,7 @@ class Interruption {
 
   // Raises what the handler of the signal has raised: KeyboardInterrupt, of ctrl-C.
   void raise() const {
-    if (has_come_) throw pybind11::error_already_set();
+    if (raised_) throw pybind11::error_already_set(*raised_);
   }
 
  private:
@@ -33,11 +34,15 @@ class Interruption {
     if (std::chrono::steady_clock::now() - last_ < interval) return false;
     const pybind11::gil_scoped_acquire interpreter;
     last_ = std::chrono::steady_clock::now();
-    return has_come_ = PyErr_CheckSignals() != 0;
+    if (PyErr_CheckSignals() == 0) return false;
+    // Kept apart, for what is called until the work has ended must not find it.
+    raised_ = std::make_unique<pybind11::error_already_set>();
+    return has_come_ = true;
   }
 
   std::thread::id maker_ = std::this_thread::get_id();
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::unique_ptr<pybind11::error_already_set> raised_;
   std::atomic<bool> has_come_ = false;
 };
 

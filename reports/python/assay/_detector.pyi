@@ -12,7 +12,11 @@ class State:
 
 class Detector:
     def __init__(
-        self, triangles: npt.ArrayLike, positions: npt.ArrayLike, options: Dict[str, str]
+        self,
+        triangles: npt.ArrayLike,
+        positions: npt.ArrayLike,
+        options: Dict[str, str],
+        threads: int,
     ) -> None: ...
     def evaluate(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Dict[str, Any]: ...
     def commit(self) -> None: ...

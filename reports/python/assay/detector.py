@@ -34,6 +34,7 @@ class Detector:
     culling: "auto", "view-auto", "view-point", "view-line", "normal-cone", "bvh", "none".
     start: "verified", "clean", "unknown"; pairs: "all", "first";
     arithmetic: "exact", "bounded", "double", "float". All as in detector/README.md.
+    threads: how many a step may use; 0: all cores. What comes out does not depend on it.
 
     int32 and float64 in rows of three adjacent numbers are not copied. Other integers and floats are
     converted once where that is exact.
@@ -43,7 +44,8 @@ class Detector:
 
     Calls release the interpreter, and ctrl-C ends them: the state stays as it was. A detector is of
     one thread at a time (RuntimeError otherwise); different ones do not know of each other. Arrays
-    must not change during a call. After os.fork() each process has a detector of its own.
+    must not change during a call. After os.fork() each process has a detector of its own; one with
+    several threads is refused there (RuntimeError) where the process that forked had one too.
     """
 
     def __init__(
@@ -55,9 +57,12 @@ class Detector:
         start: str = "verified",
         pairs: str = "all",
         arithmetic: str = "exact",
+        threads: int = 1,
     ):
         options = {"culling": culling, "start": start, "pairs": pairs, "arithmetic": arithmetic}
-        self._detector = _detector.Detector(triangles, positions, options)
+        if not 0 <= threads <= 1024:
+            raise ValueError("threads: 0 (all cores) to 1024 are wanted")
+        self._detector = _detector.Detector(triangles, positions, options, threads)
         self._triangles = triangles
 
     def evaluate(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> StepResult:

@@ -116,6 +116,7 @@ def check(
     pairs: Optional[str] = None,
     arithmetic: Optional[str] = None,
     jobs: Optional[int] = None,
+    threads: int = 0,
     time: Optional[float] = None,
     memory: Optional[str] = None,
     isolation: Optional[str] = None,
@@ -126,7 +127,8 @@ def check(
     frames: Frames, a pair of triangles (m, 3) and positions (frames, n, 3), or the name of a case
     file. detector: None for the built-in one, of which the next four options are; the name of a
     plug-in's library; "python:MODULE:CLASS"; or a class, which another process imports by its
-    module. time, memory, isolation: as on the command line. progress: called with what is printed.
+    module. jobs: threads of the oracle; threads: of the detector, 0: all cores, and a plug-in is
+    told 1. time, memory, isolation: as on the command line. progress: called with what is printed.
 
     ValueError: input that is refused, with the line that says why. Ctrl-C ends it, but for a
     plug-in's process, which ends with its step or at `time`.
@@ -142,6 +144,7 @@ def check(
         "arithmetic": arithmetic,
         "detector": detector_word(detector) if detector is not None else None,
         "jobs": _jobs(jobs),
+        "threads": threads,
         "time": time,
         "memory": memory,
         "isolation": isolation,

@@ -1,4 +1,4 @@
-"""What a step and a judgement come to. Arrays of results may not be written to or hold copies.
+"""What a step and a judgement come to. Arrays of a result are its own.
 
 Triangles are numbered as the rows of the mesh, times are shares of the step, in [0, 1]: a time known
 to be between two doubles is those two, adjacent; one that is a double stands twice.

@@ -3,10 +3,13 @@
 import os
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 import tracemalloc
 from fractions import Fraction
 
+import conftest
 import numpy as np
 import pytest
 
@@ -181,6 +184,46 @@ def test_threads_with_a_detector_each_answer_alike(cloud):
     for thread in threads:
         thread.join()
     assert len(results) == 80 and all(same(result, expected) for result in results)
+
+
+@pytest.mark.parametrize("threads", [0, 1, 2, 4])
+def test_threads_do_not_show(threads):
+    step = conftest.tetrahedra(300)
+    expected = assay.Detector(step.triangles, step.x_t0).step(step.x_t0, step.x_t1)
+    detector = assay.Detector(step.triangles, step.x_t0, threads=threads)
+    assert same(detector.step(step.x_t0, step.x_t1), expected)
+    with pytest.raises(ValueError, match="threads"):
+        assay.Detector(step.triangles, step.x_t0, threads=-1)
+
+
+def test_after_a_fork_threads_are_refused(cloud):
+    """In an interpreter of its own, for that is known for good afterwards."""
+    program = """if True:
+        import os, sys
+        sys.path.insert(0, sys.argv[1])
+        import conftest, assay
+        step = conftest.tetrahedra(300)
+        alone = assay.Detector(step.triangles, step.x_t0)
+        several = assay.Detector(step.triangles, step.x_t0, threads=2)
+        several.step(step.x_t0, step.x_t1)
+        child = os.fork()
+        if child == 0:
+            refused = 0
+            for work in (
+                lambda: several.step(step.x_t1, step.x_t0),
+                lambda: assay.Detector(step.triangles, step.x_t0, threads=0),
+            ):
+                try:
+                    work()
+                except RuntimeError:
+                    refused += 1
+            assert alone.step(step.x_t0, step.x_t1).answer == "collision"
+            os._exit(10 + refused)
+        assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 12
+        assert several.step(step.x_t1, step.x_t0).answer == "collision"
+    """
+    command = [sys.executable, "-c", program, os.path.dirname(__file__)]
+    subprocess.run(command, check=True)
 
 
 def test_after_a_fork_each_process_has_its_own(cloud):

@@ -2,9 +2,12 @@
 
 import json
 import os
+import signal
 import subprocess
+import threading
 from pathlib import Path
 
+import conftest
 import meshio
 import numpy as np
 import pytest
@@ -66,6 +69,27 @@ def test_the_oracle_refuses_what_the_detector_refuses(pair):
         assert error.value.name == name
     with pytest.raises(ValueError, match="jobs"):
         assay.judge(pair.triangles, pair.x_t0, pair.x_t1, jobs=0)
+
+
+def test_an_exception_of_the_listener_ends_the_check(cloud):
+    def listen(said):
+        raise LookupError(said)
+
+    with pytest.raises(LookupError, match="160 triangles"):
+        assay.check((cloud.triangles, [cloud.x_t0, cloud.x_t1]), progress=listen)
+
+
+@pytest.mark.parametrize("work", ["judge", "check"])
+def test_ctrl_c_ends_the_judge(work):
+    """The signal comes while the work is under way: it takes longer than anybody waits."""
+    step = conftest.tetrahedra(3000)
+    step.x_t1 = step.x_t0 + np.random.default_rng(1).uniform(-40, 40, step.x_t0.shape)
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        if work == "judge":
+            assay.judge(step.triangles, step.x_t0, step.x_t1)
+        else:
+            assay.check((step.triangles, [step.x_t0, step.x_t1] * 100), progress=lambda said: None)
 
 
 def test_check_has_the_diff_as_objects_and_as_text(cloud):

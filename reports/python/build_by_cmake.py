@@ -5,17 +5,19 @@ import subprocess
 import sys
 from pathlib import Path
 
-from setuptools import Extension, setup
-from setuptools.command.build_ext import build_ext
+from setuptools.command.build_py import build_py
+from setuptools.command.egg_info import egg_info
+from wheel.bdist_wheel import bdist_wheel
 
-SOURCES = Path(__file__).resolve().parent
+SOURCES = Path(__file__).resolve().parents[2]
 BUILD = SOURCES / "build" / "release"
 
 
-class BuildByCMake(build_ext):
-    """Modules, the plug-in that serves detectors in Python, and the programs beside them."""
+class BuildPy(build_py):
+    """The package, and in it modules, the plug-in that serves detectors in Python, programs."""
 
     def run(self):
+        super().run()
         # That of a virtual environment is a link to it; then nothing is configured anew.
         python = getattr(sys, "_base_executable", sys.executable)
         configure = ["cmake", "--preset", "release", f"-DASSAY_PYTHON={python}"]
@@ -30,10 +32,19 @@ class BuildByCMake(build_ext):
             shutil.copy2(BUILD / program, package / "bin")
 
 
-(SOURCES / "build").mkdir(exist_ok=True)
-setup(
-    # It says that there is something to compile; what it is, CMake knows.
-    ext_modules=[Extension("assay._detector", sources=[])],
-    cmdclass={"build_ext": BuildByCMake},
-    options={"build": {"build_base": "build/pip"}, "egg_info": {"egg_base": "build"}},
-)
+class EggInfo(egg_info):
+    """Nothing is written beside the sources."""
+
+    def finalize_options(self):
+        if self.egg_base is None:
+            self.egg_base = str(SOURCES / "build")
+            Path(self.egg_base).mkdir(exist_ok=True)
+        super().finalize_options()
+
+
+class BdistWheel(bdist_wheel):
+    """It holds what was compiled, for this Python and this machine."""
+
+    def finalize_options(self):
+        super().finalize_options()
+        self.root_is_pure = False
