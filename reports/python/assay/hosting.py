@@ -57,7 +57,7 @@ class Hosted:
         module, _, name = word.partition(":")
         self.kind = getattr(importlib.import_module(module), name)
         self.name = str(getattr(self.kind, "name", name))
-        self.version = str(getattr(self.kind, "version", ""))
+        self.version = str(getattr(self.kind, "version", "0"))
         self.claims = sum(1 << _place(claim, CLAIMS, "claims") for claim in set(self.kind.claims))
         self.contract = dict.fromkeys(WORDS, 0) | dict.fromkeys(LENGTHS, 0.0)
         for member, value in getattr(self.kind, "contract", {}).items():
