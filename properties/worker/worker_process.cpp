@@ -120,16 +120,16 @@ struct WorkerProcess::Parts {
       arguments.emplace_back(name_of(limits.isolation));
       arguments.push_back(scratch ? scratch->path().string() : std::string());
       auto library = *plugin_library;
-      std::string told;
+      std::string served;
       if (const auto word = python_word_of(library.string()); names_python(library.string())) {
         auto serving = python_plugin(library.string(), program);
         if (!serving) return serving.error();
         library = std::move(serving.value());
-        told = word->text();
+        served = word->text();
       }
       arguments.push_back(library.string());
       arguments.push_back(std::to_string(limits.threads));
-      arguments.push_back(std::move(told));
+      arguments.push_back(std::move(served));
     }
     const bool is_silent = plugin_library && limits.isolation != IsolationMode::none;
     auto printed = is_silent ? PrintedPipe::make() : std::nullopt;
