@@ -164,7 +164,7 @@ NO_COMMAND = {
         "judgement = assay.judge": PYTHON,
         "import meshio": PYTHON,
         "import textbook": PYTHON,
-        'campaign = """': PYTHON,
+        'print(assay.run("campaign.json"': PYTHON,
     },
     "reports/README.md": {
         "runs-on: ubuntu-latest": "a workflow of GitHub Actions",

@@ -29,6 +29,7 @@ def test_every_example_runs_as_pasted(tmp_path, monkeypatch, capsys):
         "holds [(), ()]",
         "2 holds",
         "defect\njudged/report.html",
+        "holds\nquick:1:closed-generic:5",
     ):
         assert line in printed
         printed = printed[printed.index(line) + len(line) :]
