@@ -9,6 +9,11 @@ assay_packages="g++ cmake ninja-build ccache libcgal-dev libgmp-dev libmpfr-dev 
 # shellcheck disable=SC2034
 assay_peer_packages="libfcl-dev libbullet-dev"
 
+# For the Python module (reports/python) and its tests; without them it is left out.
+# shellcheck disable=SC2034
+assay_python_packages="python3 python3-dev pybind11-dev python3-numpy python3-meshio python3-pytest
+  python3-pip python3-setuptools python3-venv python3-wheel"
+
 # ensure_packages YES EXTRA...: installs what is missing of assay_packages and EXTRA, or says what
 # it is and stops. YES=1 does not ask.
 ensure_packages() {

@@ -8,15 +8,18 @@
 
 #include <charconv>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "properties/worker/channel.h"
 #include "properties/worker/isolation/keeper.h"
 #include "properties/worker/isolation/memory_limit.h"
 #include "properties/worker/plugin/plugin_host.h"
+#include "properties/worker/plugin/python_word.h"
 #include "properties/worker/wire_fields.h"
 
 namespace {
@@ -46,13 +49,19 @@ bool settle(std::uint64_t host) {
   return ::dup2(STDERR_FILENO, STDOUT_FILENO) >= 0;
 }
 
-int serve(Channel channel, const char* plugin_library, std::uint32_t threads = 1) {
+struct LoadedPlugin {
+  const char* library;
+  std::uint32_t threads = 1;
+  std::string called;  // by the user
+};
+
+int serve(Channel channel, const LoadedPlugin* library) {
   Hello hello;
   hello.wire_version = wire_version();
   hello.description = {"built-in", "", claims_of({}), {}};
   std::optional<PluginHost> plugin;
-  if (plugin_library) {
-    auto opened = PluginHost::open(plugin_library, threads);
+  if (library) {
+    auto opened = PluginHost::open(library->library, library->threads, library->called);
     if (opened) {
       plugin = std::move(opened.value());
       hello.description = plugin->description();
@@ -95,10 +104,11 @@ int serve(Channel channel, const char* plugin_library, std::uint32_t threads = 1
 }  // namespace
 
 // Arguments: the channel's descriptor, the host's process, a limit in bytes; for a plug-in the
-// isolation, its scratch folder, the library and how many threads it may use.
+// isolation, its scratch folder, the library, how many threads it may use, and what it serves where
+// it is shipped to serve a detector in Python.
 int main(int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-  constexpr std::size_t built_in = 4, with_plugin = 8;
+  constexpr std::size_t built_in = 4, with_plugin = 9;
   if (words.size() == built_in || words.size() == with_plugin) {
     const auto channel = number(words[1]), host = number(words[2]), bytes = number(words[3]);
     if (channel && host && bytes && settle(*host)) {
@@ -109,11 +119,13 @@ int main(int argc, char** argv) {
       const auto mode = isolation_mode_of(words[4]);
       const auto threads = number(words[7]);
       if (mode && threads) {
-        const char* library = words[6];
-        const auto told = static_cast<std::uint32_t>(*threads);
-        keep(std::move(to_host), {*mode, words[5], *bytes}, [library, told](Channel to_keeper) {
-          return serve(std::move(to_keeper), library, told);
-        });
+        LoadedPlugin plugin{words[6], static_cast<std::uint32_t>(*threads), words[6]};
+        if (const std::string_view served = words[8]; !served.empty()) {
+          ::setenv(python_detector_variable, words[8], 1);
+          plugin.called = std::string(python_prefix) + words[8];
+        }
+        keep(std::move(to_host), {*mode, words[5], *bytes},
+             [&plugin](Channel to_keeper) { return serve(std::move(to_keeper), &plugin); });
       }
     }
   }

@@ -11,6 +11,7 @@
 #include "properties/worker/child_process.h"
 #include "properties/worker/isolation/printed_words.h"
 #include "properties/worker/isolation/scratch_folder.h"
+#include "properties/worker/plugin/python_word.h"
 #include "properties/worker/reply_rules.h"
 #include "properties/worker/wire_fields.h"
 #include "properties/worker/worker_watch.h"
@@ -118,8 +119,17 @@ struct WorkerProcess::Parts {
       }
       arguments.emplace_back(name_of(limits.isolation));
       arguments.push_back(scratch ? scratch->path().string() : std::string());
-      arguments.push_back(plugin_library->string());
+      auto library = *plugin_library;
+      std::string served;
+      if (const auto word = python_word_of(library.string()); names_python(library.string())) {
+        auto serving = python_plugin(library.string(), program);
+        if (!serving) return serving.error();
+        library = std::move(serving.value());
+        served = word->text();
+      }
+      arguments.push_back(library.string());
       arguments.push_back(std::to_string(limits.threads));
+      arguments.push_back(std::move(served));
     }
     const bool is_silent = plugin_library && limits.isolation != IsolationMode::none;
     auto printed = is_silent ? PrintedPipe::make() : std::nullopt;

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corpus/digest.h"
 #include "properties/campaign/gates/read_findings.h"
+#include "properties/campaign/plugin_digest.h"
 #include "properties/campaign/query_plan.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
@@ -27,7 +27,7 @@ Expected<std::string> certified_library(const properties::RunFindings& findings,
   const auto library = named.empty() ? findings.library : named;
   if (library.empty())
     return Refusal("the stores do not say where the plug-in lies: name it by --detector");
-  const auto digest = corpus::sha256_of_file(library);
+  const auto digest = properties::digest_of_plugin(library, properties::worker_program());
   if (!digest) return Refusal(digest.error());
   if (digest.value() != run.digests.plugin)
     return Refusal(

@@ -118,10 +118,11 @@ class Plugin : public Subject {
 
 }  // namespace
 
-Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& library,
+Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::filesystem::path& worker_program,
+                                                       const std::string& library,
                                                        const properties::WorkerLimits& limits,
                                                        CheckInput& input) {
-  properties::WorkerProcess worker(properties::worker_program(), library, limits);
+  properties::WorkerProcess worker(worker_program, library, limits);
   auto description = worker.describe();
   if (!description) return Refusal(description.error());
   const auto& parts = description.value().parts;

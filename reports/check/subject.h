@@ -70,11 +70,12 @@ struct BuiltInChoice {
 };
 
 // `input` outlives the subject; its coordinates are rounded where the plug-in's contract says so.
-// A plug-in's worker ends what takes longer or more memory than `limits`. A built-in detector that
-// they end before it is made is undecided in each step.
+// A plug-in's worker, the program `worker`, ends what takes longer or more memory than `limits`. A
+// built-in detector that they end before it is made is undecided in each step.
 Expected<std::unique_ptr<Subject>> make_built_in(const BuiltInChoice& choice,
                                                  const CheckInput& input, Limits& limits);
-Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::string& library,
+Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::filesystem::path& worker,
+                                                       const std::string& library,
                                                        const properties::WorkerLimits& limits,
                                                        CheckInput& input);
 

@@ -70,7 +70,8 @@ void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about);
 void add_part(Verb& verb, DetectorPart& part);
 // The option --detector is returned.
 VerbOption add_detector(Verb& verb, DetectorWords& detector,
-                        const std::string& about = "A plug-in's library (default: the built-in)");
+                        const std::string& about =
+                            "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
 // The same without --threads; and --threads for a verb that takes all cores where it is 0.
 VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::string& about);
 void add_threads(Verb& verb, std::uint64_t& threads);

@@ -1,5 +1,7 @@
 #include "reports/terminal/shell_word.h"
 
+#include "properties/worker/plugin/python_word.h"
+
 namespace assay::reports {
 
 std::string shell_word(const std::string& word) {
@@ -18,7 +20,7 @@ std::string shell_word(const std::string& word) {
 }
 
 std::string absolute_path(const std::filesystem::path& path) {
-  if (path.empty()) return "";
+  if (path.empty() || properties::names_python(path.string())) return path.string();
   std::error_code error;
   const auto found = std::filesystem::absolute(path, error);
   return error ? path.string() : found.lexically_normal().string();

@@ -19,6 +19,8 @@ A chunk that is in none of these lists fails the test, and so does an entry that
 RECURSION = "runs this very test"
 NIGHT = "takes a night"
 NO_QUERY = "libmine.so is the example, which holds no query; parts_of_a_detector_test runs them"
+LENT = "builds, and the build is only lent"
+EXAMPLES = "of files that the examples write; tests/reports/python runs those"
 MUTANTS = "compiles as the build did, and the build is only lent; test mutation_smoke runs the script"
 
 # What the reader is to have at hand: made before the first command of that README.
@@ -50,6 +52,9 @@ QUICK = {
         "build/release/assay replay quick:1:closed-generic:5 --why 0,5",
         "build/release/assay replay corpus/curated/B1_one_vertex_own_nearest.json --export build/export",
         "build/release/assay list faults",
+    ],
+    "reports/python/README.md": [
+        "export PYTHONPATH=$PWD/build/release/python",
     ],
     "detector/plugin/README.md": [
         "cc -std=c99 -shared -fPIC -I. tests/plugins/example.c -o example.so",
@@ -88,6 +93,8 @@ SLOW = {
 
 NOT_RUN = {
     "README.md": {
+        "build/release/assay check --detector python:mine:MyDetector build/bend/frame_*.ply":
+            "of a file of the reader's; tests/reports/python judges such",
         "reports/certify": "installs packages and builds; the slow list certifies by the program",
         "tests/run": RECURSION,
     },
@@ -104,6 +111,13 @@ NOT_RUN = {
         "assay run --campaign smoke --part query --detector ./libmine.so --power proof --out mine-query":
             NO_QUERY,
     },
+    "reports/python/README.md": {
+        "cmake --preset release": LENT,
+        "cmake --build build/release --target assay_python": LENT,
+        "cmake --install build/release": "installs; install_test does it elsewhere",
+        "assay check --detector python:textbook:TextbookCubic sim_0.ply sim_1.ply": EXAMPLES,
+        "assay run --campaign smoke --detector python:textbook:TextbookCubic --out judged": EXAMPLES,
+    },
     "tests/README.md": {
         "ctest --preset slow": RECURSION,
         "ctest --preset release": RECURSION,
@@ -111,7 +125,7 @@ NOT_RUN = {
     },
     "tests/mutation/README.md": {
         "cmake --build --preset release --target mutation_facts mutant_judge detector_tests "
-        "properties_detector_tests": "builds, and the build is only lent",
+        "properties_detector_tests": LENT,
         "python3 tests/mutation/mutate.py": MUTANTS,
         "python3 tests/mutation/mutate.py --seed 2 --mutants 300 --jobs 2": MUTANTS,
         "python3 tests/mutation/mutate.py --only search/ --mutants 40": MUTANTS,
@@ -119,6 +133,7 @@ NOT_RUN = {
     },
 }
 
+PYTHON = "Python; tests/reports/python/examples_test.py runs all of it"
 NO_COMMAND = {
     "README.md": {
         "building build/release (log": "what reports/certify and tests/run print",
@@ -140,6 +155,16 @@ NO_COMMAND = {
     },
     "properties/README.md": {
         "WorkerProcess worker(": "C++; the tests of the worker are made of such lines",
+    },
+    "reports/python/README.md": {
+        "/usr/bin/python3 -m venv": "installs; install_test does so",
+        "import numpy as np": PYTHON,
+        "before = detector.state()": PYTHON,
+        "face = [[": PYTHON,
+        "judgement = assay.judge": PYTHON,
+        "import meshio": PYTHON,
+        "import textbook": PYTHON,
+        'print(assay.run("campaign.json"': PYTHON,
     },
     "reports/README.md": {
         "runs-on: ubuntu-latest": "a workflow of GitHub Actions",

@@ -4,6 +4,7 @@
 
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
+#include "properties/campaign/plugin_digest.h"
 #include "properties/campaign/stored/contract_json.h"
 #include "properties/campaign/stored/json_optional.h"
 #include "properties/campaign/stored/store.h"
@@ -37,19 +38,24 @@ std::optional<std::string> digest_of(const std::filesystem::path& file) {
   return digest ? std::optional(digest.value()) : std::nullopt;
 }
 
+std::optional<std::string> plugin_digest(const CampaignRequest& request) {
+  if (!request.plugin) return std::nullopt;
+  const auto digest = digest_of_plugin(*request.plugin, request.worker);
+  return digest ? std::optional(digest.value()) : std::nullopt;
+}
+
 }  // namespace
 
 std::string binding_of(const CampaignRequest& request) {
   CampaignPlan plan = request.plan;
   plan.seconds = plan.shrink_share = plan.tetrahedron_seconds = 0;
-  Json json =
-      BoundRun{{},
-               request.seed,
-               planted_count(),
-               text_of(request.shard),
-               bound(request.detector, request.threads),
-               {digest_of("/proc/self/exe"), digest_of(request.worker),
-                request.plugin ? digest_of(*request.plugin) : std::nullopt, generator_digest()}};
+  Json json = BoundRun{{},
+                       request.seed,
+                       planted_count(),
+                       text_of(request.shard),
+                       bound(request.detector, request.threads),
+                       {digest_of("/proc/self/exe"), digest_of(request.worker),
+                        plugin_digest(request), generator_digest()}};
   json["schema"] = store_schema;
   json["campaign"] = Json::parse(plan_text(plan));
   if (request.own_cases) json["own_cases"] = request.own_cases->digest;

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "properties/campaign/stored/binding.h"
+#include "properties/worker/plugin/python_word.h"
 
 namespace assay::properties {
 namespace {
@@ -54,9 +55,10 @@ Expected<WholeShard> make_whole(const std::filesystem::path& file, const Campaig
 
 void note_library(Store& store, const CampaignRequest& request) {
   if (!request.plugin) return;
+  const auto named = request.plugin->string();
   std::error_code error;
   const auto found = std::filesystem::absolute(*request.plugin, error);
-  store.set_note(library_note, error ? request.plugin->string() : found.string());
+  store.set_note(library_note, error || names_python(named) ? named : found.string());
 }
 
 std::optional<std::string> noted_library(const Store& store) { return store.note(library_note); }

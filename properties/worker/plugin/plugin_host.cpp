@@ -79,9 +79,11 @@ class PluginRun {
 
 }  // namespace
 
-Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std::uint32_t threads) {
+Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std::uint32_t threads,
+                                      const std::string& called) {
   const auto problem = [&](ProblemKind kind, const std::string& what) {
-    return Problem{kind, line_of(library.c_str()) + ": " + line_of(what.c_str())};
+    return Problem{kind, line_of(called.empty() ? library.c_str() : called.c_str()) + ": " +
+                             line_of(what.c_str())};
   };
   std::error_code ignored;
   if (!std::filesystem::exists(library, ignored))

@@ -19,7 +19,9 @@ class PluginHost {
   // not_found; not_a_plugin: not a shared library, or no assay_detector() in it;
   // other_abi_version; broken_plugin: a table with a gap, or a description that says nothing
   // sensible. Never unloaded again. threads: told to a library that asks how many it may use.
-  static Expected<PluginHost> open(const std::filesystem::path& library, std::uint32_t threads = 1);
+  // called: by the user, for problems; empty: by its file.
+  static Expected<PluginHost> open(const std::filesystem::path& library, std::uint32_t threads = 1,
+                                   const std::string& called = {});
 
   const PluginDescription& description() const { return description_; }
 

@@ -1,0 +1,267 @@
+#include "reports/check/check_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "detector/mesh/mesh_checks.h"
+#include "detector/mesh/topology.h"
+#include "detector/step_result.h"
+#include "reports/check/check_report.h"
+#include "reports/check/claims_tally.h"
+#include "reports/check/plugin_text.h"
+#include "reports/check/timed_oracle.h"
+#include "reports/steps/second_opinion_text.h"
+#include "reports/steps/step_json.h"
+#include "reports/steps/step_text.h"
+#include "reports/terminal/progress.h"
+
+namespace assay::reports {
+
+using detector::Answer;
+using properties::Outcome;
+
+namespace {
+
+// A week: nobody waits longer for one mesh.
+constexpr double longest_check_seconds = 7 * 24 * 3600.0;
+
+class CheckRun {
+ public:
+  CheckRun(const CheckQuestion& question, const CheckInput& input, detector::Topology mesh,
+           Subject& subject, Limits& limits, const CheckListener& listener)
+      : question_(question),
+        case_(input.c),
+        is_case_file_(input.is_case_file),
+        mesh_(std::move(mesh)),
+        subject_(subject),
+        script_(corpus::steps_of(input.c)),
+        limits_(limits),
+        listener_(listener),
+        oracle_(question.jobs, subject.asked(), limits),
+        tally_(subject.description()) {
+    outcome_.is_judged = !question.no_oracle;
+    outcome_.judged_by_claims = subject.judged_by_claims();
+    outcome_.has_answers = subject.has_answers();
+  }
+
+  Expected<CheckAnswer> run() {
+    announce();
+    nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+    if (begin()) {
+      for (std::size_t s = 0; s < step_count(); ++s) {
+        steps.push_back(run_step(s));
+        if (refused_) return Refusal(*refused_);
+        if (outcome_.unsound) break;
+      }
+      if (has_facts() && !outcome_.undecided) check_facts();
+    }
+    outcome_.limit_reached = limits_.reached();
+    if (!question_.no_oracle) tally_.tell(outcome_, subject_.steps_left_out());
+    if (outcome_.defect || outcome_.undecided) say(printed_text(subject_.printed()));
+    say(outcome_.summary());
+    CheckAnswer answer{std::move(outcome_), nullptr};
+    if (question_.wants_report)
+      answer.report =
+          check_report(question_.files, mesh_, subject_, answer.outcome, std::move(steps));
+    return answer;
+  }
+
+ private:
+  void say(const std::string& text) const { listener_.say(text); }
+
+  std::size_t step_count() const { return script_.size(); }
+
+  void announce() const {
+    std::size_t unclosed = 0;
+    for (const auto& component : mesh_.components) unclosed += component.is_cycle ? 0 : 1;
+    say(fmt::format("{} triangles, {} vertices, {} component{}", mesh_.triangles.size(),
+                    case_.frames[0].rows(), mesh_.components.size(),
+                    mesh_.components.size() == 1 ? "" : "s"));
+    if (unclosed) {
+      say(fmt::format(" ({} unclosed{})", unclosed,
+                      question_.detector.library.empty() ? ": closed with ghosts" : ""));
+    }
+    say(fmt::format(
+        "; {} step{}; {}{}{}\n", step_count(), step_count() == 1 ? "" : "s", subject_.title(),
+        question_.no_oracle ? "; no oracle: not judged" : "",
+        question_.time_limit ? fmt::format("; at most {} s", *question_.time_limit) : ""));
+    if (!question_.announced_file.empty())
+      say(fmt::format("writes {}\n", question_.announced_file));
+  }
+
+  // Whether there are steps to go through.
+  bool begin() {
+    const auto verdict = subject_.begin();
+    if (verdict.disturbances > 0)
+      say(fmt::format("the detector's process was killed from outside {} times, and began anew\n",
+                      verdict.disturbances));
+    if (const auto seconds = subject_.processor_seconds())
+      say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n", *seconds,
+                      step_count(), step_count() == 1 ? "" : "s"));
+    if (verdict.outcome == Outcome::holds) return true;
+    outcome_.ended = verdict.what;
+    for (const auto claim : verdict.broken) {
+      outcome_.ended +=
+          fmt::format("{}{}", outcome_.ended.empty() ? "broken: " : "; broken: ", name_of(claim));
+    }
+    say(fmt::format("the detector's run: {}\n", outcome_.ended));
+    outcome_.defect = verdict.outcome == Outcome::defect;
+    outcome_.undecided = !outcome_.defect;
+    // What only differs between two runs has steps to show.
+    return verdict.broken == std::vector<properties::Claim>{properties::Claim::deterministic};
+  }
+
+  ShownWork shown_work(std::size_t s) const {
+    const auto* plugin = subject_.description();
+    // The time of preprocessing is told once, with the first step.
+    return {!plugin, !plugin || plugin->contract.reports_pairs,
+            s == 0 ? subject_.create_ms() : std::nullopt};
+  }
+
+  nlohmann::ordered_json run_step(std::size_t s) {
+    Progress progress(fmt::format("step {}/{}", s + 1, step_count()));
+    const detector::StopFunction stop = [&] {
+      progress.tick();
+      return limits_.exceeded() || (listener_.stop && listener_.stop());
+    };
+    const auto &x_t0 = start_of(case_, script_[s]), &x_t1 = end_of(case_, script_[s]);
+
+    progress.phase("detector");
+    detector::StepResult result = subject_.answer(s, stop);
+    std::string told_error;
+    if (result.answer == Answer::error) {
+      const auto error = subject_.error_of(s, result);
+      if (error.refused) {
+        refused_ = fmt::format("step {}: {}", s + 1, error.message);
+        return {};
+      }
+      if (outcome_.ended.empty()) outcome_.ended = error.message;
+      told_error = fmt::format("  {}\n", error.message);
+    }
+    if (result.answer == Answer::collision && !outcome_.collision_step) {
+      outcome_.collision_step = s;
+      outcome_.collision_time = result.first;
+    }
+    outcome_.undecided |= subject_.has_answers() && result.answer == Answer::undecided;
+    if (question_.no_oracle) {
+      progress.finish();
+      say(step_text(s + 1, result, nullptr, 0, nullptr, shown_work(s)) + told_error);
+      return json_of(result, nullptr, 0, nullptr);
+    }
+
+    progress.phase("oracle");
+    const auto [judgement, oracle_ms] = oracle_.judge(x_t0, x_t1, case_.triangles, stop);
+    const auto diff = subject_.judge(s, result, judgement);
+    progress.finish();
+    outcome_.defect |= diff.outcome == Outcome::defect;
+    outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
+    tally_.add(diff, result, judgement);
+    say(step_text(s + 1, result, &judgement, oracle_ms, &diff, shown_work(s)) + told_error);
+    if (diff.outcome == Outcome::defect) print_defect(s, diff);
+    auto json = json_of(result, &judgement, oracle_ms, &diff);
+    if (question_.second_opinion) {
+      progress.phase("second opinion");
+      json["second_opinion"] = ask_second_opinion(s, judgement, stop, progress);
+    }
+    return json;
+  }
+
+  // Null where nobody asked for the report, for it takes more memory than what it tells. Of a step
+  // that ended at the limit of memory the pairs found until then are left out for the same reason.
+  nlohmann::ordered_json json_of(detector::StepResult& result,
+                                 const oracle::StepJudgement* judgement, double oracle_ms,
+                                 const properties::StepDiff* diff) const {
+    if (!question_.wants_report) return nullptr;
+    if (result.answer == Answer::undecided && limits_.is_out_of_memory()) result.pairs = {};
+    return step_json(result, judgement, oracle_ms, diff);
+  }
+
+  nlohmann::ordered_json ask_second_opinion(std::size_t s, const oracle::StepJudgement& judgement,
+                                            const detector::StopFunction& stop,
+                                            Progress& progress) {
+    const double share = *question_.second_opinion;
+    const auto [opinion, milliseconds] =
+        oracle_.second_opinion(start_of(case_, script_[s]), end_of(case_, script_[s]),
+                               case_.triangles, judgement, share, stop);
+    progress.finish();
+    say(second_opinion_text(opinion, milliseconds));
+    outcome_.undecided |= !opinion.complete;
+    outcome_.unsound = !opinion.contradictions.empty();
+    if (outcome_.unsound) say(fmt::format("  replay: {}\n", replay_line(s)));
+    return second_opinion_json(opinion, share, milliseconds);
+  }
+
+  // The step alone, where each frame is a file of its own; the same queries are chosen again.
+  std::string replay_line(std::size_t s) const {
+    const auto& files = question_.files;
+    const bool file_a_frame = files.size() == case_.frames.size();
+    std::string input;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (!file_a_frame || i == s || i == s + 1) input += " " + files[i];
+    }
+    return fmt::format("assay check{} --second-opinion {}", input, *question_.second_opinion);
+  }
+
+  void print_defect(std::size_t s, const properties::StepDiff& diff) const {
+    if (diff.missing.empty()) return;
+    const auto& lost = diff.missing.front();
+    const std::string stage = subject_.stage_that_lost(s, lost.pair);
+    if (stage.empty()) return;
+    say(fmt::format("  triangles {} and {} were lost at: {}\n", lost.pair.a, lost.pair.b, stage));
+  }
+
+  // The facts of a case are the built-in detector's; a plug-in is judged by the oracle alone.
+  bool has_facts() const {
+    return is_case_file_ && !question_.no_oracle && question_.detector.library.empty();
+  }
+
+  // A case states what is true of it: an answer that differs is a defect.
+  void check_facts() {
+    const auto report = properties::check_case(case_, question_.built_in.culling, question_.jobs,
+                                               question_.built_in.arithmetic);
+    for (const auto& line : report.failed) say(fmt::format("expected facts: {}\n", line));
+    outcome_.facts_differ = !report.failed.empty();
+    outcome_.defect |= outcome_.facts_differ;
+  }
+
+  const CheckQuestion& question_;
+  const corpus::Case& case_;
+  bool is_case_file_;
+  detector::Topology mesh_;
+  Subject& subject_;
+  std::vector<corpus::CaseStep> script_;
+  Limits& limits_;
+  const CheckListener& listener_;
+  TimedOracle oracle_;
+  std::optional<std::string> refused_;
+  ClaimsTally tally_;
+  CheckOutcome outcome_;
+};
+
+}  // namespace
+
+Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
+                                 const std::filesystem::path& worker,
+                                 const CheckListener& listener) {
+  const auto& c = input.c;
+  if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows()))
+    return Refusal(fmt::format("{}: {}", input.file, bad->message));
+  Limits limits(question.time_limit, question.memory_limit);
+  BuiltInChoice built_in = question.built_in;
+  built_in.threads = static_cast<std::uint32_t>(question.threads);
+  auto subject = question.detector.library.empty()
+                     ? make_built_in(built_in, input, limits)
+                     : make_plugin_subject(worker, question.detector.library,
+                                           {question.time_limit.value_or(longest_check_seconds),
+                                            question.memory_limit.value_or(0),
+                                            question.detector.isolation,
+                                            {},
+                                            std::max<std::uint64_t>(question.threads, 1)},
+                                           input);
+  if (!subject) return subject.error();
+  auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());
+  return CheckRun(question, input, std::move(mesh), *subject.value(), limits, listener).run();
+}
+
+}  // namespace assay::reports

@@ -1,0 +1,48 @@
+// `check` on one mesh, whoever asks: each step goes through the detector and, unless left out, the
+// oracle, and the two are compared.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/check/check_input.h"
+#include "reports/check/check_outcome.h"
+#include "reports/check/subject.h"
+#include "reports/terminal/option_words.h"
+
+namespace assay::reports {
+
+struct CheckQuestion {
+  std::vector<std::string> files;  // what the input was read from, for reports and replay lines
+  BuiltInChoice built_in;
+  DetectorWords detector;     // its threads are those below
+  std::uint64_t threads = 0;  // 0: all cores, and a plug-in is told 1
+  bool no_oracle = false;
+  std::optional<double> second_opinion;  // share in (0,1]; needs the oracle
+  int jobs = 1;
+  std::optional<double> time_limit;           // seconds
+  std::optional<std::uint64_t> memory_limit;  // bytes
+  bool wants_report = false;                  // it takes more memory than what it tells
+  std::string announced_file;                 // where the report is to go, for the user to know
+};
+
+struct CheckListener {
+  std::function<void(const std::string& text)> say;  // what is printed, as it becomes known
+  detector::StopFunction stop;                       // may be empty; what is left over is undecided
+};
+
+struct CheckAnswer {
+  CheckOutcome outcome;
+  nlohmann::ordered_json report;  // schema assay-check/1; null unless wanted
+};
+
+// `input`: its coordinates are rounded where a plug-in's contract says so. worker: the program
+// assay-worker, for a plug-in.
+Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
+                                 const std::filesystem::path& worker,
+                                 const CheckListener& listener);
+
+}  // namespace assay::reports

@@ -1,0 +1,27 @@
+"""Assay: continuous self-collision detection of deforming triangle meshes, judged exactly.
+
+    detector = assay.Detector(triangles, positions)
+    result = detector.step(x_t0, x_t1)
+    if result.answer == "collision":
+        print(result.first, result.pairs)
+
+reports/python/README.md has an example of everything.
+"""
+
+from .detector import Detector, State, edge_edge, vertex_face
+from .errors import AssayError, InputError
+from .frames import Frames, read_frames
+from .judging import CheckedStep, CheckReport, Contact, StepDiff, WrongTime, check, judge
+from .hosting import Refused
+from .programs import Outcome, Page, certify, replay, report, run
+from .results import (
+    DIRTY,
+    FEATURE_KINDS,
+    VIOLATED,
+    Contacts,
+    Judgement,
+    StepCounts,
+    StepResult,
+    StepTimes,
+)
+from .vtk import write_vtk

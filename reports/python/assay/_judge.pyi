@@ -1,0 +1,31 @@
+from typing import Any, Callable, Dict, List, Optional, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+Listener = Optional[Callable[[str], None]]
+
+def judge(
+    triangles: npt.ArrayLike, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike, jobs: int
+) -> Dict[str, Any]: ...
+def check_arrays(
+    triangles: npt.ArrayLike,
+    frames: List[npt.ArrayLike],
+    asked: Dict[str, Any],
+    worker: str,
+    listener: Listener,
+) -> Tuple[str, str, int]: ...
+def check_files(
+    files: List[str], asked: Dict[str, Any], worker: str, listener: Listener
+) -> Tuple[str, str, int]: ...
+def read_sequence(
+    files: List[str],
+) -> Tuple[npt.NDArray[np.int32], List[npt.NDArray[np.float64]]]: ...
+def contact_points(
+    triangles: npt.ArrayLike,
+    x_t0: npt.ArrayLike,
+    x_t1: npt.ArrayLike,
+    pairs: npt.NDArray[np.int32],
+    times: npt.NDArray[np.float64],
+    features: npt.NDArray[np.int32],
+) -> npt.NDArray[np.float64]: ...

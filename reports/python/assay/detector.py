@@ -1,0 +1,106 @@
+"""The production detector and its elementary test."""
+
+import numpy.typing as npt
+
+from . import _detector
+from .results import Contacts, StepResult, step_result
+
+
+class State:
+    """What a detector carries from step to step: bytes(state) and pickle keep it."""
+
+    def __init__(self, saved: _detector.State):
+        if not isinstance(saved, _detector.State):
+            raise TypeError("a state is what Detector.state() and State.from_bytes() give")
+        self._saved = saved
+
+    def __bytes__(self) -> bytes:
+        return bytes(self._saved)
+
+    @staticmethod
+    def from_bytes(data: bytes) -> "State":
+        """InputError: bytes that are no saved state, or one of a form that is not read."""
+        return State(_detector.State.from_bytes(bytes(data)))
+
+    def __reduce__(self):
+        return State.from_bytes, (bytes(self),)
+
+
+class Detector:
+    """The built-in detector of one deforming mesh.
+
+    triangles: integers (m, 3), vertices of each, counter-clockwise seen from outside.
+    positions: real numbers (n, 3), in your units: the first frame is best.
+    culling: "auto", "view-auto", "view-point", "view-line", "normal-cone", "bvh", "none".
+    start: "verified", "clean", "unknown"; pairs: "all", "first";
+    arithmetic: "exact", "bounded", "double", "float". All as in detector/README.md.
+    threads: how many a step may use; 0: all cores. What comes out does not depend on it.
+
+    int32 and float64 in rows of three adjacent numbers are not copied. Other integers and floats are
+    converted once where that is exact.
+
+    InputError (a ValueError): a mesh that is refused, by name. ValueError: another shape, an unknown
+    word, a number without exact float64. TypeError: no numbers.
+
+    Calls release the interpreter, and ctrl-C ends them: the state stays as it was. A detector is of
+    one thread at a time (RuntimeError otherwise); different ones do not know of each other. Arrays
+    must not change during a call. After os.fork() each process has a detector of its own; one with
+    several threads is refused there (RuntimeError) where the process that forked had one too.
+    """
+
+    def __init__(
+        self,
+        triangles: npt.ArrayLike,
+        positions: npt.ArrayLike,
+        culling: str = "auto",
+        *,
+        start: str = "verified",
+        pairs: str = "all",
+        arithmetic: str = "exact",
+        threads: int = 1,
+    ):
+        options = {"culling": culling, "start": start, "pairs": pairs, "arithmetic": arithmetic}
+        if not 0 <= threads <= 1024:
+            raise ValueError("threads: 0 (all cores) to 1024 are wanted")
+        self._detector = _detector.Detector(triangles, positions, options, threads)
+        self._triangles = triangles
+
+    def evaluate(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> StepResult:
+        """The step from x_t0 to x_t1, real numbers (n, 3) each; the state stays as it is."""
+        return step_result(self._detector.evaluate(x_t0, x_t1), self._triangles, x_t0, x_t1)
+
+    def commit(self) -> None:
+        """Advances the state to the end of the step evaluated last. InputError without one."""
+        self._detector.commit()
+
+    def step(self, x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> StepResult:
+        """evaluate() and commit()."""
+        return step_result(self._detector.step(x_t0, x_t1), self._triangles, x_t0, x_t1)
+
+    def state(self) -> State:
+        """What later steps rest on, as a value to keep."""
+        return State(self._detector.state())
+
+    def restore(self, state: State) -> None:
+        """Goes on from there. InputError: a state of another mesh or culling."""
+        if not isinstance(state, State):
+            raise TypeError(f"a State is wanted, not {type(state).__name__}")
+        self._detector.restore(state._saved)
+
+    def reset(self) -> None:
+        """Forgets the state: the next step is a new start."""
+        self._detector.reset()
+
+
+def vertex_face(x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Contacts:
+    """Whether and when vertices and faces first meet, exactly; about a microsecond a query.
+
+    x_t0, x_t1: real numbers (k, 4, 3), the vertex and the three corners of the face at both ends of
+    the step. ValueError: another shape, or a coordinate that is not finite.
+    """
+    return Contacts(*_detector.vertex_face(x_t0, x_t1))
+
+
+def edge_edge(x_t0: npt.ArrayLike, x_t1: npt.ArrayLike) -> Contacts:
+    """The same of edges: the two ends of the one, then those of the other."""
+    return Contacts(*_detector.edge_edge(x_t0, x_t1))

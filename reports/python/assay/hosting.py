@@ -1,0 +1,154 @@
+"""A detector in Python as the plug-in calls it that serves `--detector python:MODULE:CLASS`.
+
+    class Mine:
+        claims = ["free-sound", "total"]                  # words of detector/plugin/README.md
+        contract = {"adjacency": "no-shared-vertex"}      # members of it; none leaves nothing out
+        def create(self, triangles, positions): ...       # int32 (m, 3), float64 (n, 3): its own
+        def evaluate(self, x_t0, x_t1): ...               # float64 (n, 3) each
+
+evaluate() answers with None (free) or a result: any object, or dict, with
+
+    answer   "free", "collision", "undecided"; where there is none a collision
+    first    (lo, hi), or one number; not known without it
+    pairs    (k, 2) triangles; none without it
+    times    (k, 2) or (k,) their first times; not told without it
+
+so what assay.Detector answers is one. Beside these a class may have name, version, commit(self) and
+
+    def candidates(self, x_t0, x_t1): ...                 # (k, 2) pairs: its broad phase
+    @staticmethod
+    def query(kind, x_t0, x_t1): ...                      # "vertex-face" or "edge-edge", (4, 3) each
+    @staticmethod
+    def use_threads(count): ...
+
+Exceptions are errors of their step; Refused, of create(), is a mesh that is not taken.
+"""
+
+import importlib
+import sys
+import traceback
+
+import numpy as np
+
+CLAIMS = (
+    "free-sound", "not-late", "first-time", "first-pairs", "all-pairs", "no-spurious",
+    "deterministic", "total", "candidates",
+)  # fmt: skip
+ANSWERS = ("free", "collision", "undecided")
+KINDS = ("vertex-face", "edge-edge")
+WORDS = {
+    "adjacency": ("all", "not-edge-sharing", "no-shared-vertex"),
+    "coordinates": ("float64", "float32"),
+    "start": ("any", "free", "apart"),
+    "features": ("both", "vertex-face", "edge-edge"),
+    "reports": ("pairs", "no-pairs"),
+}
+LENGTHS = ("margin", "start_distance", "least_nonzero", "largest", "time_tolerance")
+
+
+class Refused(Exception):
+    """Of create(): a mesh that the detector does not take, and why."""
+
+
+class Hosted:
+    """A class by its word "MODULE:CLASS", described in numbers of the plug-in interface."""
+
+    def __init__(self, word):
+        module, _, name = word.partition(":")
+        self.kind = getattr(importlib.import_module(module), name)
+        self.name = str(getattr(self.kind, "name", name))
+        self.version = str(getattr(self.kind, "version", "0"))
+        self.claims = sum(1 << _place(claim, CLAIMS, "claims") for claim in set(self.kind.claims))
+        self.contract = dict.fromkeys(WORDS, 0) | dict.fromkeys(LENGTHS, 0.0)
+        for member, value in getattr(self.kind, "contract", {}).items():
+            if member in WORDS:
+                self.contract[member] = _place(value, WORDS[member], f"contract: {member}")
+            elif member in LENGTHS:
+                self.contract[member] = float(value)
+            else:
+                raise ValueError(f"contract: {member!r} is none of its members")
+
+    def has(self, part):
+        return hasattr(self.kind, part)
+
+    def create(self, triangles, positions):
+        detector = self.kind()
+        detector.create(triangles, positions)
+        return Created(detector)
+
+    def query(self, kind, x_t0, x_t1):
+        return parts_of(self.kind.query(KINDS[kind], x_t0, x_t1))
+
+    def use_threads(self, count):
+        self.kind.use_threads(count)
+
+
+class Created:
+    """A detector of one mesh."""
+
+    def __init__(self, detector):
+        self.detector = detector
+
+    def evaluate(self, x_t0, x_t1):
+        return parts_of(self.detector.evaluate(x_t0, x_t1))
+
+    def commit(self):
+        if hasattr(self.detector, "commit"):
+            self.detector.commit()
+
+    def candidates(self, x_t0, x_t1):
+        return _pairs(self.detector.candidates(x_t0, x_t1))
+
+
+def parts_of(result):
+    """Of an answer: its number, lo, hi, pairs, times or None."""
+    if result is None:
+        return 0, 0.0, 0.0, _pairs(None), None
+    get = result.get if isinstance(result, dict) else lambda name: getattr(result, name, None)
+    told = get("answer")
+    answer = _place("collision" if told is None else told, ANSWERS, "answer")
+    lo, hi = _interval(get("first")) if answer == 1 else (0.0, 0.0)
+    pairs, times = _pairs(get("pairs")), get("times")
+    if times is not None:
+        times = np.asarray(times, np.float64)
+        times = np.stack([times, times], axis=1) if times.ndim == 1 else times
+        if times.shape != pairs.shape:
+            raise ValueError(f"times of shape {times.shape} for pairs of shape {pairs.shape}")
+        times = np.ascontiguousarray(times)
+    return answer, lo, hi, pairs, times
+
+
+def tell(error):
+    """Prints the traceback; whether a mesh is refused, and a line that says what and where."""
+    if isinstance(error, Refused):
+        return True, str(error)
+    traceback.print_exception(error, file=sys.stderr)
+    line = f"{type(error).__name__}: {error}"
+    frames = traceback.extract_tb(error.__traceback__)
+    if frames:
+        line += f" ({frames[-1].filename}:{frames[-1].lineno}, in {frames[-1].name})"
+    return False, line
+
+
+def _place(word, words, what):
+    if word not in words:
+        raise ValueError(f"{what}: {word!r} is none of {', '.join(words)}")
+    return words.index(word)
+
+
+def _interval(first):
+    if first is None:
+        return 0.0, 1.0
+    lo, hi = first if np.ndim(first) else (first, first)
+    return float(lo), float(hi)
+
+
+def _pairs(pairs):
+    if pairs is None:
+        return np.zeros((0, 2), np.int32)
+    given = np.asarray(pairs)
+    if not given.size:
+        return np.zeros((0, 2), np.int32)
+    if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":
+        raise ValueError(f"pairs of shape {given.shape} and dtype {given.dtype}: (k, 2) integers are wanted")
+    return np.ascontiguousarray(given, np.int32)

@@ -1,0 +1,208 @@
+"""The oracle, and a detector's steps against it."""
+
+import json
+import os
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, List, Optional, Tuple
+
+import numpy.typing as npt
+
+from .frames import Frames, as_frames
+from .plugin import detector_word, surroundings
+from .places import program
+from .results import Judgement
+
+Interval = Tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A pair of triangles, the first time of their contact, and the features that meet then."""
+
+    triangles: Tuple[int, int]
+    time: Interval
+    feature: str
+    vertices: Tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class WrongTime:
+    """A pair whose first time the detector has wrong."""
+
+    triangles: Tuple[int, int]
+    detector: Interval
+    oracle: Interval
+
+
+@dataclass(frozen=True)
+class StepDiff:
+    """What a detector answered of a step against what the oracle found.
+
+    outcome: "holds", "defect", "undecided" or "error"; broken: the claims that the step refutes.
+    missing, excused, spurious: pairs; excused are missing ones that are not claimed.
+    late, early: pairs with a wrong time; late is unsafe.
+    """
+
+    outcome: str
+    broken: Tuple[str, ...]
+    partial: bool
+    wrong_answer: bool
+    wrong_first_time: bool
+    missing: Tuple[Contact, ...]
+    excused: Tuple[Contact, ...]
+    spurious: Tuple[Contact, ...]
+    late: Tuple[WrongTime, ...]
+    early: Tuple[WrongTime, ...]
+    left_out: int
+    left_out_missed: bool
+
+
+@dataclass(frozen=True)
+class CheckedStep:
+    """A step: the detector's answer and time, the oracle's, and the diff (None without an oracle)."""
+
+    answer: str
+    first: Optional[Interval]
+    oracle_answer: Optional[str]
+    oracle_first: Optional[Interval]
+    diff: Optional[StepDiff]
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """What `assay check` says of the steps of a mesh.
+
+    outcome: "holds", "defect", "undecided"; steps: a CheckedStep each; text: as it is printed;
+    json: as `--json` writes it (assay-check/1, reports/README.md); code: the exit code.
+    """
+
+    outcome: str
+    steps: Tuple[CheckedStep, ...]
+    text: str
+    json: Dict[str, Any]
+    code: int
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __bool__(self) -> bool:
+        raise TypeError("a report is no verdict: compare its outcome with 'holds' or 'defect'")
+
+
+def judge(
+    triangles: npt.ArrayLike,
+    x_t0: npt.ArrayLike,
+    x_t1: npt.ArrayLike,
+    *,
+    jobs: Optional[int] = None,
+) -> Judgement:
+    """The oracle's answer of a step: all pairs in contact, by exact arithmetic.
+
+    Arguments and errors are those of Detector; jobs: threads, all cores if None. Ctrl-C ends it.
+    """
+    from . import _judge
+
+    return Judgement(
+        **_judge.judge(triangles, x_t0, x_t1, _jobs(jobs)), triangles=triangles, x_t0=x_t0, x_t1=x_t1
+    )
+
+
+def check(
+    frames: Any,
+    detector: Any = None,
+    *,
+    culling: Optional[str] = None,
+    start: Optional[str] = None,
+    pairs: Optional[str] = None,
+    arithmetic: Optional[str] = None,
+    jobs: Optional[int] = None,
+    threads: int = 0,
+    time: Optional[float] = None,
+    memory: Optional[str] = None,
+    isolation: Optional[str] = None,
+    progress: Optional[Callable[[str], None]] = None,
+) -> CheckReport:
+    """Each step through the detector and the oracle, and the diff: `assay check`.
+
+    frames: Frames, a pair of triangles (m, 3) and positions (frames, n, 3), or the name of a case
+    file. detector: None for the built-in one, of which the next four options are; the name of a
+    plug-in's library; "python:MODULE:CLASS"; or a class, which another process imports by its
+    module. jobs: threads of the oracle; threads: of the detector, 0: all cores, and a plug-in is
+    told 1. time, memory, isolation: as on the command line. progress: called with what is printed.
+
+    ValueError: input that is refused, with the line that says why. Ctrl-C ends it, but for a
+    plug-in's process, which ends with its step or at `time`.
+    """
+    from . import _judge
+
+    if detector is not None and (culling or start or pairs or arithmetic):
+        raise ValueError("culling, start, pairs and arithmetic are of the built-in detector")
+    asked = {
+        "culling": culling,
+        "start": start,
+        "pairs": pairs,
+        "arithmetic": arithmetic,
+        "detector": detector_word(detector) if detector is not None else None,
+        "jobs": _jobs(jobs),
+        "threads": threads,
+        "time": time,
+        "memory": memory,
+        "isolation": isolation,
+    }
+    worker = str(program("assay-worker")) if detector is not None else ""
+    with surroundings(detector):
+        if isinstance(frames, (str, os.PathLike)):
+            answer = _judge.check_files([os.fspath(frames)], asked, worker, progress)
+        else:
+            mesh: Frames = as_frames(frames)
+            asked["files"] = mesh.files
+            answer = _judge.check_arrays(mesh.triangles, mesh.positions, asked, worker, progress)
+    return _report(*answer)
+
+
+def _jobs(jobs: Optional[int]) -> int:
+    jobs = len(os.sched_getaffinity(0)) if jobs is None else jobs
+    if not 1 <= jobs <= 1024:
+        raise ValueError("jobs: 1 to 1024 are wanted")
+    return jobs
+
+
+def _report(text: str, printed: str, code: int) -> CheckReport:
+    report = json.loads(text)
+    return CheckReport(
+        report["outcome"], tuple(map(_step, report["steps"])), printed, report, code
+    )
+
+
+def _step(raw: Dict[str, Any]) -> CheckedStep:
+    oracle = raw["oracle"] or {"answer": None, "first_time": None}
+    return CheckedStep(
+        raw["answer"],
+        _interval(raw["first_time"]),
+        oracle["answer"],
+        _interval(oracle["first_time"]),
+        _diff(raw["diff"]) if raw["diff"] else None,
+    )
+
+
+def _diff(raw: Dict[str, Any]) -> StepDiff:
+    fields = {name: raw[name] for name in StepDiff.__dataclass_fields__}
+    fields["broken"] = tuple(raw["broken"])
+    for name in ("missing", "excused", "spurious"):
+        fields[name] = tuple(map(_contact, raw[name]))
+    for name in ("late", "early"):
+        fields[name] = tuple(map(_wrong_time, raw[name]))
+    return StepDiff(**fields)
+
+
+def _contact(raw: Dict[str, Any]) -> Contact:
+    vertices = tuple(raw["vertices"])
+    return Contact(tuple(raw["triangles"]), tuple(raw["time"]), raw["feature"], vertices)
+
+
+def _wrong_time(raw: Dict[str, Any]) -> WrongTime:
+    return WrongTime(tuple(raw["triangles"]), tuple(raw["detector"]), tuple(raw["oracle"]))
+
+
+def _interval(raw: Optional[List[float]]) -> Optional[Interval]:
+    return (raw[0], raw[1]) if raw else None

@@ -1,0 +1,66 @@
+"""Detectors of Python as a plug-in: the word by which the programs know one.
+
+Another process imports the class by its module, so it has to stand in a file. How a class looks is in
+hosting.py, which calls it there.
+"""
+
+import contextlib
+import inspect
+import os
+import sys
+from pathlib import Path
+from typing import Any, Dict, Iterator, Tuple
+
+
+def detector_word(detector: Any) -> str:
+    """What `--detector` is given: a library's name, "python:MODULE:CLASS", or that of a class."""
+    if isinstance(detector, type):
+        module, _ = _place(detector)
+        return f"python:{module}:{detector.__qualname__}"
+    if isinstance(detector, (str, os.PathLike)):
+        return os.fspath(detector)
+    raise TypeError(
+        f"a detector is a class, 'python:MODULE:CLASS' or a library, not {type(detector).__name__}"
+    )
+
+
+def environment(detector: Any) -> Dict[str, str]:
+    """Variables by which a plug-in's process finds the class, and this Python."""
+    folders = [os.environ.get("PYTHONPATH", "")]
+    if isinstance(detector, type):
+        folders.insert(0, _place(detector)[1])
+    return {"PYTHONPATH": os.pathsep.join(filter(None, folders)), "ASSAY_PYTHON": sys.executable}
+
+
+@contextlib.contextmanager
+def surroundings(detector: Any) -> Iterator[None]:
+    """The same, of this process, whose children inherit them."""
+    if detector is None:
+        yield
+        return
+    before = {name: os.environ.get(name) for name in ("PYTHONPATH", "ASSAY_PYTHON")}
+    os.environ.update(environment(detector))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+def _place(kind: type) -> Tuple[str, str]:
+    """The module of a class, and the folder in which it is found."""
+    try:
+        file = Path(inspect.getfile(kind)).absolute()
+    except (OSError, TypeError):
+        raise ValueError(f"{kind.__qualname__}: it stands in no file, so no process can import it") from None
+    if "." in kind.__qualname__:
+        raise ValueError(f"{kind.__qualname__}: a class at the top of its module is wanted")
+    if kind.__module__ == "__main__":
+        return file.stem, str(file.parent)
+    module = kind.__module__
+    if file.name == "__init__.py":
+        file = file.parent
+    return module, str(file.parents[module.count(".")])

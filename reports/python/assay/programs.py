@@ -1,0 +1,146 @@
+"""Verbs of the program `assay`, run as it is: campaigns, certificates, replays and pages."""
+
+import html
+import os
+import signal
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Callable, Dict, List, Optional, Union
+
+from .errors import AssayError
+from .places import program
+from .plugin import detector_word, environment
+
+PathLike = Union[str, "os.PathLike[str]"]
+Progress = Optional[Callable[[str], None]]
+
+# Exit codes of README.md at the top.
+_OUTCOMES = {0: "holds", 1: "defect", 3: "undecided", 4: "unsound", 5: "collision"}
+_USAGE = 2
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a verb came to: a word for its exit code, what it printed, and its folder or file."""
+
+    outcome: str
+    code: int
+    text: str
+    out: Optional[Path] = None
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __bool__(self) -> bool:
+        raise TypeError("an outcome is no truth value: compare its outcome with 'holds'")
+
+
+@dataclass(frozen=True)
+class Page(Outcome):
+    """The page of a run; a notebook shows it, with each failing mesh in 3D."""
+
+    def _repr_html_(self) -> str:
+        page = html.escape(Path(self.out or "").read_text(encoding="utf-8"), quote=True)
+        return f'<iframe srcdoc="{page}" width="100%" height="800" style="border: 0"></iframe>'
+
+
+def run(
+    campaign: str, detector: Any = None, *, out: PathLike, progress: Progress = None, **options: Any
+) -> Outcome:
+    """`assay run`: a campaign of random cases.
+
+    campaign: "smoke", "quick", ..., or a file. detector: as of check(). out: the folder of the run.
+    progress: called with each line as it is printed. options: as on the command line, without the
+    dashes: seed=1, time=60, jobs=2, power="proof", ...
+
+    AssayError: it could not begin, with its line. Ctrl-C stops it; the same call goes on with it.
+    """
+    return _of_campaign("run", campaign, detector, out, progress, options)
+
+
+def certify(
+    detector: Any = None,
+    *,
+    campaign: str = "smoke",
+    out: PathLike,
+    progress: Progress = None,
+    **options: Any,
+) -> Outcome:
+    """`assay certify`: corpus, campaign, planted faults, self-test and speed; as run().
+
+    The certificate is out/certificate.json. It takes the shipped corpus from the sources.
+    """
+    return _of_campaign("certify", campaign, detector, out, progress, options)
+
+
+def replay(
+    case: PathLike, detector: Any = None, *, progress: Progress = None, **options: Any
+) -> Outcome:
+    """`assay replay`: one case by its id or file; why="0,5", export="folder", ..."""
+    return _called(["replay", os.fspath(case)], detector, progress, options)
+
+
+def report(folder: PathLike, out: Optional[PathLike] = None, **options: Any) -> Page:
+    """`assay report`: the page of a run's folder, folder/report.html unless `out` names another."""
+    file = Path(out) if out is not None else Path(folder) / "report.html"
+    ended = _called(["report", os.fspath(folder), "--out", str(file)], None, None, options)
+    return Page(ended.outcome, ended.code, ended.text, file)
+
+
+def _of_campaign(
+    verb: str,
+    campaign: str,
+    detector: Any,
+    out: PathLike,
+    progress: Progress,
+    options: Dict[str, Any],
+) -> Outcome:
+    words = [verb, "--campaign", campaign, "--out", os.fspath(out)]
+    ended = _called(words, detector, progress, options)
+    return Outcome(ended.outcome, ended.code, ended.text, Path(out))
+
+
+def _called(
+    words: List[str], detector: Any, progress: Progress, options: Dict[str, Any]
+) -> Outcome:
+    variables = dict(os.environ)
+    if detector is not None:
+        words += ["--detector", detector_word(detector)]
+        variables.update(environment(detector))
+    for name, value in options.items():
+        option = "--" + name.replace("_", "-")
+        if value is True:
+            words.append(option)
+        elif value is not None and value is not False:
+            words += [option, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
+    return _printed([str(program()), *words], variables, progress)
+
+
+def _printed(command: List[str], variables: Dict[str, str], progress: Progress) -> Outcome:
+    lines: List[str] = []
+    # In a session of its own, so that ctrl-C comes to it once, from here.
+    with subprocess.Popen(
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        env=variables,
+        start_new_session=True,
+    ) as child:
+        try:
+            for line in child.stdout:
+                lines.append(line)
+                if progress:
+                    progress(line.rstrip("\n"))
+            code = child.wait()
+        except BaseException:
+            child.send_signal(signal.SIGINT)
+            child.wait()
+            raise
+    if code not in _OUTCOMES:
+        why = lines[-1].strip() if lines else f"it ended with {code}"
+        raise AssayError(why.removeprefix("assay: "), code if code > 0 else _USAGE)
+    return Outcome(_OUTCOMES[code], code, "".join(lines))

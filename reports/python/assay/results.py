@@ -1,0 +1,190 @@
+"""What a step and a judgement come to. Arrays of a result are its own.
+
+Triangles are numbered as the rows of the mesh, times are shares of the step, in [0, 1]: a time known
+to be between two doubles is those two, adjacent; one that is a double stands twice.
+"""
+
+from dataclasses import dataclass, field
+from typing import Any, Mapping, Optional, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+Int32Array = npt.NDArray[np.int32]
+Float64Array = npt.NDArray[np.float64]
+
+# Bits of StepResult.doubts.
+VIOLATED, DIRTY = 1, 2
+
+# By the first column of `features`: what the other five hold.
+FEATURE_KINDS = ("vertex_face", "edge_edge", "piercing", "same_vertices")
+
+
+@dataclass(frozen=True)
+class SearchCounts:
+    box_tests: int
+    child_counts: int
+    skipped: int
+    contour_tests: int
+    candidate_pairs: int
+
+
+@dataclass(frozen=True)
+class MarkingCounts:
+    changed: int
+    marked: int
+    cleared: int
+
+
+@dataclass(frozen=True)
+class NarrowCounts:
+    """Elementary tests, and which rung of the ladder decided feature pairs."""
+
+    elementary_tests: int
+    axis: int
+    filter: int
+    exact: int
+    open: int
+
+
+@dataclass(frozen=True)
+class ViewCounts:
+    """Triangles whose view sign each rung settled."""
+
+    lanes: int
+    filter: int
+    exact: int
+    open: int
+
+
+@dataclass(frozen=True)
+class GhostCounts:
+    box_tests: int
+    pairs: int
+    elementary_tests: int
+    near_triangles: int
+
+
+@dataclass(frozen=True)
+class ReleaseCounts:
+    in_doubt: int
+    released: int
+    pairs: int
+    elementary_tests: int
+    winding_numbers: int
+
+
+@dataclass(frozen=True)
+class StepCounts:
+    """What a step did. Counts do not depend on the machine."""
+
+    search: SearchCounts
+    marking: MarkingCounts
+    narrow: NarrowCounts
+    view: ViewCounts
+    ghosts: GhostCounts
+    release: ReleaseCounts
+    closure_rounds: int
+    winding_numbers: int
+    free_components: int
+
+
+@dataclass(frozen=True)
+class StepTimes:
+    """Milliseconds by the clock, no part of the answer."""
+
+    view_test: float
+    start: float
+    ghosts: float
+    broad_phase: float
+    narrow_phase: float
+    closure: float
+    total: float
+
+
+@dataclass(frozen=True, eq=False)
+class StepResult:
+    """What the detector answers of a step.
+
+    answer: "free" or "collision".
+    first: (lo, hi), the first contact time; None without a collision.
+    pairs: int32 (k, 2), triangles in contact, ascending; times: float64 (k, 2), their first times.
+    features: int32 (k, 6), which features meet then: a kind (FEATURE_KINDS) and their vertices.
+    view_positive, view_negative, view_zero, against_all, violated, dirty: sizes of the view sets.
+    views: whether the step was made with views, else why not.
+    signs: int8 (m + ghosts,), view signs of the triangles, then of the ghosts; empty without views.
+    doubts: uint8 (m,), VIOLATED and DIRTY; empty without views.
+    triangles, x_t0, x_t1: what was asked, as it was given: no copies.
+    """
+
+    answer: str
+    first: Optional[Tuple[float, float]]
+    pairs: Int32Array
+    times: Float64Array
+    features: Int32Array
+    view_positive: int
+    view_negative: int
+    view_zero: int
+    against_all: int
+    violated: int
+    dirty: int
+    views: str
+    signs: npt.NDArray[np.int8]
+    doubts: npt.NDArray[np.uint8]
+    counts: StepCounts
+    milliseconds: StepTimes
+    triangles: Any = field(repr=False)
+    x_t0: Any = field(repr=False)
+    x_t1: Any = field(repr=False)
+
+    def __bool__(self) -> bool:
+        raise TypeError("a result is no answer: compare result.answer with 'free' or 'collision'")
+
+
+def step_result(raw: Mapping[str, Any], triangles: Any, x_t0: Any, x_t1: Any) -> StepResult:
+    """Of the fields as the extension module gives them."""
+    counts = raw["counts"]
+    fields = dict(raw, triangles=triangles, x_t0=x_t0, x_t1=x_t1)
+    fields["milliseconds"] = StepTimes(*raw["milliseconds"])
+    fields["counts"] = StepCounts(
+        SearchCounts(*counts["search"]),
+        MarkingCounts(*counts["marking"]),
+        NarrowCounts(*counts["narrow"]),
+        ViewCounts(*counts["view"]),
+        GhostCounts(*counts["ghosts"]),
+        ReleaseCounts(*counts["release"]),
+        counts["closure_rounds"],
+        counts["winding_numbers"],
+        counts["free_components"],
+    )
+    return StepResult(**fields)
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """Answers of k elementary queries.
+
+    hit: bool (k,), whether the two features meet; lo, hi: float64 (k,), first time, NaN without.
+    """
+
+    hit: npt.NDArray[np.bool_]
+    lo: Float64Array
+    hi: Float64Array
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """The oracle's answer of a step; fields as those of StepResult of the same names."""
+
+    answer: str
+    first: Optional[Tuple[float, float]]
+    pairs: Int32Array
+    times: Float64Array
+    features: Int32Array
+    feature_candidates: int
+    triangles: Any = field(repr=False)
+    x_t0: Any = field(repr=False)
+    x_t1: Any = field(repr=False)
+
+    def __bool__(self) -> bool:
+        raise TypeError("a judgement is no answer: compare its answer with 'free' or 'collision'")

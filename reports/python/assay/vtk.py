@@ -1,0 +1,65 @@
+"""Results for ParaView."""
+
+import os
+from typing import Union
+
+import numpy as np
+
+from .arrays import positions, triangles
+from .results import DIRTY, VIOLATED, Judgement, StepResult
+
+
+def write_vtk(result: Union[StepResult, Judgement], path: Union[str, "os.PathLike[str]"]) -> None:
+    """Writes the step of a result as an unstructured grid, by meshio: .vtu or .vtk.
+
+    Points are those of the mesh at the first contact time (at t = 0 without one), then one for each
+    pair, where it meets (left out where that is no place). Cells are the triangles, then a vertex for
+    each of those points.
+    Fields of points: displacement (x_t1 - x_t0; 0 of contact points).
+    Fields of cells: is_contact, in_contact, first_time (NaN without), pair_a and pair_b (-1 of
+    triangles), and of a result of the detector view_sign (2: none), violated, dirty.
+    """
+    import meshio
+
+    from . import _judge
+
+    mesh = triangles(result.triangles, "triangles")
+    x_t0, x_t1 = positions(result.x_t0, "x_t0"), positions(result.x_t1, "x_t1")
+    places = _judge.contact_points(mesh, x_t0, x_t1, result.pairs, result.times, result.features)
+    shown = np.isfinite(places).all(axis=1)
+    pairs, times, places = result.pairs[shown], result.times[shown, 0], places[shown]
+
+    count, contacts = len(mesh), len(places)
+    t = result.first[0] if result.first else 0.0
+    points = np.vstack([(1 - t) * x_t0 + t * x_t1, places])
+    moved = np.vstack([x_t1 - x_t0, np.zeros((contacts, 3))])
+    first = np.full(count, np.nan)
+    for column in result.pairs.T:
+        np.fmin.at(first, column, result.times[:, 0])
+    blank = np.zeros(contacts, np.int32)
+    fields = {
+        "is_contact": (np.zeros(count, np.int32), blank + 1),
+        "in_contact": (np.isfinite(first).astype(np.int32), blank + 1),
+        "first_time": (first, times),
+        "pair_a": (np.full(count, -1, np.int32), pairs[:, 0].astype(np.int32)),
+        "pair_b": (np.full(count, -1, np.int32), pairs[:, 1].astype(np.int32)),
+    }
+    if isinstance(result, StepResult):
+        seen = len(result.signs) >= count
+        signs = result.signs[:count].astype(np.int32) if seen else np.full(count, 2, np.int32)
+        doubts = result.doubts if len(result.doubts) == count else np.zeros(count, np.uint8)
+        fields["view_sign"] = (signs, blank + 2)
+        fields["violated"] = ((doubts & VIOLATED != 0).astype(np.int32), blank)
+        fields["dirty"] = ((doubts & DIRTY != 0).astype(np.int32), blank)
+    cells = [("triangle", mesh)]
+    if contacts:
+        cells.append(("vertex", len(x_t0) + np.arange(contacts)[:, None]))
+    meshio.write(
+        os.fspath(path),
+        meshio.Mesh(
+            points,
+            cells,
+            point_data={"displacement": moved},
+            cell_data={name: list(parts[: len(cells)]) for name, parts in fields.items()},
+        ),
+    )

@@ -1,0 +1,50 @@
+"""What setuptools builds of the package is built by CMake, in build/release as ever."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from setuptools.command.build_py import build_py
+from setuptools.command.egg_info import egg_info
+from wheel.bdist_wheel import bdist_wheel
+
+SOURCES = Path(__file__).resolve().parents[2]
+BUILD = SOURCES / "build" / "release"
+
+
+class BuildPy(build_py):
+    """The package, and in it modules, the plug-in that serves detectors in Python, programs."""
+
+    def run(self):
+        super().run()
+        # That of a virtual environment is a link to it; then nothing is configured anew.
+        python = getattr(sys, "_base_executable", sys.executable)
+        configure = ["cmake", "--preset", "release", f"-DASSAY_PYTHON={python}"]
+        subprocess.run(configure, cwd=SOURCES, check=True)
+        build = ["cmake", "--build", str(BUILD), "--target", "assay_python"]
+        subprocess.run(build, cwd=SOURCES, check=True)
+        package = Path(self.build_lib, "assay")
+        (package / "bin").mkdir(parents=True, exist_ok=True)
+        for library in (BUILD / "python" / "assay").glob("*.so"):
+            shutil.copy2(library, package)
+        for program in ("assay", "assay-worker"):
+            shutil.copy2(BUILD / program, package / "bin")
+
+
+class EggInfo(egg_info):
+    """Nothing is written beside the sources."""
+
+    def finalize_options(self):
+        if self.egg_base is None:
+            self.egg_base = str(SOURCES / "build")
+            Path(self.egg_base).mkdir(exist_ok=True)
+        super().finalize_options()
+
+
+class BdistWheel(bdist_wheel):
+    """It holds what was compiled, for this Python and this machine."""
+
+    def finalize_options(self):
+        super().finalize_options()
+        self.root_is_pure = False

@@ -1,0 +1,162 @@
+#include "reports/python/detector_binding.h"
+
+#include <unistd.h>
+
+#include <atomic>
+
+#include "detector/detector.h"
+#include "properties/judging/case_options.h"
+#include "reports/python/array_arguments.h"
+#include "reports/python/input_problem.h"
+#include "reports/python/interruption.h"
+#include "reports/python/step_arrays.h"
+
+namespace assay::python {
+namespace {
+
+namespace py = pybind11;
+
+using detector::Detector;
+using detector::SavedState;
+
+// A detector is of one thread at a time: a call that finds another one under way is refused, for
+// the answers of steps depend on their order.
+class OneAtATime {
+ public:
+  explicit OneAtATime(std::atomic_flag& busy) : busy_(busy) {
+    if (busy_.test_and_set())
+      throw std::runtime_error("this detector is at work in another thread: one thread at a time");
+  }
+  OneAtATime(const OneAtATime&) = delete;
+  OneAtATime& operator=(const OneAtATime&) = delete;
+  ~OneAtATime() { busy_.clear(); }
+
+ private:
+  std::atomic_flag& busy_;
+};
+
+// After a fork the threads of the process that forked are not there: who would wait for them is
+// refused.
+void threads_in_this_process(std::uint32_t threads) {
+  static std::atomic<pid_t> process = 0;  // the first that had several
+  if (threads == 1) return;
+  pid_t first = 0;
+  if (!process.compare_exchange_strong(first, ::getpid()) && first != ::getpid())
+    throw std::runtime_error(
+        "threads: this process was forked from one that had several; use 1, or spawn it");
+}
+
+class PythonDetector {
+ public:
+  // options: words by their names, as a case file states them. threads: 0: all cores.
+  PythonDetector(const py::object& triangles, const py::object& positions, const py::dict& options,
+                 std::uint32_t threads)
+      : threads_(threads), detector_(made(triangles, positions, options, threads)) {}
+
+  py::dict evaluate(const py::object& x_t0, const py::object& x_t1) {
+    return answered(x_t0, x_t1, [this](const auto& from, const auto& to, const auto& stop) {
+      return detector_.evaluate(from, to, {}, stop);
+    });
+  }
+
+  py::dict step(const py::object& x_t0, const py::object& x_t1) {
+    return answered(x_t0, x_t1, [this](const auto& from, const auto& to, const auto& stop) {
+      return detector_.step(from, to, {}, stop);
+    });
+  }
+
+  void commit() {
+    const OneAtATime alone(busy_);
+    if (const auto problem = detector_.commit()) raise(*problem);
+  }
+
+  void reset() {
+    const OneAtATime alone(busy_);
+    detector_.reset();
+  }
+
+  SavedState state() {
+    const OneAtATime alone(busy_);
+    return detector_.state();
+  }
+
+  void restore(const SavedState& state) {
+    const OneAtATime alone(busy_);
+    if (const auto problem = detector_.restore(state)) raise(*problem);
+  }
+
+ private:
+  static Detector made(const py::object& triangles, const py::object& positions,
+                       const py::dict& options, std::uint32_t threads) {
+    threads_in_this_process(threads);
+    corpus::Case stated;
+    for (const auto& [name, word] : options) {
+      if (!py::isinstance<py::str>(word))
+        throw py::type_error(py::str("{}: a word is wanted, not {!r}").format(name, word));
+      stated.options[name.cast<std::string>()] = word.cast<std::string>();
+    }
+    auto chosen = properties::read_options(stated);
+    if (!chosen) throw py::value_error(chosen.error().message);
+    chosen.value().threads = threads;
+    const TrianglesArgument mesh(triangles, "triangles");
+    const PositionsArgument places(positions, "positions");
+    Interruption interruption;
+    auto detector = [&] {
+      const py::gil_scoped_release others_may_run;
+      return Detector::create(mesh.view(), places.view(), chosen.value(),
+                              interruption.stop_function());
+    }();
+    interruption.raise();
+    if (!detector) raise(detector.error());
+    return std::move(detector.value());
+  }
+
+  template <class Ask>
+  py::dict answered(const py::object& x_t0, const py::object& x_t1, const Ask& ask) {
+    const PositionsArgument from(x_t0, "x_t0"), to(x_t1, "x_t1");
+    threads_in_this_process(threads_);
+    const OneAtATime alone(busy_);
+    Interruption interruption;
+    auto result = [&] {
+      const py::gil_scoped_release others_may_run;
+      return ask(from.view(), to.view(), interruption.stop_function());
+    }();
+    interruption.raise();
+    if (result.answer == detector::Answer::error) raise(*result.problem);
+    return arrays_of(std::move(result));
+  }
+
+  std::uint32_t threads_;
+  Detector detector_;
+  std::atomic_flag busy_;
+};
+
+py::bytes bytes_of(const SavedState& state) {
+  const auto bytes = state.bytes();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+SavedState state_of(const py::bytes& bytes) {
+  const std::string_view text = bytes;
+  auto state = SavedState::read({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  if (!state) raise(state.error());
+  return std::move(state.value());
+}
+
+}  // namespace
+
+void bind_detector(py::module_& module) {
+  py::class_<SavedState>(module, "State")
+      .def("__bytes__", bytes_of)
+      .def_static("from_bytes", state_of);
+  py::class_<PythonDetector>(module, "Detector")
+      .def(py::init<const py::object&, const py::object&, const py::dict&, std::uint32_t>())
+      .def("evaluate", &PythonDetector::evaluate)
+      .def("commit", &PythonDetector::commit)
+      .def("step", &PythonDetector::step)
+      .def("state", &PythonDetector::state)
+      .def("restore", &PythonDetector::restore)
+      .def("reset", &PythonDetector::reset);
+}
+
+}  // namespace assay::python

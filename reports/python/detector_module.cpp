@@ -1,0 +1,8 @@
+// The module assay._detector: the production detector and its elementary test. It holds no oracle.
+#include "reports/python/detector_binding.h"
+#include "reports/python/query_binding.h"
+
+PYBIND11_MODULE(_detector, module) {
+  assay::python::bind_detector(module);
+  assay::python::bind_queries(module);
+}

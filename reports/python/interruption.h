@@ -1,0 +1,49 @@
+// Ctrl-C during work that does not hold the interpreter.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "detector/mesh/step_types.h"
+
+namespace assay::python {
+
+// Asks Python now and then whether a signal has come, such as that of ctrl-C; the clock says only
+// how often, for asking waits for the interpreter. Only the thread that made it asks: others may
+// help with the work. REQUIRES that it is made and raises with the interpreter, which is released
+// in between.
+class Interruption {
+ public:
+  detector::StopFunction stop_function() {
+    return [this] { return check(); };
+  }
+
+  // Raises what the handler of the signal has raised: KeyboardInterrupt, of ctrl-C.
+  void raise() const {
+    if (raised_) throw pybind11::error_already_set(*raised_);
+  }
+
+ private:
+  bool check() {
+    constexpr std::chrono::milliseconds interval{50};
+    if (has_come_ || std::this_thread::get_id() != maker_) return has_come_;
+    if (std::chrono::steady_clock::now() - last_ < interval) return false;
+    const pybind11::gil_scoped_acquire interpreter;
+    last_ = std::chrono::steady_clock::now();
+    if (PyErr_CheckSignals() == 0) return false;
+    // Kept apart, for what is called until the work has ended must not find it.
+    raised_ = std::make_unique<pybind11::error_already_set>();
+    return has_come_ = true;
+  }
+
+  std::thread::id maker_ = std::this_thread::get_id();
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::unique_ptr<pybind11::error_already_set> raised_;
+  std::atomic<bool> has_come_ = false;
+};
+
+}  // namespace assay::python

@@ -1,0 +1,199 @@
+// The plug-in that serves `--detector python:MODULE:CLASS`: an interpreter in the process of a
+// plug-in, and the class in it. What the class may have, and how its answers are read, is in
+// assay/hosting.py, which does all that can be done in Python.
+#include <dlfcn.h>
+#include <pybind11/numpy.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+
+#include "detector/plugin/assay_detector.hpp"
+#include "properties/worker/plugin/python_word.h"
+#include "reports/python/interpreter.h"
+
+namespace assay::python {
+namespace {
+
+namespace py = pybind11;
+
+using plugin::Interval;
+using plugin::Mesh;
+using plugin::Pair;
+using plugin::Positions;
+using plugin::Result;
+
+// The folder above that of this library: the package `assay` is in it.
+std::string folder_of_package() {
+  Dl_info self = {};
+  if (::dladdr(reinterpret_cast<const void*>(&folder_of_package), &self) == 0) return ".";
+  return std::filesystem::absolute(self.dli_fname).parent_path().parent_path().string();
+}
+
+// What an exception of Python comes to on this side. Its traceback was printed, so it is kept with
+// the failure; the line says what it is and where.
+[[noreturn]] void pass_on(py::error_already_set& error) {
+  if (error.matches(PyExc_MemoryError)) throw std::bad_alloc();
+  if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
+  const auto told = py::module_::import("assay.hosting").attr("tell")(error.value());
+  const auto [is_refused, line] = told.cast<std::pair<bool, std::string>>();
+  if (is_refused) throw plugin::Refused(line);
+  throw std::runtime_error(line);
+}
+
+template <class Work>
+auto in_python(const Work& work) {
+  const py::gil_scoped_acquire interpreter;
+  try {
+    return work();
+  } catch (py::error_already_set& error) {
+    pass_on(error);
+  }
+}
+
+// The class, as assay/hosting.py wraps it. It stays as long as the process.
+const py::object& hosted() {
+  static const py::object* const host = [] {
+    start_interpreter(folder_of_package().c_str());
+    return in_python([] {
+      const char* word = std::getenv(properties::python_detector_variable);
+      const auto make = py::module_::import("assay.hosting").attr("Hosted");
+      return new py::object(make(word ? word : ""));
+    });
+  }();
+  return *host;
+}
+
+// work(the class), in Python.
+template <class Work>
+auto with_class(const Work& work) {
+  const py::object& host = hosted();
+  return in_python([&] { return work(host); });
+}
+
+// Copies: who computes in Python keeps arrays, and the host's are gone after the call.
+template <class T>
+py::array_t<T> array_of(const plugin::Rows<T>& rows) {
+  py::array_t<T> array({static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}});
+  std::memcpy(array.mutable_data(), rows.data(), 3 * rows.size() * sizeof(T));
+  return array;
+}
+
+template <class Row>
+std::vector<Row> rows_of(const py::object& given) {
+  const auto array =
+      given
+          .cast<py::array_t<typename Row::value_type, py::array::c_style | py::array::forcecast>>();
+  std::vector<Row> rows(static_cast<std::size_t>(array.size()) / 2);
+  if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof(Row));
+  return rows;
+}
+
+// Of the four or five parts that hosting.py makes of an answer.
+Result result_of(const py::tuple& parts) {
+  Result result;
+  result.answer = parts[0].cast<std::int32_t>();
+  result.first = {parts[1].cast<double>(), parts[2].cast<double>()};
+  result.pairs = rows_of<Pair>(parts[3]);
+  if (!parts[4].is_none()) result.pair_times = rows_of<Interval>(parts[4]);
+  return result;
+}
+
+class PythonDetector {
+ public:
+  static plugin::Description describe() {
+    // Texts of a description live as long as the library.
+    static std::string name, version;
+    return with_class([](const py::object& host) {
+      const auto text = [&](const char* member) { return host.attr(member).cast<std::string>(); };
+      const auto number = [&](const char* member) {
+        return host.attr("contract")[member].cast<std::int32_t>();
+      };
+      const auto real = [&](const char* member) {
+        return host.attr("contract")[member].cast<double>();
+      };
+      name = text("name"), version = text("version");
+      plugin::Description d;
+      d.name = name.c_str();
+      d.version = version.c_str();
+      d.claims = host.attr("claims").cast<std::uint32_t>();
+      d.adjacency = number("adjacency");
+      d.coordinates = number("coordinates");
+      d.start = number("start");
+      d.features = number("features");
+      d.reports = number("reports");
+      d.margin = real("margin");
+      d.start_distance = real("start_distance");
+      d.least_nonzero = real("least_nonzero");
+      d.largest = real("largest");
+      d.time_tolerance = real("time_tolerance");
+      return d;
+    });
+  }
+
+  static void use_threads(std::uint32_t count) {
+    with_class([&](const py::object& host) { host.attr("use_threads")(count); });
+  }
+
+  static Result query(std::int32_t kind, Positions x_t0, Positions x_t1) {
+    return with_class([&](const py::object& host) {
+      return result_of(host.attr("query")(kind, array_of(x_t0), array_of(x_t1)));
+    });
+  }
+
+  explicit PythonDetector(const Mesh& mesh)
+      : detector_(with_class([&](const py::object& host) {
+          return py::object(
+              host.attr("create")(array_of(mesh.triangles), array_of(mesh.positions)));
+        })) {}
+  PythonDetector(const PythonDetector&) = delete;
+  PythonDetector& operator=(const PythonDetector&) = delete;
+  ~PythonDetector() {
+    const py::gil_scoped_acquire interpreter;
+    detector_ = py::object();
+  }
+
+  Result evaluate(Positions x_t0, Positions x_t1) {
+    return in_python(
+        [&] { return result_of(detector_.attr("evaluate")(array_of(x_t0), array_of(x_t1))); });
+  }
+
+  void commit() {
+    in_python([&] { detector_.attr("commit")(); });
+  }
+
+  std::vector<Pair> candidates(Positions x_t0, Positions x_t1) {
+    return in_python([&] {
+      return rows_of<Pair>(detector_.attr("candidates")(array_of(x_t0), array_of(x_t1)));
+    });
+  }
+
+ private:
+  py::object detector_;
+};
+
+// The table without the parts that the class does not have.
+assay_detector_api made_table() {
+  assay_detector_api made = *plugin::detail::table<PythonDetector>();
+  try {
+    const py::object& host = hosted();
+    const py::gil_scoped_acquire interpreter;
+    const auto has = [&](const char* part) { return host.attr("has")(part).cast<bool>(); };
+    if (!has("evaluate")) made.evaluate = nullptr, made.commit = nullptr, made.result = nullptr;
+    if (!has("candidates")) made.candidates = nullptr;
+    if (!has("query")) made.query = nullptr;
+    if (!has("use_threads")) made.use_threads = nullptr;
+  } catch (const std::exception&) {
+    // describe() says why.
+  }
+  return made;
+}
+
+}  // namespace
+}  // namespace assay::python
+
+extern "C" ASSAY_DETECTOR_EXPORT const assay_detector_api* assay_detector(void) {
+  static const assay_detector_api api = assay::python::made_table();
+  return &api;
+}

@@ -1,0 +1,49 @@
+"""Meshes that several tests step."""
+
+import numpy as np
+import pytest
+
+TETRAHEDRON = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], np.int32)
+
+
+class Step:
+    def __init__(self, triangles, x_t0, x_t1):
+        self.triangles, self.x_t0, self.x_t1 = triangles, x_t0, x_t1
+
+
+def tetrahedra(count, seed=1):
+    """Tetrahedra at random places that move at random: many of them meet."""
+    random = np.random.default_rng(seed)
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
+    places = random.uniform(0, count ** (1 / 3) * 3, (count, 1, 3))
+    x_t0 = (corners + places).reshape(-1, 3)
+    x_t1 = x_t0 + np.repeat(random.uniform(-2, 2, (count, 3)), 4, axis=0)
+    triangles = np.concatenate([TETRAHEDRON + 4 * k for k in range(count)])
+    return Step(triangles.astype(np.int32), x_t0, x_t1)
+
+
+@pytest.fixture
+def pair():
+    """One tetrahedron flies into another one that rests."""
+    x_t0 = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
+    x_t0 = np.vstack([x_t0, x_t0 + 2])
+    x_t1 = x_t0.copy()
+    x_t1[4:] -= 1.9
+    return Step(np.concatenate([TETRAHEDRON, TETRAHEDRON + 4]), x_t0, x_t1)
+
+
+@pytest.fixture
+def cloud():
+    return tetrahedra(40)
+
+
+@pytest.fixture
+def long_step():
+    """With culling none others have time to look at it."""
+    return tetrahedra(1500)
+
+
+@pytest.fixture
+def endless_step():
+    """With culling none it takes as long as it is let."""
+    return tetrahedra(50000)

@@ -1,0 +1,287 @@
+"""assay.Detector and the two elementary queries."""
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import tracemalloc
+from fractions import Fraction
+
+import conftest
+import numpy as np
+import pytest
+
+import assay
+
+
+def same(a, b):
+    return (
+        a.answer == b.answer
+        and a.first == b.first
+        and np.array_equal(a.pairs, b.pairs)
+        and np.array_equal(a.times, b.times)
+    )
+
+
+def test_a_step_has_its_pairs_times_and_sets(pair):
+    result = assay.Detector(pair.triangles, pair.x_t0).step(pair.x_t0, pair.x_t1)
+    assert result.answer == "collision"
+    assert result.pairs.tolist() == [[2, 4], [2, 5], [2, 7]]
+    assert (result.pairs.dtype, result.times.dtype) == (np.int32, np.float64)
+    lo, hi = result.first
+    exact = Fraction(5, 3) / (2 - Fraction(pair.x_t1[4, 0]))
+    assert lo < exact < hi == np.nextafter(lo, 1)
+    assert (result.times == [lo, hi]).all()
+    assert assay.FEATURE_KINDS[result.features[0, 0]] == "vertex_face"
+    assert result.features[0].tolist() == [0, 4, 1, 2, 3, -1]
+    assert result.signs.dtype == np.int8 and len(result.signs) == 8
+    assert result.doubts.dtype == np.uint8
+    assert result.counts.search.candidate_pairs >= 3
+    assert result.milliseconds.total > 0
+
+
+def test_free_has_no_time_and_no_pairs(pair):
+    result = assay.Detector(pair.triangles, pair.x_t0).evaluate(pair.x_t0, pair.x_t0)
+    assert (result.answer, result.first) == ("free", None)
+    assert result.pairs.shape == (0, 2) and result.times.shape == (0, 2)
+
+
+def test_a_result_is_no_truth_value(pair):
+    result = assay.Detector(pair.triangles, pair.x_t0).evaluate(pair.x_t0, pair.x_t0)
+    with pytest.raises(TypeError):
+        bool(result)
+
+
+@pytest.mark.parametrize("culling", ["auto", "view-auto", "view-point", "normal-cone", "bvh", "none"])
+def test_every_culling_answers_alike(cloud, culling):
+    expected = assay.Detector(cloud.triangles, cloud.x_t0).step(cloud.x_t0, cloud.x_t1)
+    assert len(expected.pairs) > 10
+    made = assay.Detector(cloud.triangles, cloud.x_t0, culling)
+    assert same(made.step(cloud.x_t0, cloud.x_t1), expected)
+
+
+def test_only_commit_advances_the_state(pair):
+    detector = assay.Detector(pair.triangles, pair.x_t0)
+    before = bytes(detector.state())
+    detector.evaluate(pair.x_t0, pair.x_t1)
+    assert bytes(detector.state()) == before
+    detector.commit()
+    assert bytes(detector.state()) != before
+    with pytest.raises(assay.InputError) as error:
+        detector.commit()
+    assert error.value.name == "nothing_to_commit"
+
+
+def test_a_state_is_kept_as_bytes_and_pickled(cloud):
+    one = assay.Detector(cloud.triangles, cloud.x_t0)
+    one.step(cloud.x_t0, cloud.x_t1)
+    state = one.state()
+    expected = one.step(cloud.x_t1, cloud.x_t0)
+    for kept in (assay.State.from_bytes(bytes(state)), pickle.loads(pickle.dumps(state))):
+        other = assay.Detector(cloud.triangles, cloud.x_t0)
+        other.restore(kept)
+        assert same(other.step(cloud.x_t1, cloud.x_t0), expected)
+
+
+def test_a_foreign_or_damaged_state_is_refused(pair, cloud):
+    state = assay.Detector(pair.triangles, pair.x_t0).state()
+    with pytest.raises(assay.InputError) as error:
+        assay.Detector(cloud.triangles, cloud.x_t0).restore(state)
+    assert error.value.name == "foreign_state"
+    with pytest.raises(assay.InputError) as error:
+        assay.State.from_bytes(bytes(state)[:-1])
+    assert error.value.name == "damaged_state"
+
+
+def test_reset_is_a_new_start(cloud):
+    detector = assay.Detector(cloud.triangles, cloud.x_t0)
+    first = detector.step(cloud.x_t0, cloud.x_t1)
+    detector.reset()
+    assert same(detector.step(cloud.x_t0, cloud.x_t1), first)
+
+
+def strided(x):
+    wide = np.zeros((len(x), 5))
+    wide[:, 1:4] = x
+    return wide[:, 1:4]
+
+
+def readonly(x):
+    x = x.copy()
+    x.flags.writeable = False
+    return x
+
+
+@pytest.mark.parametrize("view", [np.array, strided, readonly])
+def test_float64_in_rows_is_not_copied(view):
+    count = 100_000
+    side = np.arange(count, dtype=np.float64)
+    x = view(np.stack([side, side % 2, np.zeros(count)], axis=1))
+    corners = np.arange(0, count - 2, 1000)
+    triangles = np.stack([corners, corners + 1, corners + 2], axis=1).astype(np.int32)
+    detector = assay.Detector(triangles, x)
+    tracemalloc.start()
+    detector.evaluate(x, x)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < x.nbytes / 10
+
+
+@pytest.mark.parametrize(
+    "convert",
+    [
+        lambda x: x[::-1][::-1],
+        lambda x: np.ascontiguousarray(x[::-1])[::-1],
+        np.asfortranarray,
+        lambda x: x.astype(">f8"),
+        lambda x: x.astype(np.float32).astype(np.float64),
+        lambda x: x.tolist(),
+    ],
+)
+def test_what_is_no_view_is_converted(convert):
+    x_t0 = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.25, 0.25, 1], [1, 1, 1], [2, 2, 1.0]])
+    x_t1 = x_t0 - [0, 0, 2] * (np.arange(6) > 2)[:, None]
+    triangles = np.array([[0, 1, 2], [3, 4, 5]])
+    expected = assay.Detector(triangles, x_t0).step(x_t0, x_t1)
+    assert expected.answer == "collision"
+    for kind in (np.int32, np.int64, np.uint8, ">i4"):
+        made = assay.Detector(triangles.astype(kind), convert(x_t0))
+        assert same(made.step(convert(x_t0), convert(x_t1)), expected)
+
+
+def test_others_run_during_a_step_and_may_not_use_its_detector(long_step):
+    detector = assay.Detector(long_step.triangles, long_step.x_t0, "none")
+    results = []
+    thread = threading.Thread(
+        target=lambda: results.append(detector.step(long_step.x_t0, long_step.x_t1))
+    )
+    thread.start()
+    turns = refused = 0
+    while thread.is_alive():
+        turns += 1
+        try:
+            detector.state()
+        except RuntimeError as error:
+            assert "another thread" in str(error)
+            refused += 1
+    assert turns > 1000 and refused > 0
+    assert results[0].answer == "collision"
+
+
+def test_threads_with_a_detector_each_answer_alike(cloud):
+    expected = assay.Detector(cloud.triangles, cloud.x_t0).step(cloud.x_t0, cloud.x_t1)
+    results = []
+
+    def work():
+        detector = assay.Detector(cloud.triangles, cloud.x_t0)
+        results.extend(detector.evaluate(cloud.x_t0, cloud.x_t1) for _ in range(20))
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(results) == 80 and all(same(result, expected) for result in results)
+
+
+@pytest.mark.parametrize("threads", [0, 1, 2, 4])
+def test_threads_do_not_show(threads):
+    step = conftest.tetrahedra(300)
+    expected = assay.Detector(step.triangles, step.x_t0).step(step.x_t0, step.x_t1)
+    detector = assay.Detector(step.triangles, step.x_t0, threads=threads)
+    assert same(detector.step(step.x_t0, step.x_t1), expected)
+    with pytest.raises(ValueError, match="threads"):
+        assay.Detector(step.triangles, step.x_t0, threads=-1)
+
+
+def test_after_a_fork_threads_are_refused(cloud):
+    """In an interpreter of its own, for that is known for good afterwards."""
+    program = """if True:
+        import os, sys
+        sys.path.insert(0, sys.argv[1])
+        import conftest, assay
+        step = conftest.tetrahedra(300)
+        alone = assay.Detector(step.triangles, step.x_t0)
+        several = assay.Detector(step.triangles, step.x_t0, threads=2)
+        several.step(step.x_t0, step.x_t1)
+        child = os.fork()
+        if child == 0:
+            refused = 0
+            for work in (
+                lambda: several.step(step.x_t1, step.x_t0),
+                lambda: assay.Detector(step.triangles, step.x_t0, threads=0),
+            ):
+                try:
+                    work()
+                except RuntimeError:
+                    refused += 1
+            assert alone.step(step.x_t0, step.x_t1).answer == "collision"
+            os._exit(10 + refused)
+        assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 12
+        assert several.step(step.x_t1, step.x_t0).answer == "collision"
+    """
+    command = [sys.executable, "-c", program, os.path.dirname(__file__)]
+    subprocess.run(command, check=True)
+
+
+def test_after_a_fork_each_process_has_its_own(cloud):
+    detector = assay.Detector(cloud.triangles, cloud.x_t0)
+    detector.step(cloud.x_t0, cloud.x_t1)
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            fresh = assay.Detector(cloud.triangles, cloud.x_t0)
+            fresh.step(cloud.x_t0, cloud.x_t1)
+            alike = same(detector.step(cloud.x_t1, cloud.x_t0), fresh.step(cloud.x_t1, cloud.x_t0))
+            code = 0 if alike else 2
+        finally:
+            os._exit(code)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    assert detector.step(cloud.x_t1, cloud.x_t0).answer == "collision"
+
+
+def test_ctrl_c_ends_a_step_and_leaves_the_state(endless_step):
+    detector = assay.Detector(endless_step.triangles, endless_step.x_t0, "none")
+    before = bytes(detector.state())
+
+    def interrupt():
+        while True:
+            try:
+                detector.state()
+            except RuntimeError:  # the step is under way
+                os.kill(os.getpid(), signal.SIGINT)
+                return
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        detector.step(endless_step.x_t0, endless_step.x_t1)
+    thread.join()
+    assert bytes(detector.state()) == before
+    with pytest.raises(assay.InputError, match="commit"):
+        detector.commit()
+
+
+def test_queries_answer_exactly():
+    face = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]])
+    above, below, beside = [0.25, 0.25, 1], [0.25, 0.25, -2], [2, 2, -2]
+    x_t0 = np.array([[above, *face], [above, *face]])
+    x_t1 = np.array([[below, *face], [beside, *face]])
+    contacts = assay.vertex_face(x_t0, x_t1)
+    assert contacts.hit.tolist() == [True, False]
+    third = contacts.lo[0]
+    assert third < 1 / 3 + 1e-16 and contacts.hi[0] == np.nextafter(third, 1)
+    assert np.isnan(contacts.lo[1]) and np.isnan(contacts.hi[1])
+
+    edges_t0 = np.array([[[0, 0, 0], [1, 0, 0], [0.5, -1, 1], [0.5, 1, 1.0]]])
+    edges_t1 = edges_t0 - [[[0, 0, 0], [0, 0, 0], [0, 0, 2], [0, 0, 2]]]
+    contacts = assay.edge_edge(edges_t0, edges_t1)
+    assert (contacts.hit[0], contacts.lo[0], contacts.hi[0]) == (True, 0.5, 0.5)
+
+
+def test_no_queries_have_no_answers():
+    contacts = assay.vertex_face(np.zeros((0, 4, 3)), np.zeros((0, 4, 3)))
+    assert contacts.hit.shape == contacts.lo.shape == contacts.hi.shape == (0,)

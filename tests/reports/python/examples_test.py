@@ -1,0 +1,42 @@
+"""The examples of reports/python/README.md, as they stand and in their order."""
+
+import re
+from pathlib import Path
+
+SOURCES = Path(__file__).resolve().parents[3]
+README = SOURCES / "reports/python/README.md"
+
+
+def blocks():
+    return re.findall(r"^```python\n(.*?)^```", README.read_text(), re.DOTALL | re.MULTILINE)
+
+
+def test_every_example_runs_as_pasted(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    names = {"__name__": "readme"}
+    for block in blocks():
+        if file := re.match(r"# (\w+\.py)\n", block):
+            Path(file[1]).write_text(block)
+        else:
+            exec(compile(block, str(README), "exec"), names)
+    printed = capsys.readouterr().out
+    for line in (
+        "collision (0.888888888888888",
+        "wrong_frame_size - ",
+        "[ True] [0.5] [0.5]",
+        "collision (0.888888888888888",
+        "holds [(), ()]",
+        "2 holds",
+        "defect\njudged/report.html",
+        "holds\nquick:1:closed-generic:5",
+    ):
+        assert line in printed
+        printed = printed[printed.index(line) + len(line) :]
+    assert Path("step.vtu").exists()
+
+
+def test_the_detector_of_the_readme_is_as_long_as_it_says():
+    source = next(block for block in blocks() if block.startswith("# textbook.py"))
+    kind = source[source.index("class TextbookCubic") :]
+    assert len([line for line in kind.splitlines() if line]) <= 30

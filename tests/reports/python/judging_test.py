@@ -1,0 +1,238 @@
+"""assay.judge, check, read_frames and write_vtk."""
+
+import json
+import os
+import signal
+import subprocess
+import threading
+from pathlib import Path
+
+import conftest
+import meshio
+import numpy as np
+import pytest
+
+import assay
+from assay.places import program
+
+SOURCES = Path(__file__).resolve().parents[3]
+DATA = os.environ.get("ASSAY_DATA", "")
+
+
+def write_ply(path, triangles, x):
+    with open(path, "w") as out:
+        out.write("ply\nformat ascii 1.0\n")
+        out.write(f"element vertex {len(x)}\n")
+        out.write("".join(f"property double {axis}\n" for axis in "xyz"))
+        out.write(f"element face {len(triangles)}\nproperty list uchar int vertex_indices\n")
+        out.write("end_header\n")
+        out.writelines(" ".join(map(repr, row)) + "\n" for row in x.tolist())
+        out.writelines(f"3 {a} {b} {c}\n" for a, b, c in triangles.tolist())
+
+
+def without_times(report):
+    """What must not differ from one run to the next."""
+    report = {k: v for k, v in report.items() if k not in ("times_ms", "peak_memory_bytes")}
+    report["steps"] = [
+        {
+            k: {n: m for n, m in v.items() if n != "time_ms"} if k == "oracle" and v else v
+            for k, v in step.items()
+            if k != "times_ms"
+        }
+        for step in report["steps"]
+    ]
+    return report
+
+
+def test_the_oracle_agrees_with_the_detector(cloud):
+    judgement = assay.judge(cloud.triangles, cloud.x_t0, cloud.x_t1, jobs=2)
+    result = assay.Detector(cloud.triangles, cloud.x_t0).step(cloud.x_t0, cloud.x_t1)
+    assert judgement.answer == result.answer == "collision"
+    assert judgement.first == result.first
+    assert np.array_equal(judgement.pairs, result.pairs)
+    assert np.array_equal(judgement.times, result.times)
+    assert judgement.feature_candidates > len(judgement.pairs)
+
+
+def test_the_oracle_refuses_what_the_detector_refuses(pair):
+    for triangles, x_t1, name in [
+        (pair.triangles + 1, pair.x_t1, "index_out_of_range"),
+        (pair.triangles, pair.x_t1[:-1], "wrong_frame_size"),
+        (pair.triangles, pair.x_t1 * np.nan, "non_finite_coordinate"),
+        (pair.triangles[:0], pair.x_t1, "no_triangles"),
+    ]:
+        with pytest.raises(assay.InputError) as error:
+            assay.judge(triangles, pair.x_t0, x_t1)
+        assert error.value.name == name
+        with pytest.raises(assay.InputError) as error:
+            assay.check((triangles, [pair.x_t0, x_t1]))
+        assert error.value.name == name
+    with pytest.raises(ValueError, match="jobs"):
+        assay.judge(pair.triangles, pair.x_t0, pair.x_t1, jobs=0)
+
+
+def test_an_exception_of_the_listener_ends_the_check(cloud):
+    def listen(said):
+        raise LookupError(said)
+
+    with pytest.raises(LookupError, match="160 triangles"):
+        assay.check((cloud.triangles, [cloud.x_t0, cloud.x_t1]), progress=listen)
+
+
+@pytest.mark.parametrize("work", ["judge", "check"])
+def test_ctrl_c_ends_the_judge(work):
+    """The signal comes while the work is under way: it takes longer than anybody waits."""
+    step = conftest.tetrahedra(3000)
+    step.x_t1 = step.x_t0 + np.random.default_rng(1).uniform(-40, 40, step.x_t0.shape)
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        if work == "judge":
+            assay.judge(step.triangles, step.x_t0, step.x_t1)
+        else:
+            assay.check((step.triangles, [step.x_t0, step.x_t1] * 100), progress=lambda said: None)
+
+
+def test_check_has_the_diff_as_objects_and_as_text(cloud):
+    frames = (cloud.triangles, np.stack([cloud.x_t0, cloud.x_t1, cloud.x_t0]))
+    told = []
+    report = assay.check(frames, progress=told.append)
+    assert (report.outcome, report.code, len(report.steps)) == ("holds", 0, 2)
+    assert report.steps[0].oracle_answer == "collision" and report.steps[0].diff.missing == ()
+    assert str(report).endswith("detector and oracle agree\n")
+    assert "".join(told) == report.text
+    assert report.json["schema"] == "assay-check/1"
+
+
+def test_case_files_are_checked_and_floats_miss_what_is_in_them():
+    wrong = 0
+    for file in sorted((SOURCES / "corpus/curated").glob("*.json")):
+        if json.loads(file.read_text())["expected"]["answer"] == "error":
+            continue
+        report = assay.check(file, arithmetic="float")
+        assert report.outcome == "holds", file  # for they claim nothing of that
+        wrong += any(step.diff.wrong_answer or step.diff.missing for step in report.steps)
+    assert wrong > 0
+
+
+def test_options_and_detectors_are_checked(pair):
+    frames = (pair.triangles, [pair.x_t0, pair.x_t1])
+    with pytest.raises(ValueError, match="culling"):
+        assay.check(frames, culling="fast")
+    with pytest.raises(ValueError, match="built-in"):
+        assay.check(frames, "libmine.so", culling="bvh")
+    with pytest.raises(ValueError, match="no such file"):
+        assay.check(frames, "./libnone.so")
+    with pytest.raises(TypeError, match="a detector is"):
+        assay.check(frames, 3)
+    with pytest.raises(TypeError, match="Frames"):
+        assay.check(3)
+    with pytest.raises(ValueError, match="two frames"):
+        assay.check((pair.triangles, [pair.x_t0]))
+
+
+def test_frames_are_read_by_the_own_readers_to_the_last_bit(pair, tmp_path):
+    for k, x in enumerate([pair.x_t0, pair.x_t1 / 3]):
+        write_ply(tmp_path / f"frame_{k}.ply", pair.triangles, x)
+    frames = assay.read_frames(tmp_path / "frame_*.ply")
+    assert len(frames) == 2 and frames.triangles.dtype == np.int32
+    assert np.array_equal(frames.triangles, pair.triangles)
+    assert np.array_equal(frames.positions[1], pair.x_t1 / 3)
+    assert [Path(file).name for file in frames.files] == ["frame_0.ply", "frame_1.ply"]
+    assert assay.check(frames).json["files"] == frames.files
+
+
+def test_frames_are_read_by_meshio_in_the_order_of_their_numbers(pair, tmp_path):
+    for k in (0, 2, 10):
+        cells = [("triangle", pair.triangles), ("line", np.array([[0, 1]]))]
+        meshio.write_points_cells(tmp_path / f"sim_{k}.vtu", pair.x_t0 + k, cells)
+    frames = assay.read_frames(str(tmp_path / "sim_*.vtu"))
+    assert [x[0, 0] for x in frames.positions] == [0, 2, 10]
+    assert np.array_equal(frames.triangles, pair.triangles)
+    write_ply(tmp_path / "last.ply", pair.triangles, pair.x_t1)
+    mixed = assay.read_frames([*frames.files, tmp_path / "last.ply"])
+    assert np.array_equal(mixed.positions[3], pair.x_t1)
+
+
+def test_files_that_are_no_frames_of_one_mesh_are_refused(pair, tmp_path):
+    write_ply(tmp_path / "one.ply", pair.triangles, pair.x_t0)
+    write_ply(tmp_path / "less.ply", pair.triangles[1:], pair.x_t0)
+    (tmp_path / "cut.ply").write_text("ply\n")
+    (tmp_path / "words.txt").write_text("ply\n")
+    meshio.write_points_cells(tmp_path / "solid.vtu", pair.x_t0, [("tetra", [[0, 1, 2, 3]])])
+    meshio.write_points_cells(tmp_path / "less.vtu", pair.x_t0, [("triangle", pair.triangles[1:])])
+    for files, text in [
+        (["one.ply", "less.ply"], "less.ply"),
+        (["one.ply", "less.vtu"], "triangles"),
+        (["cut.ply"], "cut.ply"),
+        (["words.txt"], "words.txt"),
+        (["solid.vtu"], "tetra"),
+    ]:
+        with pytest.raises(ValueError, match=text):
+            assay.read_frames([tmp_path / file for file in files])
+    with pytest.raises(FileNotFoundError, match="none"):
+        assay.read_frames(tmp_path / "none_*.ply")
+    with pytest.raises(ValueError, match="no frames"):
+        assay.read_frames([])
+
+
+@pytest.mark.parametrize("ending", ["vtu", "vtk"])
+def test_a_result_is_written_for_paraview(pair, tmp_path, ending):
+    result = assay.Detector(pair.triangles, pair.x_t0).step(pair.x_t0, pair.x_t1)
+    assay.write_vtk(result, tmp_path / f"step.{ending}")
+    mesh = meshio.read(tmp_path / f"step.{ending}")
+    assert len(mesh.points) == len(pair.x_t0) + 3
+    triangles, contacts = mesh.cells
+    assert np.array_equal(triangles.data, pair.triangles) and contacts.type == "vertex"
+    # The vertex that comes first touches the face x + y + z = 1.
+    assert np.allclose(mesh.points[contacts.data[:, 0]], 1 / 3)
+    assert mesh.cell_data["in_contact"][0].tolist() == [0, 0, 1, 0, 1, 1, 0, 1]
+    assert mesh.cell_data["view_sign"][0].tolist() == result.signs.tolist()
+    assert mesh.cell_data["pair_b"][1].tolist() == [4, 5, 7]
+    assert np.array_equal(mesh.cell_data["first_time"][1], result.times[:, 0])
+    assert np.array_equal(mesh.point_data["displacement"][:8], pair.x_t1 - pair.x_t0)
+
+
+def test_a_free_step_and_a_judgement_are_written_too(pair, tmp_path):
+    free = assay.Detector(pair.triangles, pair.x_t0, "bvh").step(pair.x_t0, pair.x_t0)
+    assay.write_vtk(free, tmp_path / "free.vtu")
+    mesh = meshio.read(tmp_path / "free.vtu")
+    assert [cells.type for cells in mesh.cells] == ["triangle"]
+    assert set(mesh.cell_data["view_sign"][0]) == {2}
+    judgement = assay.judge(pair.triangles, pair.x_t0, pair.x_t1)
+    assay.write_vtk(judgement, tmp_path / "judged.vtu")
+    assert "view_sign" not in meshio.read(tmp_path / "judged.vtu").cell_data
+
+
+def same_report(files, tmp_path):
+    command = [program(), "check", "--json", tmp_path / "report.json", *files]
+    code = subprocess.run(command, capture_output=True, check=False).returncode
+    expected = json.loads((tmp_path / "report.json").read_text())
+    report = assay.check(assay.read_frames(files))
+    assert report.code == code
+    assert without_times(report.json) == without_times(expected)
+    return report
+
+
+def test_a_report_is_that_of_the_command_line(cloud, tmp_path):
+    files = []
+    for k in range(4):
+        files.append(str(tmp_path / f"frame_{k}.ply"))
+        x = cloud.x_t0 + (cloud.x_t1 - cloud.x_t0) * k / 3
+        write_ply(files[-1], cloud.triangles, x)
+    report = same_report(files, tmp_path)
+    assert len(report.steps) == 3 and report.outcome == "holds"
+
+
+SEQUENCES = {
+    "cloth": ["ipc-toolkit/thick-cloth/t0.ply", "ipc-toolkit/thick-cloth/t1.ply"],
+    "rod": [f"scalable-ccd/rod-twist/frames/{k}.ply" for k in (3036, 3037)],
+    "dancer": [f"codim-ipc-kick/shell{k}.obj.gz" for k in range(56, 63)],
+}
+
+
+@pytest.mark.parametrize("name", SEQUENCES)
+def test_the_report_of_a_public_sequence_is_that_of_the_command_line(name, tmp_path):
+    files = [os.path.join(DATA, file) for file in SEQUENCES[name]]
+    if not DATA or not os.path.exists(files[0]):
+        pytest.skip(f"no public data: ASSAY_DATA is {DATA or 'not set'}")
+    same_report(files, tmp_path)
