@@ -25,6 +25,7 @@ struct Configuration {
 struct RunTimes {
   double create = 0;
   std::vector<double> steps;  // one for each: to its answer, and committed where the script says so
+  std::uint64_t peak_bytes = 0;  // resident memory of that process at its highest, since it began
 };
 
 enum class RunEnd : std::uint8_t {

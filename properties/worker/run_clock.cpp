@@ -1,5 +1,6 @@
 #include "properties/worker/run_clock.h"
 
+#include <sys/resource.h>
 #include <time.h>
 
 namespace assay::properties {
@@ -9,6 +10,13 @@ double processor_seconds_here() {
   timespec now = {};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::uint64_t peak_bytes_here() {
+  rusage use = {};
+  ::getrusage(RUSAGE_SELF, &use);
+  constexpr std::uint64_t bytes_a_kilobyte = 1024;
+  return bytes_a_kilobyte * static_cast<std::uint64_t>(use.ru_maxrss);
 }
 
 }  // namespace
@@ -34,7 +42,9 @@ void RunClock::answered() {
 }
 
 std::optional<RunTimes> RunClock::take() {
-  return is_on_ ? std::optional(std::move(times_)) : std::nullopt;
+  if (!is_on_) return std::nullopt;
+  times_.peak_bytes = peak_bytes_here();
+  return std::move(times_);
 }
 
 }  // namespace assay::properties
