@@ -83,9 +83,9 @@ std::string text_of(const Wanted& wanted);
 // A table, a line a row.
 std::string text_of(const BenchReport& report);
 nlohmann::ordered_json to_json(const BenchReport& report);
-// A line a raw sample; of suite peers a line a family and detector (peer_output.h); of suite speed-error a line a step and variant (error_output.h), of suite
-// stability a line a cell (stability_output.h), of a plug-in a line a sequence and round
-// (compared_output.h).
+// A line a raw sample; of suite peers a line a family and detector (peer_output.h); of suite
+// speed-error a line a step and variant (error_output.h), of suite stability a line a cell
+// (stability_output.h), of a plug-in a line a sequence and round (compared_output.h).
 std::string csv_of(const BenchReport& report);
 
 }  // namespace assay::reports

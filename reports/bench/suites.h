@@ -44,7 +44,7 @@ BenchReport stability_suite(const BenchSettings& settings, Progress& progress);
 // oracle.
 BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress);
 
-// The detectors of others that are there beside the built-in one, on the same steps: time and error.
+// The detectors of others that are there, beside the built-in one: time and error.
 BenchReport peers_suite(const BenchSettings& settings, Progress& progress);
 
 // What judging costs: the oracle on a real step and on queries, a campaign's steps a second.

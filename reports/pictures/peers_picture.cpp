@@ -23,11 +23,11 @@ std::string colour_of(const PeerRow& row, std::size_t place) {
   return row.is_built_in ? colour::blue : colours[place % colours.size()];
 }
 
-// Numbers of gnuplot's points: hollow, and filled one further. Each shape once before it comes
-// again.
+// Numbers of gnuplot's points: hollow, and filled one further. A shape that comes again has another
+// colour than before.
 int point_of(std::size_t place) {
   constexpr std::array hollow = {4, 6, 8, 10, 12, 14};
-  return hollow[place % hollow.size()];
+  return hollow[(place + place / hollow.size()) % hollow.size()];
 }
 
 std::string block_name(const char* panel, std::size_t place) {
@@ -91,7 +91,8 @@ std::string range_of_times(const BenchReport& report) {
 std::string peers_picture(const BenchReport& report) {
   std::string script = picture_head(1080, 480);
   script += data(report, "unsafe", unsafe_of) + data(report, "alarms", alarms_of);
-  script += "set logscale x\n" + range_of_times(report) +
+  script += "set logscale x\nset xtics (0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\n" +
+            range_of_times(report) +
             // Shares near 0 and shares of some tens of % on one axis; 0 is on it.
             "set nonlinear y via asinh(10*y) inverse sinh(y)/10\n"
             "set yrange [-0.03:100]\n"
@@ -99,7 +100,7 @@ std::string peers_picture(const BenchReport& report) {
             "set multiplot\nset key off\nset bmargin at screen 0.14\nset tmargin at screen 0.9\n"
             "set xlabel 'time of a step over that of built-in, exact, bvh, times'\n"
             "set ylabel '% of the steps that its contract takes'\n"
-            "set lmargin at screen 0.06\nset rmargin at screen 0.385\n"
+            "set lmargin at screen 0.07\nset rmargin at screen 0.385\n"
             "set title 'Unsafe: a contact missed, or a time too late'\n";
   script += plots(report, "unsafe");
   script +=

@@ -66,6 +66,7 @@ SLOW = {
     "README.md": [
         "build/release/assay self-test --jobs 2",
         "build/release/assay bench --suite speed-error --svg reports/pictures/speed-error.svg",
+        "build/release/assay bench --suite peers --svg reports/pictures/peers.svg",
         "build/release/assay run --campaign smoke --out build/smoke",
         "build/release/assay run --campaign smoke --detector ./libmine.so --power build/smoke --out build/mine",
         "build/release/assay certify --campaign quick --out build/quick",
@@ -125,6 +126,7 @@ NO_COMMAND = {
         "verdict: certified in": "what reports/certify prints",
         "step 11: collision at": "what `assay check` prints",
         "arithmetic culling": "the table of `assay bench --suite speed-error`",
+        "detector answers": "the table of `assay bench --suite peers`",
         "canary pair/zero-zero-dropped": "what `assay run` prints",
         "frames, cases, queries, scenes": "a drawing of the rooms",
     },

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* row_form =
-    "{:<38}{:<19} {:>7} {:>5} {:>7} {:>7} {:>7} {:<11} {:<11} {:>9} {:>4} {:>6}  {}\n";
+    "{:<37} {:<8}{:<19} {:>7} {:>6} {:>6} {:>10} {:>10} {:>9} {:>4} {:>5} {:>6} {:>5}\n";
 
 std::string text_of(const PeerTimes& times) {
   return times.steps == 0 ? "0" : fmt::format("{}: {:.1g}", times.steps, times.worst);
@@ -22,6 +22,14 @@ std::string time_text(const std::optional<Estimate>& over) {
   return over ? fmt::format("{:.3g} [{:.2g}, {:.2g}]", over->value, over->lo, over->hi) : "-";
 }
 
+// "a t p": a collision or not, when first, which pairs.
+std::string letters_of(const PeerRow& row) {
+  std::string letters = "a";
+  letters += row.answers.find("time") == std::string::npos ? "  " : " t";
+  letters += row.answers.find("pairs") == std::string::npos ? "" : " p";
+  return letters;
+}
+
 std::string text_of(const PeerRow& row) {
   const auto& c = row.counts;
   // In brackets: nothing that it promised.
@@ -29,11 +37,11 @@ std::string text_of(const PeerRow& row) {
     return row.claims_soundness || count == 0 ? fmt::format("{}", count)
                                               : fmt::format("({})", count);
   };
-  return fmt::format(
-      fmt::runtime(row_form), row.detector, time_text(row.over),
-      row.create_over ? fmt::format("{:.2g}", *row.create_over) : "-", c.steps, asked(c.unsafe),
-      asked(c.missed), c.false_alarms, text_of(c.late), text_of(c.early), c.undecided, row.slow,
-      row.bytes_a_triangle ? fmt::format("{:.0f}", *row.bytes_a_triangle) : "-", row.answers);
+  return fmt::format(fmt::runtime(row_form), row.detector, letters_of(row), time_text(row.over),
+                     asked(c.unsafe), asked(c.missed), c.false_alarms, text_of(c.late),
+                     text_of(c.early), c.undecided, row.slow, c.steps,
+                     row.create_over ? fmt::format("{:.2g}", *row.create_over) : "-",
+                     row.bytes_a_triangle ? fmt::format("{:.0f}", *row.bytes_a_triangle) : "-");
 }
 
 Json json_of(const PeerTimes& times) {
@@ -57,8 +65,8 @@ Json json_of(const std::optional<double>& value) { return value ? Json(*value) :
 std::string text_of(std::span<const PeerRow> rows, std::span<const PeerFamily> families,
                     std::span<const AbsentPeer> absent) {
   std::string text =
-      fmt::format(fmt::runtime(row_form), "detector", "time", "create", "steps", "unsafe", "missed",
-                  "alarms", "late", "early", "undecided", "slow", "bytes", "answers");
+      fmt::format(fmt::runtime(row_form), "detector", "answers", "time", "unsafe", "missed",
+                  "alarms", "late", "early", "undecided", "slow", "steps", "create", "bytes");
   std::uint64_t is_unsafe = 0, confirmed = 0;
   for (const auto& row : rows) {
     text += text_of(row);
@@ -66,12 +74,9 @@ std::string text_of(std::span<const PeerRow> rows, std::span<const PeerFamily> f
     confirmed += row.counts.confirmed;
   }
   text +=
-      "time and create (preprocessing): over built-in, exact, bvh, on the same steps; median of "
-      "the "
-      "families\n"
-      "each in its own contract; (n): not promised; late and early: steps and the worst, as a "
-      "share "
-      "of the step\n"
+      "answers: a collision or not, t when first, p which pairs; each in its own contract\n"
+      "time, create (preprocessing): over built-in, exact, bvh, same steps; medians of families\n"
+      "(n): of what was not promised; late, early: steps, and the worst as a share of the step\n"
       "slow: cases with a step of more than 5 s, run once; bytes: a triangle, at the highest\n";
   text += fmt::format("unsafe answers confirmed by referee or rational witness: {} of {}\n",
                       confirmed, is_unsafe);

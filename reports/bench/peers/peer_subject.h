@@ -1,4 +1,4 @@
-// Who takes part in suite `peers`: the built-in detector in six forms, and the plug-ins of a folder.
+// Who takes part in suite `peers`: the built-in detector in six forms, and a folder of plug-ins.
 #pragma once
 
 #include <string>
