@@ -126,7 +126,7 @@ NO_COMMAND = {
         "verdict: certified in": "what reports/certify prints",
         "step 11: collision at": "what `assay check` prints",
         "arithmetic culling": "the table of `assay bench --suite speed-error`",
-        "detector answers": "the table of `assay bench --suite peers`",
+        "built-in, exact, bvh": "the table of `assay bench --suite peers`",
         "canary pair/zero-zero-dropped": "what `assay run` prints",
         "frames, cases, queries, scenes": "a drawing of the rooms",
     },

@@ -1,6 +1,7 @@
 #include "reports/bench/peers/confirmation.h"
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -44,6 +45,18 @@ oracle::RationalTime simplest_between(double lo, double hi) {
   return {p1, std::max<std::int64_t>(q1, 1)};
 }
 
+// The time of the fewest binary digits in [lo, hi), if there is one.
+std::optional<double> shortest_between(double lo, double hi) {
+  constexpr int digits_of_a_double = 53;
+  for (int digits = 0; digits <= digits_of_a_double; ++digits) {
+    const double time = std::ldexp(std::ceil(std::ldexp(lo, digits)), -digits);
+    if (time < hi) return time;
+  }
+  return std::nullopt;
+}
+
+using Rational = boost::multiprecision::cpp_rational;
+
 class StepWitness {
  public:
   StepWitness(const corpus::Case& c, const corpus::CaseStep& step, bool takes_triangles)
@@ -68,6 +81,7 @@ class StepWitness {
           times.emplace_back(*time);
       }
     }
+    if (told && by_referee_until(contact, *told)) return true;
     return std::any_of(times.begin(), times.end(), [&](const oracle::StaticTime& time) {
       if (oracle::compare(time, 0) < 0 || oracle::compare(time, end) > 0) return false;
       if (told && oracle::compare(time, *told) >= 0) return false;
@@ -80,17 +94,33 @@ class StepWitness {
     return detector::moving_point(x_t0_, x_t1_, v);
   }
 
+  // Of the part of the step that ends before the time told, where doubles hold its end exactly.
+  bool by_referee_until(const PairContact& contact, double told) const {
+    const auto end = shortest_between(contact.time.hi, told);
+    if (!end) return false;
+    StepWitness part = *this;
+    for (const auto v : contact.feature.vertices) {
+      if (v < 0) continue;
+      for (int k = 0; k < 3; ++k) {
+        const Rational from(x_t0_(v, k)), way = Rational(x_t1_(v, k)) - from;
+        const Rational place = from + Rational(*end) * way;
+        part.x_t1_(v, k) = static_cast<double>(place);
+        if (Rational(part.x_t1_(v, k)) != place) return false;
+      }
+    }
+    return part.by_referee(contact.feature);
+  }
+
   bool by_referee(const detector::Feature& feature) const {
+    using oracle::referee, oracle::RefereeVerdict;
     const auto& v = feature.vertices;
-    if (feature.kind == FeatureKind::vertex_face)
-      return oracle::referee(
-                 detector::VertexFace{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}}) ==
-             oracle::RefereeVerdict::contact;
-    if (feature.kind == FeatureKind::edge_edge)
-      return oracle::referee(
-                 detector::EdgeEdge{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}}) ==
-             oracle::RefereeVerdict::contact;
-    return false;
+    if (feature.kind == FeatureKind::vertex_face) {
+      const detector::VertexFace query{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}};
+      return referee(query) == RefereeVerdict::contact;
+    }
+    if (feature.kind != FeatureKind::edge_edge) return false;
+    const detector::EdgeEdge query{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}};
+    return referee(query) == RefereeVerdict::contact;
   }
 
   // The features alone are triangles that have become a point, a segment, or are one.
@@ -110,7 +140,7 @@ class StepWitness {
   }
 
   const corpus::Case& c_;
-  const detector::Positions &x_t0_, &x_t1_;
+  detector::Positions x_t0_, x_t1_;
   bool takes_triangles_;
 };
 
