@@ -11,6 +11,7 @@
 #include <tbb/global_control.h>
 
 #include <ipc/broad_phase/lbvh.hpp>
+#include <ipc/config.hpp>
 #include <ipc/ipc.hpp>
 #include <ipc/utils/logger.hpp>
 #include <memory>
@@ -42,7 +43,7 @@ class IpcStep {
 
   static plugin::Description description() {
     plugin::Description d;
-    d.version = ASSAY_PEER_VERSION;
+    d.version = IPC_TOOLKIT_VER;
     d.start = ASSAY_START_FREE;
     d.least_nonzero = 1e-6;
     d.largest = 1e6;

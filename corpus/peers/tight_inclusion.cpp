@@ -1,16 +1,16 @@
 // Tight-Inclusion, a conservative test by inclusion functions (Wang et al. 2021), put to all pairs
 // of features of triangles whose swept boxes meet.
 //
-// Version: 1.0.6, from its public sources. Functions: ticcd::vertexFaceCCD and ticcd::edgeEdgeCCD
-// of tight_inclusion/ccd.hpp. Settings, those that its README suggests for a single query: err
-// {-1, -1, -1} (it computes the bound of the query), ms 0, tolerance 1e-6, t_max 1, max_itr 1e6,
-// no_zero_toi false, breadth-first. Contract: no contact at the start and coordinates of usual
-// sizes, for its tolerance is a length; its time is a lower bound. Claims: free-sound and not-late
-// from its README ("Because our method is conservative, we guarantee a result of false implies no
-// collision occurs"; "toi: ... it will return the earliest collision time"); total and
-// deterministic, for they are functions of their arguments that return a bool. A collision where
-// features only come nearer to each other than tolerance is what it announces, so no-spurious is
-// not claimed.
+// Version: tag v1.0.6 of its public sources, which calls itself 1.0.4. Functions:
+// ticcd::vertexFaceCCD and ticcd::edgeEdgeCCD of tight_inclusion/ccd.hpp. Settings, those that its
+// README suggests for a single query: err {-1, -1, -1} (it computes the bound of the query), ms 0,
+// tolerance 1e-6, t_max 1, max_itr 1e6, no_zero_toi false, breadth-first. Contract: no contact at
+// the start and coordinates of usual sizes, for its tolerance is a length; its time is a lower
+// bound. Claims: free-sound and not-late from its README ("Because our method is conservative, we
+// guarantee a result of false implies no collision occurs"; "toi: ... it will return the earliest
+// collision time"); total and deterministic, for they are functions of their arguments that return
+// a bool. A collision where features only come nearer to each other than tolerance is what it
+// announces, so no-spurious is not claimed.
 #include <tight_inclusion/ccd.hpp>
 
 #include "corpus/peers/feature_pairs.h"
@@ -52,7 +52,7 @@ struct TightInclusion : FeaturePairs<TightInclusionTests> {
   static plugin::Description describe() {
     plugin::Description d;
     d.name = "Tight-Inclusion, all pairs";
-    d.version = ASSAY_PEER_VERSION;
+    d.version = TIGHT_INCLUSION_VER;
     d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_DETERMINISTIC |
                ASSAY_CLAIM_TOTAL;
     d.start = ASSAY_START_FREE;

@@ -130,6 +130,9 @@ NO_COMMAND = {
         "canary pair/zero-zero-dropped": "what `assay run` prints",
         "frames, cases, queries, scenes": "a drawing of the rooms",
     },
+    "corpus/peers/README.md": {
+        "built-in, exact, bvh": "rows of the table of `assay bench --suite peers`",
+    },
     "detector/README.md": {
         '#include "detector/detector.h"': "C++; tests/consumer compiles a whole program like it",
     },

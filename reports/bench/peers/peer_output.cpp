@@ -67,19 +67,19 @@ std::string text_of(std::span<const PeerRow> rows, std::span<const PeerFamily> f
   std::string text =
       fmt::format(fmt::runtime(row_form), "detector", "answers", "time", "unsafe", "missed",
                   "alarms", "late", "early", "undecided", "slow", "steps", "create", "bytes");
-  std::uint64_t is_unsafe = 0, confirmed = 0;
+  PeerCounts peers, built_in;
   for (const auto& row : rows) {
     text += text_of(row);
-    is_unsafe += row.counts.unsafe;
-    confirmed += row.counts.confirmed;
+    (row.is_built_in ? built_in : peers).add(row.counts);
   }
   text +=
       "answers: a collision or not, t when first, p which pairs; each in its own contract\n"
       "time, create (preprocessing): over built-in, exact, bvh, same steps; medians of families\n"
       "(n): of what was not promised; late, early: steps, and the worst as a share of the step\n"
       "slow: cases with a step of more than 5 s, run once; bytes: a triangle, at the highest\n";
-  text += fmt::format("unsafe answers confirmed by referee or rational witness: {} of {}\n",
-                      confirmed, is_unsafe);
+  text += fmt::format(
+      "unsafe answers confirmed by referee or rational witness: {} of {}, built-in {} of {}\n",
+      peers.confirmed, peers.unsafe, built_in.confirmed, built_in.unsafe);
   for (const auto& family : families) {
     if (family.ended > 0)
       text += fmt::format("ended early: {}, {}: {} of {} cases, first {}\n", family.detector,

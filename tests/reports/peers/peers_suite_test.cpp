@@ -43,8 +43,12 @@ TEST(PeersSuite, EveryPeerThatIsPresentHasFigures) {
     EXPECT_EQ(counts["left_out"], 0) << name;
     const bool is_exact = name.find("exact") != std::string::npos;
     const bool is_bounded = name.find("bounded") != std::string::npos;
-    if (is_exact || is_bounded) EXPECT_EQ(counts["unsafe"], 0) << name;
-    if (is_exact) EXPECT_EQ(counts["false_alarms"], 0) << name;
+    if (is_exact || is_bounded) {
+      EXPECT_EQ(counts["unsafe"], 0) << name;
+    }
+    if (is_exact) {
+      EXPECT_EQ(counts["false_alarms"], 0) << name;
+    }
   }
 }
 
