@@ -1,7 +1,6 @@
 #include "reports/bench/peers/confirmation.h"
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -45,18 +44,6 @@ oracle::RationalTime simplest_between(double lo, double hi) {
   return {p1, std::max<std::int64_t>(q1, 1)};
 }
 
-// The time of the fewest binary digits in [lo, hi), if there is one.
-std::optional<double> shortest_between(double lo, double hi) {
-  constexpr int digits_of_a_double = 53;
-  for (int digits = 0; digits <= digits_of_a_double; ++digits) {
-    const double time = std::ldexp(std::ceil(std::ldexp(lo, digits)), -digits);
-    if (time < hi) return time;
-  }
-  return std::nullopt;
-}
-
-using Rational = boost::multiprecision::cpp_rational;
-
 class StepWitness {
  public:
   StepWitness(const corpus::Case& c, const corpus::CaseStep& step, bool takes_triangles)
@@ -68,8 +55,8 @@ class StepWitness {
   // Whether the contact's features, or its triangles, meet at some time before `told`, or, where
   // nothing was told, at all.
   bool meets_before(const PairContact& contact, std::optional<double> told) const {
-    if (!told && by_referee(contact.feature)) return true;
     const double end = told.value_or(1), first = contact.time.hi;
+    if (by_referee(contact.feature, told ? std::nextafter(end, 0.) : 1)) return true;
     std::vector<oracle::StaticTime> times = {contact.time.lo, first};
     for (const double share : {1. / 1024, 1. / 16, 1. / 2})
       times.emplace_back(first + (end - first) * share);
@@ -81,7 +68,6 @@ class StepWitness {
           times.emplace_back(*time);
       }
     }
-    if (told && by_referee_until(contact, *told)) return true;
     return std::any_of(times.begin(), times.end(), [&](const oracle::StaticTime& time) {
       if (oracle::compare(time, 0) < 0 || oracle::compare(time, end) > 0) return false;
       if (told && oracle::compare(time, *told) >= 0) return false;
@@ -94,33 +80,19 @@ class StepWitness {
     return detector::moving_point(x_t0_, x_t1_, v);
   }
 
-  // Of the part of the step that ends before the time told, where doubles hold its end exactly.
-  bool by_referee_until(const PairContact& contact, double told) const {
-    const auto end = shortest_between(contact.time.hi, told);
-    if (!end) return false;
-    StepWitness part = *this;
-    for (const auto v : contact.feature.vertices) {
-      if (v < 0) continue;
-      for (int k = 0; k < 3; ++k) {
-        const Rational from(x_t0_(v, k)), way = Rational(x_t1_(v, k)) - from;
-        const Rational place = from + Rational(*end) * way;
-        part.x_t1_(v, k) = static_cast<double>(place);
-        if (Rational(part.x_t1_(v, k)) != place) return false;
-      }
-    }
-    return part.by_referee(contact.feature);
-  }
-
-  bool by_referee(const detector::Feature& feature) const {
+  // Whether it proves a contact of these features up to a time.
+  bool by_referee(const detector::Feature& feature, double until) const {
     using oracle::referee, oracle::RefereeVerdict;
+    if (until <= 0) return false;
+    const oracle::RefereeOptions options{.until = until};
     const auto& v = feature.vertices;
     if (feature.kind == FeatureKind::vertex_face) {
       const detector::VertexFace query{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}};
-      return referee(query) == RefereeVerdict::contact;
+      return referee(query, options) == RefereeVerdict::contact;
     }
     if (feature.kind != FeatureKind::edge_edge) return false;
     const detector::EdgeEdge query{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}};
-    return referee(query) == RefereeVerdict::contact;
+    return referee(query, options) == RefereeVerdict::contact;
   }
 
   // The features alone are triangles that have become a point, a segment, or are one.
@@ -140,7 +112,7 @@ class StepWitness {
   }
 
   const corpus::Case& c_;
-  detector::Positions x_t0_, x_t1_;
+  const detector::Positions &x_t0_, &x_t1_;
   bool takes_triangles_;
 };
 
