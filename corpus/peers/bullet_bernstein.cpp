@@ -20,7 +20,7 @@ namespace assay::peers {
 namespace {
 
 struct BulletTests {
-  static std::optional<plugin::Interval> vertex_face(const FourPaths& paths) {
+  static Time vertex_face(const FourPaths& paths) {
     const btScalar dt = 1, margin = SAFE_EPSILON;
     btSoftBody::Node nodes[4];
     for (int i = 0; i < 4; ++i) {
@@ -40,7 +40,7 @@ struct BulletTests {
     return plugin::Interval{{0, 1}};
   }
   // It has no such test.
-  static std::optional<plugin::Interval> edge_edge(const FourPaths&) { return std::nullopt; }
+  static Time edge_edge(const FourPaths&) { return std::nullopt; }
 
  private:
   static btVector3 vector_of(const double* p) {

@@ -21,7 +21,7 @@ using Intersect = fcl::detail::Intersect<double>;
 using Point = fcl::Vector3<double>;
 
 struct FclTests {
-  static std::optional<plugin::Interval> vertex_face(const FourPaths& paths) {
+  static Time vertex_face(const FourPaths& paths) {
     const Corners p(paths);
     double time = 2;
     Point where;
@@ -29,7 +29,7 @@ struct FclTests {
                                                p(1, 3), p(1, 0), &time, &where);
     return time_of(found, time);
   }
-  static std::optional<plugin::Interval> edge_edge(const FourPaths& paths) {
+  static Time edge_edge(const FourPaths& paths) {
     const Corners p(paths);
     double time = 2;
     Point where;
@@ -47,7 +47,7 @@ struct FclTests {
       return {p[0], p[1], p[2]};
     }
   };
-  static std::optional<plugin::Interval> time_of(bool found, double time) {
+  static Time time_of(bool found, double time) {
     if (!found) return std::nullopt;
     return plugin::Interval{{time, time}};
   }

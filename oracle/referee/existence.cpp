@@ -178,7 +178,7 @@ std::optional<Crossing> guess_crossing(const DoubleHull& hull, double s, double 
   return std::nullopt;
 }
 
-bool crossing_in_a_box(const IntegerHull& hull, const Crossing& guess) {
+bool crossing_in_a_box(const IntegerHull& hull, const Crossing& guess, double until) {
   const IntegerMap map(hull, guess.base);
   const auto middle = [](double x) { return range_about(x, kParameterBits).lo; };
   const auto rows = map.adjugate(middle(guess.t), middle(guess.u), middle(guess.v));
@@ -187,6 +187,7 @@ bool crossing_in_a_box(const IntegerHull& hull, const Crossing& guess) {
   for (const int bits : {6, 12, 20, 27, 34, 42}) {
     const std::array<Range, 3> box = {range_about(guess.t, bits), range_about(guess.u, bits),
                                       range_about(guess.v, bits)};
+    if (std::ldexp(static_cast<double>(box[0].hi), -kParameterBits) > until) continue;
     if (hull.t0.corners == 3 && box[1].hi + box[2].hi > kOne) continue;
     if (signs_differ_on_opposite_sides(map, *rows, box)) return true;
   }

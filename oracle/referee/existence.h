@@ -34,7 +34,8 @@ std::optional<Crossing> guess_crossing(const DoubleHull& hull, double s, double 
 // the Jacobian of f at the guess (regular, checked). Each component of g is affine in each of t, u,
 // v alone, so its extremes on a side of the box are at the side's four corners. When component i is
 // <= 0 on one side of direction i and >= 0 on the other, for all three, g has a zero in the box and
-// so has f. The box lies in [0,1] x hull. All in integers; some 20 us a box. False says nothing.
-bool crossing_in_a_box(const IntegerHull& hull, const Crossing& guess);
+// so has f. The box lies in [0,until] x hull, until at most 1. All in integers; some 20 us a box.
+// False says nothing.
+bool crossing_in_a_box(const IntegerHull& hull, const Crossing& guess, double until = 1);
 
 }  // namespace assay::oracle

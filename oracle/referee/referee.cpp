@@ -35,7 +35,7 @@ class Referee {
       pieces.clear();
       for (const std::int64_t k : left) {
         pieces.push_back(2 * k);
-        pieces.push_back(2 * k + 1);
+        if (begins_in_time(2 * k + 1, depth + 1)) pieces.push_back(2 * k + 1);
       }
     }
     return RefereeVerdict::open;
@@ -56,6 +56,11 @@ class Referee {
     return std::ldexp(static_cast<double>(k), -depth);
   }
 
+  // Whether the piece is not wholly behind the time up to which is asked.
+  bool begins_in_time(std::int64_t k, int depth) const {
+    return depth > kMostDepthOfDoubles || time(k, depth) < options_.until;
+  }
+
   bool separated(std::int64_t k, int depth) {
     if (depth <= kMostDepthOfDoubles) {
       const Separation quick = separated_in_double(hull_, time(k, depth), time(k + 1, depth));
@@ -65,7 +70,7 @@ class Referee {
   }
 
   bool contact_in_some(const std::vector<std::int64_t>& left, int depth) {
-    if (depth == 0 && contact_at({1, 1})) return true;
+    if (depth == 0 && options_.until >= 1 && contact_at({1, 1})) return true;
     const std::size_t tries = std::min(left.size(), kWitnessesALevel);
     for (std::size_t i = 0; i < tries; ++i) {
       const std::int64_t k = left[i * left.size() / tries];
@@ -78,6 +83,7 @@ class Referee {
   bool contact_at(const Fraction& time) {
     if (std::find(tried_.begin(), tried_.end(), time) != tried_.end()) return false;
     tried_.push_back(time);
+    if (mpq_class(time.p, time.q) > mpq_class(options_.until)) return false;
     return contains_origin(exact().at(time.p, time.q));
   }
 
@@ -92,7 +98,7 @@ class Referee {
       }
     }
     refused_.push_back(*guess);
-    return crossing_in_a_box(exact(), *guess);
+    return crossing_in_a_box(exact(), *guess, options_.until);
   }
 
   const Query& query_;

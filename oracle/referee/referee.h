@@ -26,6 +26,8 @@ struct RefereeOptions {
   int depth = 60;
   // Pieces of the step looked at, at most.
   std::uint64_t max_boxes = 1000;
+  // The question is about the step up to here: above 0, at most 1.
+  double until = 1;
 };
 
 // An open verdict never becomes the opposite of a decided one: more depth only settles more.

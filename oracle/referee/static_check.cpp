@@ -1,5 +1,6 @@
 #include "oracle/referee/static_check.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Intersections_3/Point_3_Segment_3.h>
 #include <CGAL/Intersections_3/Point_3_Triangle_3.h>
@@ -181,3 +182,12 @@ bool triangles_meet(const detector::PositionsView& x_t0, const detector::Positio
 }
 
 }  // namespace assay::oracle
+
+extern "C" int assay_triangles_meet_now(const double* a, const double* b) {
+  using Doubles = CGAL::Exact_predicates_inexact_constructions_kernel;
+  const auto triangle_of = [](const double* p) {
+    return Doubles::Triangle_3({p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]});
+  };
+  const auto s = triangle_of(a), t = triangle_of(b);
+  return !s.is_degenerate() && !t.is_degenerate() && CGAL::do_intersect(s, t) ? 1 : 0;
+}

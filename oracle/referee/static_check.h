@@ -32,3 +32,8 @@ bool triangles_meet(const detector::PositionsView& x_t0, const detector::Positio
                     const StaticTime& time);
 
 }  // namespace assay::oracle
+
+// CGAL's own test of two triangles at rest, for a detector of corpus/peers that samples a step and
+// is compiled with this file; the oracle asks nothing of it. Nine numbers each, corner by corner,
+// finite. Exact on these doubles; touching counts; 0 where a triangle has no area.
+extern "C" int assay_triangles_meet_now(const double* a, const double* b);

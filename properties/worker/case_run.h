@@ -25,6 +25,8 @@ struct Configuration {
 struct RunTimes {
   double create = 0;
   std::vector<double> steps;  // one for each: to its answer, and committed where the script says so
+  // Resident memory of that process at its highest, since it began; 0 where the system tells none.
+  std::uint64_t peak_bytes = 0;
 };
 
 enum class RunEnd : std::uint8_t {

@@ -7,7 +7,8 @@
 
 namespace assay::properties {
 
-// Counts the processor time of this process with all of its threads; nothing where it is off.
+// Counts the processor time of this process with all of its threads, and its memory; nothing where
+// it is off.
 class RunClock {
  public:
   // Begins with the making of the detector.

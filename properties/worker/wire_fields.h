@@ -89,8 +89,8 @@ void fields(Wire& wire, detector::StepResult& result) {
 
 template <class Wire>
 void fields(Wire& wire, RunTimes& times) {
-  auto& [create, steps] = times;
-  wire(create, steps);
+  auto& [create, steps, peak_bytes] = times;
+  wire(create, steps, peak_bytes);
 }
 
 template <class Wire>

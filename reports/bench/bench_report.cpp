@@ -7,6 +7,7 @@
 
 #include "properties/words.h"
 #include "reports/bench/detector/compared_output.h"
+#include "reports/bench/peers/peer_output.h"
 #include "reports/bench/speed_error/error_output.h"
 #include "reports/bench/stability/stability_output.h"
 #include "reports/terminal/version.h"
@@ -82,6 +83,11 @@ std::string text_of(const BenchReport& report) {
     text += fmt::format("\n{}\n{}\n", families_text(report.families),
                         text_of(std::span(report.variants)));
   }
+  if (!report.peers.empty()) {
+    text += text_of(std::span(report.peers), std::span(report.peer_families),
+                    std::span(report.absent_peers));
+    text += unconfirmed_text(report.unsafe_answers);
+  }
   for (const auto& line : report.wrong_answers) text += "WRONG ANSWER: " + line + "\n";
   return text;
 }
@@ -117,6 +123,10 @@ Json to_json(const BenchReport& report) {
           {"families", to_json(std::span(report.families))},
           {"detector", report.detector ? to_json(*report.detector) : Json()},
           {"sequences", to_json(std::span(report.sequences))},
+          {"peers", to_json(std::span(report.peers))},
+          {"peer_families", to_json(std::span(report.peer_families))},
+          {"absent_peers", to_json(std::span(report.absent_peers))},
+          {"unsafe_answers", to_json(std::span(report.unsafe_answers))},
           {"wrong_answers", report.wrong_answers}};
 }
 
@@ -135,6 +145,7 @@ std::string quoted(const std::string& words) {
 std::string csv_of(const BenchReport& report) {
   if (!report.steps.empty()) return csv_of(std::span(report.steps));
   if (!report.heat.empty()) return csv_of(std::span(report.heat));
+  if (!report.peers.empty()) return csv_of(std::span(report.peer_families));
   if (report.detector) return csv_of(std::span(report.sequences));
   std::string text = "suite,what,unit,sample,value\n";
   for (const auto& row : report.rows) {

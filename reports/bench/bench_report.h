@@ -9,6 +9,7 @@
 
 #include "reports/bench/detector/compared_sequence.h"
 #include "reports/bench/estimate.h"
+#include "reports/bench/peers/peer_summary.h"
 #include "reports/bench/speed_error/error_summary.h"
 #include "reports/bench/stability/stability_cell.h"
 #include "reports/bench/wanted.h"
@@ -63,6 +64,11 @@ struct BenchReport {
   // Of `bench --detector`.
   std::optional<ComparedDetector> detector;
   std::vector<ComparedSequence> sequences;
+  // Of suite peers.
+  std::vector<PeerRow> peers;
+  std::vector<PeerFamily> peer_families;
+  std::vector<AbsentPeer> absent_peers;
+  std::vector<UnsafeAnswer> unsafe_answers;
 
   void add(std::string what, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});
@@ -77,9 +83,9 @@ std::string text_of(const Wanted& wanted);
 // A table, a line a row.
 std::string text_of(const BenchReport& report);
 nlohmann::ordered_json to_json(const BenchReport& report);
-// A line a raw sample; of suite speed-error a line a step and variant (error_output.h), of suite
-// stability a line a cell (stability_output.h), of a plug-in a line a sequence and round
-// (compared_output.h).
+// A line a raw sample; of suite peers a line a family and detector (peer_output.h); of suite
+// speed-error a line a step and variant (error_output.h), of suite stability a line a cell
+// (stability_output.h), of a plug-in a line a sequence and round (compared_output.h).
 std::string csv_of(const BenchReport& report);
 
 }  // namespace assay::reports

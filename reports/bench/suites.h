@@ -14,6 +14,11 @@ namespace assay::reports {
 struct BenchSettings {
   std::string data;  // the folder of the public data; rows of what is not there say so
   double scale = 1;  // of mesh sizes, query counts and rounds: tests take less
+  // Of suite peers: the folder of the plug-ins, processor seconds that a sequence may take, threads
+  // of the oracle.
+  std::string peers = {};
+  double case_seconds = 60;
+  int jobs = 1;
 
   int triangles(int full) const;  // at least 320
   int rounds(int full) const;     // at least 2
@@ -42,6 +47,9 @@ BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress)
 // Whole sequences by each culling and by several threads: what the default costs beside the best
 // choice.
 BenchReport sequences_suite(const BenchSettings& settings, Progress& progress);
+
+// The detectors of others that are there, beside the built-in one: time and error.
+BenchReport peers_suite(const BenchSettings& settings, Progress& progress);
 
 // What judging costs: the oracle on a real step and on queries, a campaign's steps a second.
 BenchReport harness_suite(const BenchSettings& settings, Progress& progress);

@@ -11,6 +11,9 @@ namespace assay::reports {
 // steps, intervals on both axes, the Pareto line of each. All pairs.
 std::string speed_error_picture(const BenchReport& report);
 
+// The same of the peers and the built-in detector beside them, each in its own contract.
+std::string peers_picture(const BenchReport& report);
+
 // Time of a step over that of bvh, and of normal-cone, against the share of V+.
 std::string share_picture(const BenchReport& report);
 

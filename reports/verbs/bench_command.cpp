@@ -23,6 +23,7 @@ struct BenchRequest {
   int jobs = 1;
   bool is_quick = false;
   std::string data;                           // folder of the public data
+  std::string peers;                          // folder of the plug-ins of suite peers
   std::string json_file, csv_file, svg_file;  // empty: none
 };
 
@@ -38,6 +39,7 @@ constexpr Suite suites[] = {{"elementary", elementary_suite, nullptr},
                             {"stability", stability_suite, heat_picture},
                             {"speed-error", speed_error_suite, speed_error_picture},
                             {"sequences", sequences_suite, nullptr},
+                            {"peers", peers_suite, peers_picture},
                             {"harness", harness_suite, nullptr}};
 
 const Suite* suite_named(std::string_view name) {
@@ -52,7 +54,7 @@ std::string no_picture(const BenchRequest& request, const Suite* suite) {
   if (request.svg_file.empty()) return {};
   if (!suite || !suite->picture) {
     return (suite ? "suite " + request.suite : std::string("bench --detector")) +
-           " has no picture; growth, claims, stability and speed-error have one";
+           " has no picture; growth, claims, stability, speed-error and peers have one";
   }
   return cannot_draw();
 }
@@ -79,7 +81,11 @@ Expected<BenchedPlugin> plugin_of(const BenchRequest& request) {
 constexpr double quick_scale = .1;
 
 Expected<BenchReport> measure(const BenchRequest& request) {
-  const BenchSettings settings{request.data, request.is_quick ? quick_scale : 1};
+  const BenchSettings settings{.data = request.data,
+                               .scale = request.is_quick ? quick_scale : 1,
+                               .peers = request.peers,
+                               .case_seconds = request.case_seconds,
+                               .jobs = request.jobs};
   if (!request.suite.empty()) {
     Progress progress("bench " + request.suite);
     return suite_named(request.suite)->run(settings, progress);
@@ -134,14 +140,14 @@ void add_options(Verb& verb, BenchRequest& request) {
   auto suite =
       verb.add("--suite", request.suite, "What to measure")
           .with(one_of("elementary, view, growth, claims, stability, speed-error, sequences, "
-                       "harness",
+                       "peers, harness",
                        suite_named));
   add_detector(verb, request.detector,
                "In place of a suite: a plug-in's library, timed beside the built-in detector on "
                "scenes and public sequences, its answers judged by its claims")
       .excludes(suite);
   verb.add("--case-seconds", request.case_seconds,
-           "Processor seconds that the plug-in may take for a sequence")
+           "Processor seconds that a plug-in may take for a sequence")
       .with(positive())
       .shows_default();
   add_jobs(verb, request.jobs);
@@ -150,10 +156,15 @@ void add_options(Verb& verb, BenchRequest& request) {
   verb.add("--data", request.data,
            "Folder of the public data (default $ASSAY_DATA, else ../shared/data); rows of "
            "what is not there say so");
+  request.peers = (properties::worker_program().parent_path() / "peers").string();
+  verb.add("--peers", request.peers,
+           "Suite peers: folder of the plug-ins (default: peers beside the program, where target "
+           "`peers` builds them)");
   verb.add("--json", request.json_file, "Write all figures here (assay-bench/1)");
   verb.add("--csv", request.csv_file, "Write the raw samples here");
   verb.add("--svg", request.svg_file,
-           "Draw the suite's picture here (growth, claims, stability, speed-error; needs gnuplot)");
+           "Draw the suite's picture here (growth, claims, stability, speed-error, peers; needs "
+           "gnuplot)");
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ SLOW = {
     "README.md": [
         "build/release/assay self-test --jobs 2",
         "build/release/assay bench --suite speed-error --svg reports/pictures/speed-error.svg",
+        "build/release/assay bench --suite peers --svg reports/pictures/peers.svg",
         "build/release/assay run --campaign smoke --out build/smoke",
         "build/release/assay run --campaign smoke --detector ./libmine.so --power build/smoke --out build/mine",
         "build/release/assay certify --campaign quick --out build/quick",
@@ -140,8 +141,12 @@ NO_COMMAND = {
         "verdict: certified in": "what reports/certify prints",
         "step 11: collision at": "what `assay check` prints",
         "arithmetic culling": "the table of `assay bench --suite speed-error`",
+        "built-in, exact, bvh": "the table of `assay bench --suite peers`",
         "canary pair/zero-zero-dropped": "what `assay run` prints",
         "frames, cases, queries, scenes": "a drawing of the rooms",
+    },
+    "corpus/peers/README.md": {
+        "built-in, exact, bvh": "rows of the table of `assay bench --suite peers`",
     },
     "detector/README.md": {
         '#include "detector/detector.h"': "C++; tests/consumer compiles a whole program like it",

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
-
 #include "properties/campaign/stored/step_measures.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/run_verdict.h"
+#include "reports/bench/detector/timed_runs.h"
 #include "reports/bench/interleave.h"
 
 namespace assay::reports {
@@ -15,40 +14,6 @@ namespace {
 using detector::Answer;
 using properties::Outcome;
 using properties::RunEnd;
-
-// What a detector took in each round, and its first run, which is judged.
-struct TimedRuns {
-  std::optional<properties::CaseRun> first;
-  std::vector<double> create_ms;  // without that of the first run
-  std::vector<double> ms_a_step;  // the same
-  std::string ended;              // of a run that did not complete
-  bool has_differing_runs = false;
-};
-
-constexpr double ms_a_second = 1e3;
-
-// One more run of a case; milliseconds a step. Nothing more is run once a run has not completed.
-double run_once(properties::WorkerProcess& worker, const corpus::Case& c,
-                const properties::Configuration& configuration, TimedRuns& runs) {
-  if (!runs.ended.empty()) return 0;
-  auto run = std::move(worker.run(c, {&configuration, 1}).front());
-  if (run.end != RunEnd::completed || !run.times) {
-    runs.ended = fmt::format("{}: {}", name_of(run.end), run.what);
-    if (!runs.first) runs.first = std::move(run);
-    return 0;
-  }
-  const auto& steps = run.times->steps;
-  const double all = std::accumulate(steps.begin(), steps.end(), 0.);
-  const double ms = ms_a_second * all / static_cast<double>(steps.size());
-  if (!runs.first) {
-    runs.first = std::move(run);
-    return ms;
-  }
-  runs.has_differing_runs |= !same_answers(run, *runs.first);
-  runs.create_ms.push_back(ms_a_second * run.times->create);
-  runs.ms_a_step.push_back(ms);
-  return ms;
-}
 
 std::optional<ComparedTime> compared(const std::vector<double>& plugin,
                                      const std::vector<double>& built_in) {
@@ -126,7 +91,7 @@ ComparedSequence ComparedWorkers::compare(const SequenceToCompare& sequence,
   const auto measure = [&](auto& worker, const auto& configuration, TimedRuns& runs) {
     return [&] {
       tick();
-      return run_once(worker, *seen, configuration, runs);
+      return runs.run_once(worker, *seen, configuration);
     };
   };
   interleave(sequence.rounds, {measure(of_plugin_, own, plugin_runs),

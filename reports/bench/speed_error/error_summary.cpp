@@ -74,6 +74,12 @@ FamilySummary summary_of(const Chosen& steps) {
   return out;
 }
 
+bool same_place(const FamilySummary& s, const std::string& family, const Variant& variant) {
+  return s.family == family && s.variant == variant;
+}
+
+}  // namespace
+
 ShareOfSteps share_of(std::size_t part, std::size_t all) {
   constexpr double risk_of_a_side = 0.025;
   ShareOfSteps out;
@@ -82,12 +88,6 @@ ShareOfSteps share_of(std::size_t part, std::size_t all) {
   out.lo = 1 - properties::upper_bound(all - part, all, risk_of_a_side);
   return out;
 }
-
-bool same_place(const FamilySummary& s, const std::string& family, const Variant& variant) {
-  return s.family == family && s.variant == variant;
-}
-
-}  // namespace
 
 std::vector<FamilySummary> by_family(std::span<const JudgedStep> steps) {
   std::vector<std::string> names;

@@ -42,6 +42,8 @@ struct ShareOfSteps {
   bool on_pareto_line = false;  // no variant with the same pairs is as fast and better
 };
 
+ShareOfSteps share_of(std::size_t part, std::size_t all);
+
 // One variant on everything.
 struct VariantSummary {
   Variant variant;

@@ -31,7 +31,7 @@ class StoppedMarking : public testing::Test {
   }
 
   tests::SearchMeshes random_{11};
-  const tests::MovingMesh mesh_ = random_.sheets(2, 68, false);  // 18,496 triangles
+  const tests::MovingMesh mesh_ = random_.sheets(2, 100, false);  // 40,000 triangles
   const Stages standard_ = standard_stages({Culling::view_point});
   const SearchStages stages_{*standard_.pair_rule, *standard_.marking, *standard_.pair_search,
                              *standard_.elementary};

@@ -48,6 +48,26 @@ TEST(Referee, TouchingCounts) {
   EXPECT_EQ(over_resting_face({-1, 5, 0}, {5, 5, 0}), RefereeVerdict::no_contact);
 }
 
+// Through a resting face at t = 1/2, and through one that rises meanwhile.
+TEST(Referee, AskedUpToATime) {
+  const auto up_to = [](const VertexFace& query, double until) {
+    return referee(query, RefereeOptions{.until = until});
+  };
+  const VertexFace half{{{1, 1, 1}, {1, 1, -1}}, {rest(kFace[0]), rest(kFace[1]), rest(kFace[2])}};
+  EXPECT_EQ(up_to(half, 1), RefereeVerdict::contact);
+  EXPECT_EQ(up_to(half, .5), RefereeVerdict::contact);
+  EXPECT_EQ(up_to(half, .75), RefereeVerdict::contact);
+  EXPECT_EQ(up_to(half, .25), RefereeVerdict::no_contact);
+  EXPECT_NE(up_to(half, std::nextafter(.5, 0)), RefereeVerdict::contact);
+  // The vertex falls as 1 - t, and below it the face rises as 2 t: they meet at t = 1/3.
+  VertexFace rising = half;
+  rising.vertex = {{1, 1, 1}, {1, 1, 0}};
+  rising.face = {{{{0, 0, 0}, {0, 0, 0}}, {{4, 0, 0}, {4, 0, 4}}, {{0, 4, 0}, {0, 4, 4}}}};
+  ASSERT_EQ(up_to(rising, 1), RefereeVerdict::contact);
+  EXPECT_EQ(up_to(rising, .75), RefereeVerdict::contact);
+  EXPECT_EQ(up_to(rising, .125), RefereeVerdict::no_contact);
+}
+
 TEST(Referee, OneUnitInTheLastPlaceDecides) {
   const double below = std::nextafter(0.0, -1), above = std::nextafter(0.0, 1);
   EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, below}), RefereeVerdict::contact);

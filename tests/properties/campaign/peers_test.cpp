@@ -175,6 +175,21 @@ TEST_F(Peers, TheCubicMissesMotionWithinAPlane) {
   EXPECT_GT(peer_.met_with("vertex-face"), 0u);
 }
 
+TEST_F(Peers, TheCubicInFloatsMissesMore) {
+  ASSERT_NO_FATAL_FAILURE(judge("cubic_float"));
+  if (IsSkipped()) return;
+  EXPECT_EQ(peer_.detector.contract.coordinates, Coordinates::float32);
+  EXPECT_GT(peer_.met_with("coplanar throughout"), 0u);
+  EXPECT_GT(peer_.met_with("moving, generic"), 0u);
+}
+
+TEST_F(Peers, TheCubicByEigenMissesMotionWithinAPlane) {
+  ASSERT_NO_FATAL_FAILURE(judge("cubic_eigen"));
+  if (IsSkipped()) return;
+  EXPECT_GT(peer_.met_with("coplanar throughout"), 0u);
+  EXPECT_GT(peer_.met_with("vertex-face"), 0u);
+}
+
 TEST_F(Peers, FclMissesMotionWithinAPlaneAndMore) {
   ASSERT_NO_FATAL_FAILURE(judge("fcl_elementary"));
   if (IsSkipped()) return;

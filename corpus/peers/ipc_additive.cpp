@@ -1,0 +1,26 @@
+// The IPC Toolkit (ipc_step.h) with its broad phase LBVH and additive CCD (Li et al. 2021).
+//
+// Claims: deterministic and total. Not free-sound: additive_ccd.hpp says of it that it "is not
+// provably conservative and so can potentially produce false negatives (i.e., miss collisions) due
+// to floating-point rounding error". What it misses is shown, and held against nobody.
+#include <ipc/ccd/additive_ccd.hpp>
+
+#include "corpus/peers/ipc_step.h"
+
+namespace assay::peers {
+namespace {
+
+struct IpcAdditive : IpcStep<ipc::AdditiveCCD> {
+  using IpcStep::IpcStep;
+  static plugin::Description describe() {
+    plugin::Description d = description();
+    d.name = "IPC Toolkit, LBVH and additive CCD";
+    d.claims = ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
+    return d;
+  }
+};
+
+}  // namespace
+}  // namespace assay::peers
+
+ASSAY_EXPORT_DETECTOR(assay::peers::IpcAdditive);

@@ -1,0 +1,30 @@
+// The IPC Toolkit (ipc_step.h) with its broad phase LBVH and its default narrow phase,
+// Tight-Inclusion.
+//
+// Claims: free-sound and not-late, from its documentation ("provably conservative (i.e., never
+// misses collisions)", Getting started, section "Narrow phase"; "Computes a maximal step size that
+// is collision free", ipc.hpp); deterministic and total, for it is a function of its arguments
+// that returns a number. The step it gives stays clear of the contact on purpose, so how early it
+// is is shown and not held against it.
+#include <ipc/ccd/tight_inclusion_ccd.hpp>
+
+#include "corpus/peers/ipc_step.h"
+
+namespace assay::peers {
+namespace {
+
+struct IpcTightInclusion : IpcStep<ipc::TightInclusionCCD> {
+  using IpcStep::IpcStep;
+  static plugin::Description describe() {
+    plugin::Description d = description();
+    d.name = "IPC Toolkit, LBVH and Tight-Inclusion";
+    d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_DETERMINISTIC |
+               ASSAY_CLAIM_TOTAL;
+    return d;
+  }
+};
+
+}  // namespace
+}  // namespace assay::peers
+
+ASSAY_EXPORT_DETECTOR(assay::peers::IpcTightInclusion);

@@ -1,0 +1,68 @@
+// Tight-Inclusion, a conservative test by inclusion functions (Wang et al. 2021), put to all pairs
+// of features of triangles whose swept boxes meet.
+//
+// Version: tag v1.0.6 of its public sources, which calls itself 1.0.4. Functions:
+// ticcd::vertexFaceCCD and ticcd::edgeEdgeCCD of tight_inclusion/ccd.hpp. Settings, those that its
+// README suggests for a single query: err {-1, -1, -1} (it computes the bound of the query), ms 0,
+// tolerance 1e-6, t_max 1, max_itr 1e6, no_zero_toi false, breadth-first. Contract: no contact at
+// the start and coordinates of usual sizes, for its tolerance is a length; its time is a lower
+// bound. Claims: free-sound and not-late from its README ("Because our method is conservative, we
+// guarantee a result of false implies no collision occurs"; "toi: ... it will return the earliest
+// collision time"); total and deterministic, for they are functions of their arguments that return
+// a bool. A collision where features only come nearer to each other than tolerance is what it
+// announces, so no-spurious is not claimed.
+#include <tight_inclusion/ccd.hpp>
+
+#include "corpus/peers/feature_pairs.h"
+
+namespace assay::peers {
+namespace {
+
+struct TightInclusionTests {
+  static Time vertex_face(const FourPaths& paths) { return ask(ticcd::vertexFaceCCD, paths); }
+  static Time edge_edge(const FourPaths& paths) { return ask(ticcd::edgeEdgeCCD, paths); }
+
+ private:
+  using Test = bool(const ticcd::Vector3&, const ticcd::Vector3&, const ticcd::Vector3&,
+                    const ticcd::Vector3&, const ticcd::Vector3&, const ticcd::Vector3&,
+                    const ticcd::Vector3&, const ticcd::Vector3&, const ticcd::Array3&,
+                    ticcd::Scalar, ticcd::Scalar&, ticcd::Scalar, ticcd::Scalar, long,
+                    ticcd::Scalar&, bool, ticcd::CCDRootFindingMethod);
+
+  static ticcd::Vector3 point(const double* p) { return {p[0], p[1], p[2]}; }
+
+  static Time ask(Test test, const FourPaths& paths) {
+    const ticcd::Array3 bound_of_the_query(-1, -1, -1);
+    constexpr double separation = 0, tolerance = 1e-6, whole_step = 1;
+    constexpr long most_iterations = 1'000'000;
+    double time = 0, reached_tolerance = 0;
+    const auto &x = paths.at[0], &y = paths.at[1];
+    const bool found =
+        test(point(x[0]), point(x[1]), point(x[2]), point(x[3]), point(y[0]), point(y[1]),
+             point(y[2]), point(y[3]), bound_of_the_query, separation, time, tolerance, whole_step,
+             most_iterations, reached_tolerance, ticcd::DEFAULT_NO_ZERO_TOI,
+             ticcd::CCDRootFindingMethod::BREADTH_FIRST_SEARCH);
+    if (!found) return std::nullopt;
+    return plugin::Interval{{time, 1}};
+  }
+};
+
+struct TightInclusion : FeaturePairs<TightInclusionTests> {
+  using FeaturePairs::FeaturePairs;
+  static plugin::Description describe() {
+    plugin::Description d;
+    d.name = "Tight-Inclusion, all pairs";
+    d.version = TIGHT_INCLUSION_VER;
+    d.claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE | ASSAY_CLAIM_DETERMINISTIC |
+               ASSAY_CLAIM_TOTAL;
+    d.start = ASSAY_START_FREE;
+    d.least_nonzero = 1e-6;
+    d.largest = 1e6;
+    return d;
+  }
+};
+
+}  // namespace
+}  // namespace assay::peers
+
+ASSAY_EXPORT_DETECTOR(assay::peers::TightInclusion);

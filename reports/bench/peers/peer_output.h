@@ -1,0 +1,27 @@
+// The figures of suite peers as a table, as JSON and as CSV (reports/README.md).
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+
+#include "reports/bench/peers/peer_summary.h"
+
+namespace assay::reports {
+
+// A line a detector, then what the columns say, the runs that ended early, and who is absent.
+std::string text_of(std::span<const PeerRow> rows, std::span<const PeerFamily> families,
+                    std::span<const AbsentPeer> absent);
+
+// A line each unsafe answer that the oracle alone calls so; empty where there is none.
+std::string unconfirmed_text(std::span<const UnsafeAnswer> answers);
+
+nlohmann::ordered_json to_json(std::span<const UnsafeAnswer> answers);
+nlohmann::ordered_json to_json(std::span<const PeerRow> rows);
+nlohmann::ordered_json to_json(std::span<const PeerFamily> families);
+nlohmann::ordered_json to_json(std::span<const AbsentPeer> absent);
+
+// A line a family and detector.
+std::string csv_of(std::span<const PeerFamily> families);
+
+}  // namespace assay::reports

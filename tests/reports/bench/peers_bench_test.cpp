@@ -1,0 +1,217 @@
+// `assay bench --suite peers`: small runs with peers whose answers are known, one that hangs and
+// one that crashes; and the meshes of corpus/peers, each of which shows a peer's worst miss.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "corpus/scenes/scenes.h"
+#include "properties/judging/case_check.h"
+#include "properties/judging/contracted_case.h"
+#include "reports/bench/peers/confirmation.h"
+#include "reports/bench/peers/peer_output.h"
+#include "reports/bench/peers/peer_runs.h"
+#include "reports/pictures/pictures.h"
+#include "tests/reports/program.h"
+
+namespace assay::reports {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder with these plug-ins of tests/plugins.
+void put_peers(const tests::Scratch& scratch, const std::vector<std::string>& names) {
+  for (const auto& name : names) {
+    const std::string file = "plugin_" + name + ".so";
+    fs::copy_file(fs::path(ASSAY_PLUGIN_DIR) / file, fs::path(scratch / file));
+  }
+}
+
+// One family of two cases: a step that ends in contact, and one that does not.
+ErrorFamily two_steps(const std::string& kind) {
+  return {"steps", kind, 2, [] {
+            std::vector<TimedCase> cases;
+            for (const int frames : {2, 12}) {
+              const auto scene = corpus::make_scene("bend", {320, frames, {}}).value();
+              TimedCase timed;
+              timed.c.id = frames == 2 ? "to the end" : "the first step";
+              timed.c.triangles = scene.triangles;
+              timed.c.frames = {scene.frames[0], scene.frames[1]};
+              cases.push_back(timed);
+            }
+            return cases;
+          }};
+}
+
+struct SmallRun {
+  Peers peers;
+  std::vector<PeerFamily> families;
+  std::vector<PeerRow> rows;
+  std::vector<std::string> wrong;
+  std::vector<UnsafeAnswer> answers;
+
+  explicit SmallRun(const std::vector<std::string>& names) {
+    const tests::Scratch scratch;
+    put_peers(scratch, names);
+    peers = find_peers(scratch / "");
+    PeerRuns runs(peers.subjects, {.small_seconds = .2, .large_seconds = .2});
+    const auto family = two_steps("generated");
+    std::vector<PeerCase> cases;
+    for (const auto& timed : family.cases()) {
+      for (auto& one : runs.run(family, timed, wrong, answers, [] {}))
+        cases.push_back(std::move(one));
+    }
+    families = peers_by_family(cases, peers.subjects);
+    rows = peer_rows(families, peers.subjects);
+  }
+  const PeerRow& row(const std::string& detector) const {
+    const auto found = std::find_if(rows.begin(), rows.end(),
+                                    [&](const auto& one) { return one.detector == detector; });
+    if (found == rows.end()) throw std::runtime_error("no row " + detector);
+    return *found;
+  }
+};
+
+TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
+  const SmallRun run({"always_free", "always_collision"});
+  EXPECT_TRUE(run.wrong.empty());
+  EXPECT_EQ(unconfirmed_text(run.answers), "");
+  ASSERT_EQ(run.rows.size(), 6u + 2u);
+  for (const auto& row : run.rows) {
+    EXPECT_EQ(row.counts.steps, 2u) << row.detector;
+    EXPECT_EQ(row.counts.contact, 1u) << row.detector;
+    ASSERT_TRUE(row.over) << row.detector;
+    EXPECT_GT(row.over->value, 0);
+  }
+  const auto& exact = run.rows.front();
+  EXPECT_EQ(exact.detector, "built-in, exact, bvh");
+  EXPECT_EQ(exact.over->value, 1);
+  EXPECT_EQ(exact.counts.unsafe + exact.counts.false_alarms, 0u);
+  EXPECT_EQ(exact.answers, "answer, time, pairs");
+  std::uint64_t missed = 0, confirmed = 0;
+  for (const auto& row : run.rows) {
+    if (row.is_built_in) continue;
+    const bool is_free = row.counts.missed > 0;
+    EXPECT_EQ(row.counts.false_alarms, is_free ? 0u : 1u);
+    missed += row.counts.missed;
+    confirmed += row.counts.confirmed;
+  }
+  EXPECT_EQ(missed, 1u);
+  EXPECT_EQ(confirmed, 2u) << "what is missed, and the pairs that are not named";
+  EXPECT_EQ(std::count_if(run.answers.begin(), run.answers.end(),
+                          [](const UnsafeAnswer& one) { return one.what == "missed"; }),
+            1);
+}
+
+TEST(PeersBench, OneThatHangsOrCrashesEndsNothingElse) {
+  const SmallRun run({"hang", "crash", "always_free", "query_alone"});
+  EXPECT_TRUE(run.wrong.empty());
+  std::uint64_t ended = 0;
+  for (const auto& row : run.rows) ended += row.ended;
+  EXPECT_GE(ended, 2u) << "the hanging one ends early in each case";
+  for (const auto& row : run.rows) {
+    if (row.ended < 2) continue;
+    EXPECT_EQ(row.counts.undecided, 2u) << row.detector;
+    EXPECT_FALSE(row.over) << row.detector;
+  }
+  const auto text = text_of(run.rows, run.families, run.peers.absent);
+  EXPECT_NE(text.find("hung"), std::string::npos) << text;
+  EXPECT_NE(text.find("absent: plugin_query_alone: it holds no steps"), std::string::npos) << text;
+  EXPECT_NE(text.find("absent: fcl_elementary: libfcl-dev was not there"), std::string::npos);
+}
+
+TEST(PeersBench, WhatNobodyPromisedStandsInBrackets) {
+  SmallRun run({"always_free"});
+  run.rows.back().claims_soundness = false;
+  const auto text = text_of(run.rows, run.families, run.peers.absent);
+  EXPECT_NE(text.find("(1)"), std::string::npos) << text;
+  BenchReport report("peers");
+  report.peers = run.rows;
+  report.peer_families = run.families;
+  const auto picture = peers_picture(report);
+  EXPECT_NE(picture.find("built-in, exact, auto"), std::string::npos);
+  EXPECT_NE(picture.find("constant answer"), std::string::npos);
+  const auto json = to_json(report);
+  EXPECT_EQ(json["peers"].size(), run.rows.size());
+  EXPECT_EQ(json["peers"][0]["time_over_reference"]["median"], 1);
+  const auto csv = csv_of(report);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
+            1 + run.families.size());
+}
+
+TEST(PeersBench, AContactIsConfirmedOnlyWhereThereIsOne) {
+  // A vertex that falls through a face at t = 0.5, and one that stops before it.
+  for (const double end : {-1., .5}) {
+    corpus::Case c;
+    c.triangles.resize(2, 3);
+    c.triangles << 0, 1, 2, 3, 4, 5;
+    detector::Positions x(6, 3);
+    x << -1, -1, 0, 2, -1, 0, -1, 2, 0, 0, 0, 1, 1, 0, 3, 0, 1, 3;
+    c.frames = {x, x};
+    c.frames[1](3, 2) = end;
+    properties::StepDiff diff;
+    diff.answered_free = true;
+    diff.first_contact = {{0, 1}, {.5, .5}, {detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}}};
+    EXPECT_EQ(is_confirmed(c, 0, diff, {}, {}), end < 0);
+    // Told too late: a witness before the time told.
+    diff.answered_free = false;
+    diff.late_first = true;
+    detector::StepResult told;
+    told.first = {.75, .75};
+    EXPECT_EQ(is_confirmed(c, 0, diff, told, {}), end < 0);
+    told.first = {.25, .25};
+    EXPECT_FALSE(is_confirmed(c, 0, diff, told, {})) << "nothing has happened until then";
+  }
+}
+
+std::vector<fs::path> stored_meshes() {
+  return corpus::case_files(std::string(ASSAY_SOURCE_DIR) + "/corpus/peers/meshes").value();
+}
+
+// By the oracle with all facts, and by another method than the oracle.
+TEST(PeersBench, EveryStoredMeshHasTheContactThatIsMissed) {
+  const auto files = stored_meshes();
+  EXPECT_GE(files.size(), 9u);
+  for (const auto& file : files) {
+    const auto c = corpus::read_case(file).value();
+    EXPECT_LE(c.triangles.rows(), 5) << file;
+    EXPECT_EQ(c.expected.answer, detector::Answer::collision) << file;
+    const auto report = properties::check_case(c);
+    EXPECT_EQ(report.outcome, properties::Outcome::holds) << file;
+    EXPECT_TRUE(report.failed.empty()) << file << ": " << report.failed.front();
+    properties::StepDiff diff;
+    diff.answered_free = true;
+    diff.first_contact = report.steps.at(0).judgement.pairs.at(0);
+    const properties::Contract takes_all;
+    EXPECT_TRUE(is_confirmed(c, 0, diff, {}, takes_all)) << file;
+    EXPECT_TRUE(fs::exists(fs::path(file).replace_extension(".svg"))) << file;
+  }
+}
+
+TEST(PeersBench, EachPeerThatIsPresentMissesItsStoredMesh) {
+  const Peers peers = find_peers(ASSAY_PEER_DIR);
+  std::size_t present = 0;
+  for (const auto& subject : peers.subjects) {
+    const auto file = fs::path(ASSAY_SOURCE_DIR) / "corpus/peers/meshes" /
+                      (fs::path(subject.library).stem().string() + ".json");
+    if (subject.is_built_in() || !fs::exists(file)) continue;
+    ++present;
+    const auto c = corpus::read_case(file).value();
+    const auto seen = properties::contracted(c, subject.contract);
+    ASSERT_TRUE(seen) << subject.name;
+    properties::WorkerProcess worker(ASSAY_WORKER, subject.library);
+    const properties::Configuration configuration = {subject.name, {}, {}, true};
+    const auto run = worker.run(*seen, {&configuration, 1}).front();
+    std::vector<UnsafeAnswer> answers;
+    const auto counts =
+        counts_of(subject, *seen, run, properties::judge_case(*seen, subject.contract), answers);
+    EXPECT_EQ(counts.missed, 1u) << subject.name;
+    EXPECT_EQ(counts.confirmed, 1u) << subject.name;
+    EXPECT_GT(run.times->peak_bytes, 100'000u) << subject.name;
+  }
+  EXPECT_GE(present, 5u) << "these need no library";
+}
+
+}  // namespace
+}  // namespace assay::reports
