@@ -40,7 +40,7 @@ bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_e
   }
   std::atomic<bool> is_ended = false;
   const auto caller = std::this_thread::get_id();
-  pace->workers()->share_out(count, most, [&](const Piece& piece) {
+  pace->workers()->share_out(count, most, [&](const LoopPiece& piece) {
     if (is_ended.load(std::memory_order_relaxed)) return;
     run(piece.begin, piece.end, piece.lane);
     if (std::this_thread::get_id() == caller &&

@@ -26,7 +26,7 @@ void ends_loop() {}
 // The pieces of one loop.
 class Pieces : public ThreadArena::Work {
  public:
-  Pieces(std::size_t count, std::size_t most, const std::function<void(const Piece&)>& body)
+  Pieces(std::size_t count, std::size_t most, const std::function<void(const LoopPiece&)>& body)
       : count_(count), most_(most), body_(body) {}
   void run(std::size_t i, std::size_t lane) const override {
     begins_piece();
@@ -36,7 +36,7 @@ class Pieces : public ThreadArena::Work {
 
  private:
   const std::size_t count_, most_;
-  const std::function<void(const Piece&)>& body_;
+  const std::function<void(const LoopPiece&)>& body_;
 };
 
 }  // namespace
@@ -50,7 +50,7 @@ Workers::Workers(std::uint32_t threads) {
 }
 
 void Workers::share_out(std::size_t count, std::size_t most,
-                        const std::function<void(const Piece&)>& body) const {
+                        const std::function<void(const LoopPiece&)>& body) const {
   if (!arena_ || count <= most) {
     for (std::size_t begin = 0; begin < count; begin += most)
       body({begin, std::min(begin + most, count), 0});

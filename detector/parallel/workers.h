@@ -16,7 +16,7 @@
 namespace assay::detector {
 
 // Of a loop: the items begin, ..., end - 1. No two threads work in one lane at once.
-struct Piece {
+struct LoopPiece {
   std::size_t begin, end, lane;
 };
 
@@ -33,7 +33,7 @@ class Workers {
   // Calls the body for pieces that cover [0, count), each of at most `most` items and in a lane
   // below count(), in any order. What a body throws is thrown again here. A body does not call it.
   void share_out(std::size_t count, std::size_t most,
-                 const std::function<void(const Piece&)>& body) const;
+                 const std::function<void(const LoopPiece&)>& body) const;
 
  private:
   std::size_t count_ = 1;

@@ -151,7 +151,7 @@ bool FeatureContacts::run(Lane& lane, const StopFunction& stop) {
 
 bool FeatureContacts::run(const StopFunction& stop, const PacedStop* pace) {
   std::atomic<bool> completed = true;
-  const auto run_lanes = [&](const Piece& piece) {
+  const auto run_lanes = [&](const LoopPiece& piece) {
     for (std::size_t lane = piece.begin; lane < piece.end; ++lane) {
       if (!run(*lanes_[lane], stop)) completed = false;
     }

@@ -249,7 +249,7 @@ bool run_in_lanes(Hunt& hunt, const PatchProofs* proofs, std::span<const NodePai
   std::vector<std::unique_ptr<Lane>> lanes;
   for (std::size_t i = 0; i < pace.workers()->count(); ++i)
     lanes.push_back(std::make_unique<Lane>(hunt, proofs, pace.stop(), i));
-  pace.workers()->share_out(pairs.size(), 1, [&](const Piece& piece) {
+  pace.workers()->share_out(pairs.size(), 1, [&](const LoopPiece& piece) {
     lanes[piece.lane]->descent.run(pairs[piece.begin]);
   });
   bool completed = true;

@@ -139,13 +139,13 @@ class Step {
     Stopwatch watch(result_.times.view_test);
     work_.signs.assign(work_.surface.all().triangles.size(), ViewSign::zero);
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      constexpr std::uint64_t work_of_component = 200;  // the classifier asks by itself, within it
+      constexpr std::uint64_t work_beside_signs = 200;  // these the classifier counts
       if (!context_.stages.classifier->classify(work_.surface.all(), work_.component(c), work_.x_t0,
                                                 work_.x_t1, work_.primitives[c], work_.signs,
                                                 work_.counts.view, work_.pace)) {
         return false;
       }
-      if (work_.pace.after(work_of_component)) return false;
+      if (work_.pace.after(work_beside_signs)) return false;
       work_.free[c] = context_.stages.release->is_free(work_, c);
       if (work_.pace.stopped()) return false;
       work_.counts.free_components += work_.free[c];

@@ -126,7 +126,7 @@ bool run_in_lanes(const Rungs& rungs, std::span<const std::int32_t> triangles, c
   for (std::size_t i = 0; i < pace.workers()->count(); ++i)
     lanes.push_back(std::make_unique<Lane>(rungs, pace.stop()));
   std::atomic<bool> completed = true;
-  pace.workers()->share_out(triangles.size(), shared_piece, [&](const Piece& piece) {
+  pace.workers()->share_out(triangles.size(), shared_piece, [&](const LoopPiece& piece) {
     if (completed && !run_alone(lanes[piece.lane]->rungs,
                                 triangles.subspan(piece.begin, piece.end - piece.begin), put)) {
       completed = false;

@@ -20,7 +20,7 @@ TEST(Workers, CoverEachItemOnceInLanesBelowTheirCount) {
     EXPECT_TRUE(workers.count() == threads || workers.is_alone());
     for (const std::size_t count : {0, 1, 7, 8, 9, 1000}) {
       std::vector<std::atomic<int>> seen(count);
-      workers.share_out(count, 8, [&](const Piece& piece) {
+      workers.share_out(count, 8, [&](const LoopPiece& piece) {
         EXPECT_LT(piece.lane, workers.count());
         EXPECT_LE(piece.end - piece.begin, 8u);
         for (std::size_t i = piece.begin; i < piece.end; ++i) ++seen[i];
@@ -33,7 +33,7 @@ TEST(Workers, CoverEachItemOnceInLanesBelowTheirCount) {
 TEST(Workers, NoTwoPiecesRunInOneLaneAtOnce) {
   const Workers workers(4);
   std::vector<std::atomic<bool>> busy(workers.count());
-  workers.share_out(2000, 1, [&](const Piece& piece) {
+  workers.share_out(2000, 1, [&](const LoopPiece& piece) {
     EXPECT_FALSE(busy[piece.lane].exchange(true));
     busy[piece.lane] = false;
   });
@@ -41,12 +41,12 @@ TEST(Workers, NoTwoPiecesRunInOneLaneAtOnce) {
 
 TEST(Workers, ThrowAgainWhatABodyThrows) {
   const Workers workers(3);
-  const auto body = [](const Piece& piece) {
+  const auto body = [](const LoopPiece& piece) {
     if (piece.begin == 50) throw std::runtime_error("fifty");
   };
   EXPECT_THROW(workers.share_out(100, 1, body), std::runtime_error);
   std::atomic<int> after = 0;
-  workers.share_out(100, 1, [&](const Piece&) { ++after; });
+  workers.share_out(100, 1, [&](const LoopPiece&) { ++after; });
   EXPECT_EQ(after, 100);
 }
 

@@ -27,7 +27,7 @@ class ExportedCase : public testing::Test {
     return status_of(std::string(ASSAY_COMPILER) +
                      " -std=c++20 -Wall -Werror -I " ASSAY_SOURCE_DIR " -isystem " ASSAY_EIGEN " " +
                      (scratch / "case/case_test.cpp") +
-                     " " ASSAY_DETECTOR
+                     " " ASSAY_DETECTOR " " ASSAY_DETECTOR_LINKS
                      " -lgtest_main -lgtest "
                      "-pthread -o " +
                      (scratch / "test") + " >" + (scratch / "compiler") + " 2>&1");
