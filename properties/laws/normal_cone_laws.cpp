@@ -6,6 +6,7 @@
 
 #include "properties/laws/law_groups.h"
 #include "properties/laws/step_law.h"
+#include "properties/worker/case_player.h"
 
 namespace assay::properties {
 namespace {
@@ -42,22 +43,64 @@ Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// The contacts of L3 and L7 are those of K without N as well.
-Observation no_contact_is_among_what_is_proved(CaseFacts& facts, std::size_t s) {
-  const auto& options = facts.options();
-  if (options.culling != detector::Culling::automatic || options.pairs != detector::Pairs::all ||
-      options.arithmetic != detector::Arithmetic::exact)
-    return not_met();
-  if (!has_certified_patch(facts, s) || facts.result(s).counts.search.contour_tests == 0)
-    return not_met();
+// The search of a detector, asked for proofs wherever they are not hopeless: the law is about what
+// they leave out, and not about when they pay.
+class EagerProofs : public detector::PairSearch {
+ public:
+  explicit EagerProofs(std::shared_ptr<const detector::PairSearch> search)
+      : search_(std::move(search)) {}
+  std::unique_ptr<detector::KeptBySearch> prepare(const detector::Topology& mesh,
+                                                  const detector::BoundingVolumeTree& tree,
+                                                  detector::PacedStop& pace) const override {
+    return search_->prepare(mesh, tree, pace);
+  }
+  bool fit(detector::BoundingVolumeTree& tree, const detector::Topology& mesh,
+           const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+           detector::PacedStop& pace) const override {
+    return search_->fit(tree, mesh, x_t0, x_t1, pace);
+  }
+  bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
+              const detector::PairSink& sink) const override {
+    return search_->search(input, counts, sink);
+  }
+  detector::ProvableShares provable_shares(const detector::SearchInput&) const override {
+    return {1, 1};
+  }
+
+ private:
+  std::shared_ptr<const detector::PairSearch> search_;
+};
+
+std::string left_out(const detector::StepResult& result, const oracle::StepJudgement& judgement) {
   std::set<detector::TrianglePair> found;
-  for (const auto& contact : facts.result(s).pairs) found.insert(contact.pair);
-  for (const auto& contact : facts.judgement(s).pairs) {
+  for (const auto& contact : result.pairs) found.insert(contact.pair);
+  for (const auto& contact : judgement.pairs) {
     if (!found.contains(contact.pair))
       return fmt::format("({}, {}) is in contact, and was left out", contact.pair.a,
                          contact.pair.b);
   }
-  return holds();
+  return {};
+}
+
+// The contacts of L3 and L7 are those of K without N as well.
+void check_what_is_proved(CaseFacts& facts, LawTally& tally) {
+  const auto& options = facts.options();
+  if (options.culling != detector::Culling::automatic || options.pairs != detector::Pairs::all ||
+      options.arithmetic != detector::Arithmetic::exact)
+    return;
+  auto stages = facts.stages_of()(options);
+  stages.pair_search = std::make_shared<EagerProofs>(stages.pair_search);
+  auto eager = CasePlayer::make(facts.source(), options, std::move(stages));
+  if (!eager) return;
+  for (std::size_t s = 0; s < facts.steps(); ++s) {
+    const auto result = eager.value().play(s);
+    Observation finding = not_met();
+    if (has_certified_patch(facts, s) && result.counts.search.contour_tests > 0) {
+      finding = left_out(result, facts.judgement(s));
+      if (finding->empty()) finding = left_out(facts.result(s), facts.judgement(s));
+    }
+    note(facts, s, finding, tally, is_nearly_edge_on);
+  }
 }
 
 constexpr Law normal_cone_law_table[] = {
@@ -72,7 +115,7 @@ constexpr Law normal_cone_law_table[] = {
     {"L14_NoContactIsAmongWhatIsProved", "L14",
      "In a step of culling auto that leaves out what normal cones and contours prove apart, with "
      "views or without, every pair in contact is found.",
-     "pair set", each_step<no_contact_is_among_what_is_proved, is_nearly_edge_on>},
+     "pair set", check_what_is_proved},
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "reports/steps/opened_plugin.h"
 #include "reports/terminal/joined.h"
 
 namespace assay::reports {
@@ -128,24 +129,7 @@ int main() {
 )";
 
 constexpr const char* plugin_text =
-    R"(// The same case through a plug-in: ./case_plugin ./libmine.so
-// Needs detector/plugin/assay_detector.h: c++ -I SOURCES-OF-ASSAY FOLDER/case_plugin.cpp -ldl
-#define CASE_ARRAYS_ONLY
-#include "case.cpp"
-
-#include <dlfcn.h>
-
-#include "detector/plugin/assay_detector.h"
-
-int main(int argc, char** argv) {
-  void* library = argc > 1 ? dlopen(argv[1], RTLD_NOW) : nullptr;
-  void* entry = library ? dlsym(library, "assay_detector") : nullptr;
-  if (!entry) {
-    std::printf("usage: case_plugin LIB.so: %s\n", argc > 1 ? dlerror() : "no library");
-    return 2;
-  }
-  const assay_detector_api* api = reinterpret_cast<const assay_detector_api* (*)()>(entry)();
-  const unsigned claims = api->describe()->claims;
+    R"(  const unsigned claims = api->describe()->claims;
   assay_handle* handle = nullptr;
   const char* message = "";
   if (api->create(&triangles[0][0], triangle_count, &frames[steps[0].from][0][0], vertex_count,
@@ -215,6 +199,6 @@ std::string plain_case_text(const corpus::Case& c, const properties::Contract& c
   return out + plain_tail;
 }
 
-std::string plugin_case_text() { return plugin_text; }
+std::string plugin_case_text() { return opened_plugin("case") + plugin_text; }
 
 }  // namespace assay::reports

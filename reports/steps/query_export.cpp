@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "properties/worker/plugin/query_case.h"
+#include "reports/steps/opened_plugin.h"
 #include "reports/steps/owner_export.h"
 #include "reports/terminal/joined.h"
 
@@ -73,24 +74,7 @@ int main() {
 )";
 
 constexpr const char* query_plugin =
-    R"(// The same query through a plug-in: ./case_plugin ./libmine.so
-// Needs detector/plugin/assay_detector.h: c++ -I SOURCES-OF-ASSAY FOLDER/case_plugin.cpp -ldl
-#define CASE_ARRAYS_ONLY
-#include "case.cpp"
-
-#include <dlfcn.h>
-
-#include "detector/plugin/assay_detector.h"
-
-int main(int argc, char** argv) {
-  void* library = argc > 1 ? dlopen(argv[1], RTLD_NOW) : nullptr;
-  void* entry = library ? dlsym(library, "assay_detector") : nullptr;
-  if (!entry) {
-    std::printf("usage: case_plugin LIB.so: %s\n", argc > 1 ? dlerror() : "no library");
-    return 2;
-  }
-  const assay_detector_api* api = reinterpret_cast<const assay_detector_api* (*)()>(entry)();
-  if (api->abi_version < 2 || !api->query) {
+    R"(  if (api->abi_version < 2 || !api->query) {
     std::printf("%s: it has no query\n", argv[1]);
     return 2;
   }
@@ -131,6 +115,6 @@ std::string plain_query_text(const corpus::Case& c, const properties::Contract& 
   return out + query_tail;
 }
 
-std::string plugin_query_text() { return query_plugin; }
+std::string plugin_query_text() { return opened_plugin("query") + query_plugin; }
 
 }  // namespace assay::reports

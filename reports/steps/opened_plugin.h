@@ -1,0 +1,35 @@
+// How the programs that are exported for the owner of a plug-in begin: they load it.
+#pragma once
+
+#include <string>
+
+namespace assay::reports {
+
+inline constexpr const char* plugin_loading =
+    R"(// Needs detector/plugin/assay_detector.h: c++ -I SOURCES-OF-ASSAY FOLDER/case_plugin.cpp -ldl
+#define CASE_ARRAYS_ONLY
+#include "case.cpp"
+
+#include <dlfcn.h>
+
+#include "detector/plugin/assay_detector.h"
+
+int main(int argc, char** argv) {
+  void* library = argc > 1 ? dlopen(argv[1], RTLD_NOW) : nullptr;
+  void* entry = library ? dlsym(library, "assay_detector") : nullptr;
+  if (!entry) {
+    std::printf("usage: case_plugin LIB.so: %s\n", argc > 1 ? dlerror() : "no library");
+    return 2;
+  }
+  const assay_detector_api* api = reinterpret_cast<const assay_detector_api* (*)()>(entry)();
+)";
+
+// what: "case" or "query", of which case.cpp holds the arrays. The table is `api` in what follows.
+inline std::string opened_plugin(const std::string& what) {
+  return std::string("// The same ")
+      .append(what)
+      .append(" through a plug-in: ./case_plugin ./libmine.so\n")
+      .append(plugin_loading);
+}
+
+}  // namespace assay::reports
