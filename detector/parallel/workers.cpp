@@ -23,6 +23,18 @@ void ends_piece() {}
 void ends_loop() {}
 #endif
 
+// Calls it where a body throws, too.
+class AtEnd {
+ public:
+  explicit AtEnd(void (*call)()) : call_(call) {}
+  ~AtEnd() { call_(); }
+  AtEnd(const AtEnd&) = delete;
+  AtEnd& operator=(const AtEnd&) = delete;
+
+ private:
+  void (*call_)();
+};
+
 // The pieces of one loop.
 class Pieces : public ThreadArena::Work {
  public:
@@ -30,8 +42,8 @@ class Pieces : public ThreadArena::Work {
       : count_(count), most_(most), body_(body) {}
   void run(std::size_t i, std::size_t lane) const override {
     begins_piece();
+    const AtEnd end(ends_piece);
     body_({i * most_, std::min((i + 1) * most_, count_), lane});
-    ends_piece();
   }
 
  private:
@@ -58,8 +70,8 @@ void Workers::share_out(std::size_t count, std::size_t most,
   }
   const Pieces pieces(count, most, body);
   begins_loop();
+  const AtEnd end(ends_loop);
   arena_->run((count + most - 1) / most, pieces);
-  ends_loop();
 }
 
 }  // namespace assay::detector
