@@ -5,6 +5,7 @@
 #include "detector/mesh/paced_stop.h"
 #include "detector/parallel/shared_stop.h"
 #include "detector/state/state_bytes.h"
+#include "detector/step/cost_model.h"
 #include "detector/step/step.h"
 
 namespace assay::detector {

@@ -152,17 +152,12 @@ std::optional<TimeEnclosure> general_first_contact(const FourPoints& query) {
   return ExactContact(query).first_contact();
 }
 
-std::optional<TimeEnclosure> exact_first_contact(const FourPoints& query, Want want) {
-  const FixedResult result = fixed_contact(query, want);
-  switch (result.verdict) {
-    case FixedVerdict::no_contact:
-      return std::nullopt;
-    case FixedVerdict::contact:
-      return result.time;
-    case FixedVerdict::open:
-      break;
-  }
-  return general_first_contact(query);
+ContactResult exact_contact(const FourPoints& query, Want want) {
+  const FixedResult fixed = fixed_contact(query, want);
+  if (fixed.decision != Decision::open)
+    return {fixed.decision == Decision::yes, fixed.time, ContactRung::fixed};
+  const auto first = general_first_contact(query);
+  return {first.has_value(), first.value_or(TimeEnclosure{}), ContactRung::unbounded};
 }
 
 TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double hi, double guess) {

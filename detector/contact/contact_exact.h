@@ -1,17 +1,17 @@
-// Rung 2 of the elementary test: exact integers. Always decides; every degenerate case is treated
-// by the same few rules (contact_exact.cpp).
+// The integer rungs of the elementary test: integers of fixed width (contact_fixed.h), and integers
+// without bound for what these leave open. Together they decide every query. Every degenerate case
+// is treated by the same few rules (contact_exact.cpp).
 #pragma once
 
 #include <optional>
 
-#include "detector/contact/four_points.h"
+#include "detector/contact/elementary.h"
 
 namespace assay::detector {
 
-// The first contact time, or nothing; where only yes or no is wanted any time stands for a contact.
-// Exact for all finite inputs. 0.2 to 1 us for coordinates of similar magnitude.
-std::optional<TimeEnclosure> exact_first_contact(const FourPoints& query,
-                                                 Want want = Want::first_time);
+// Whether there is a contact, its first time if that is wanted, and the rung (fixed or unbounded)
+// that decided. Exact for all finite inputs. 0.2 to 1 us for coordinates of similar magnitude.
+ContactResult exact_contact(const FourPoints& query, Want want = Want::first_time);
 
 // The time of a contact of which the filter knows that it is the only root of the coplanarity cubic
 // in (lo, hi), where the cubic changes sign. 0.4 us for coordinates of similar magnitude.

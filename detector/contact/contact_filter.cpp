@@ -16,7 +16,7 @@ struct FilterSearch {
   }
 
   void contact(const Piece& piece, double f_bound, int f_lo) {
-    result.verdict = FilterVerdict::contact;
+    result.decision = Decision::yes;
     if (want == Want::yes_no) return;
     result.lo = piece.lo;
     result.hi = piece.hi;
@@ -29,7 +29,7 @@ struct FilterSearch {
 
   Want want;
   bool all_free = true;  // of the pieces seen so far
-  FilterResult result{FilterVerdict::no_contact};
+  FilterResult result{Decision::no};
 };
 
 }  // namespace
@@ -63,8 +63,8 @@ bool separated_along_an_axis(const FourPoints& query) {
 FilterResult filter_contact(const FourPoints& query, Want want) {
   FilterSearch search{want};
   ContactPieces<ProvedBounds, FilterSearch>(query, search).run();
-  if (search.result.verdict == FilterVerdict::no_contact && !search.all_free) {
-    search.result.verdict = FilterVerdict::unsure;
+  if (search.result.decision == Decision::no && !search.all_free) {
+    search.result.decision = Decision::open;
   }
   return search.result;
 }

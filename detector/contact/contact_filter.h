@@ -3,6 +3,7 @@
 #pragma once
 
 #include "detector/contact/contact_pieces.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::detector {
 
@@ -10,10 +11,8 @@ namespace assay::detector {
 // no contact, as every point moves linearly. Exact: compares inputs only. About 10 ns.
 bool separated_along_an_axis(const FourPoints& query);
 
-enum class FilterVerdict : std::uint8_t { no_contact, contact, unsure };
-
 struct FilterResult {
-  FilterVerdict verdict = FilterVerdict::unsure;
+  Decision decision = Decision::open;
   // With contact, a time wanted: whether the first contact time is known to be the only root of the
   // coplanarity cubic in (lo, hi), with a sign change of the cubic that is certain.
   bool time_bracketed = false;

@@ -24,11 +24,11 @@ FixedResult fixed_contact(const FourPoints& query, Want want) {
     using Search = FixedSearch<decltype(width)::value>;
     Search search(integers, query.first_group, want);
     switch (search.run()) {
-      case Search::Found::nothing:
-        return {FixedVerdict::no_contact, {}};
-      case Search::Found::contact:
-        return {FixedVerdict::contact, search.time()};
-      case Search::Found::open:
+      case Decision::no:
+        return {Decision::no, {}};
+      case Decision::yes:
+        return {Decision::yes, search.time()};
+      case Decision::open:
         break;
     }
     return {};

@@ -6,13 +6,12 @@
 #include <optional>
 
 #include "detector/contact/elementary.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::detector {
 
-enum class FixedVerdict : std::uint8_t { no_contact, contact, open };
-
 struct FixedResult {
-  FixedVerdict verdict = FixedVerdict::open;
+  Decision decision = Decision::open;
   TimeEnclosure time;  // set when contact and wanted
 };
 

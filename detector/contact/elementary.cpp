@@ -15,18 +15,18 @@ ContactResult test_contact(const FourPoints& query, Want want) {
 
 ContactResult test_contact_past_axis(const FourPoints& query, Want want) {
   const FilterResult filtered = filter_contact(query, want);
-  if (filtered.verdict == FilterVerdict::no_contact) return {false, {}, ContactRung::filter};
-  if (filtered.verdict == FilterVerdict::contact) {
+  if (filtered.decision == Decision::no) return {false, {}, ContactRung::filter};
+  if (filtered.decision == Decision::yes) {
     if (want == Want::yes_no) return {true, {}, ContactRung::filter};
     if (filtered.time_bracketed) {
       return {true, exact_bracketed_time(query, filtered.lo, filtered.hi, filtered.time_guess),
               ContactRung::filter};
     }
   }
-  const auto time = exact_first_contact(query, want);
-  const bool decided = filtered.verdict != FilterVerdict::unsure;
-  return {time.has_value(), time.value_or(TimeEnclosure{}),
-          decided ? ContactRung::filter : ContactRung::exact};
+  ContactResult result = exact_contact(query, want);
+  // The filter knew that there is a contact, and only its time was left to the integers.
+  if (filtered.decision != Decision::open) result.rung = ContactRung::filter;
+  return result;
 }
 
 namespace {
@@ -37,11 +37,11 @@ class BoundedTest : public ElementaryTest {
     return bounded_contact(query, want);
   }
   bool pierces(const Point& e0, const Point& e1, const std::array<Point, 3>& face) const override {
-    return bounded_piercing(e0, e1, face) != Piercing::no;
+    return bounded_piercing(e0, e1, face) != Decision::no;
   }
   TimeEnclosure piercing_time(const Point& e0, const Point& e1,
                               const std::array<Point, 3>& face) const override {
-    return {0, bounded_piercing(e0, e1, face) == Piercing::yes ? 0.0 : 1.0};
+    return {0, bounded_piercing(e0, e1, face) == Decision::yes ? 0.0 : 1.0};
   }
 };
 

@@ -11,14 +11,13 @@
 
 #include "detector/contact/fixed_piece.h"
 #include "detector/contact/fixed_root.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::detector {
 
 template <std::size_t W>
 class FixedSearch {
  public:
-  enum class Found : std::uint8_t { nothing, contact, open };
-
   // query.bits() <= most_bits<W>.
   FixedSearch(const QueryIntegers& query, int first_group, Want want)
       : bits_(query.bits()),
@@ -26,15 +25,15 @@ class FixedSearch {
         products_(query, first_group),
         b_(products_.coplanarity()) {}
 
-  Found run() {
+  Decision run() {
     Piece whole;
     whole.f = {b_[0] + b_[0] + b_[0], b_[1], b_[2], b_[3] + b_[3] + b_[3]};
     coplanar_ = piece_signs(whole.f).first == 0;
     whole.lo = 0;
     whole.hi = 1;
     if (coplanar_ || b_[0].is_zero()) {
-      const Found at_start = look_at(whole, 0, [](const auto& l) { return l.front().sign(); });
-      if (at_start != Found::nothing) return at_start;
+      const Decision at_start = look_at(whole, 0, [](const auto& l) { return l.front().sign(); });
+      if (at_start != Decision::no) return at_start;
     }
     return visit(whole, 0);
   }
@@ -48,73 +47,73 @@ class FixedSearch {
 
   // Whether there is a contact at an end of the piece where the points are coplanar.
   template <class SignThere>
-  Found look_at(Piece& piece, double time, SignThere sign_there) {
+  Decision look_at(Piece& piece, double time, SignThere sign_there) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       SignSet signs;
       for (const auto& l : piece.dependency(axis, products_)) signs.add(sign_there(l));
-      if (signs.both()) return Found::nothing;
+      if (signs.both()) return Decision::no;
       if (!signs.any()) continue;
       time_ = {time, time};
-      return Found::contact;
+      return Decision::yes;
     }
-    return Found::open;  // collinear
+    return Decision::open;  // collinear
   }
 
   // The piece without its beginning.
-  Found visit(Piece& piece, int depth) {
+  Decision visit(Piece& piece, int depth) {
     const PieceSigns f = piece_signs(piece.f);
     if (coplanar_ || f.changes > 0) {
-      const Found inside = coplanar_ ? look_inside_coplanar(piece) : look_inside(piece, f);
-      if (inside == Found::open && depth < max_fixed_depth) {
+      const Decision inside = coplanar_ ? look_inside_coplanar(piece) : look_inside(piece, f);
+      if (inside == Decision::open && depth < max_fixed_depth) {
         for (std::size_t k = 0; k < 3; ++k) piece.dependency(k, products_);
         for (Piece& half : piece.halves()) {
-          const Found found = visit(half, depth + 1);
-          if (found != Found::nothing) return found;
+          const Decision found = visit(half, depth + 1);
+          if (found != Decision::no) return found;
         }
-        return Found::nothing;
+        return Decision::no;
       }
-      if (inside != Found::nothing) return inside;
+      if (inside != Decision::no) return inside;
     }
-    if (!coplanar_ && !piece.f.back().is_zero()) return Found::nothing;
+    if (!coplanar_ && !piece.f.back().is_zero()) return Decision::no;
     return look_at(piece, piece.hi, [](const auto& l) { return l.back().sign(); });
   }
 
   // In the open piece.
-  Found look_inside(Piece& piece, PieceSigns f) {
+  Decision look_inside(Piece& piece, PieceSigns f) {
     const bool single = f.changes == 1;
-    Found found = look_at_signs(piece, single);
-    if (found == Found::open && single) found = look_at_root(piece, piece.f, f.first);
-    if (found == Found::contact && want_ == Want::first_time) {
+    Decision found = look_at_signs(piece, single);
+    if (found == Decision::open && single) found = look_at_root(piece, piece.f, f.first);
+    if (found == Decision::yes && want_ == Want::first_time) {
       time_ = bracket(piece, b_, piece.f, f.first);
     }
     return found;
   }
 
-  Found look_inside_coplanar(Piece& piece) {
+  Decision look_inside_coplanar(Piece& piece) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto& dependency = piece.dependency(axis, products_);
       bool vanishes = true;
       for (const auto& l : dependency) vanishes &= piece_signs(l).first == 0;
       if (!vanishes) {
-        const Found found = look_at_signs(piece, false);
-        return found == Found::open ? look_at_changes(piece, axis) : found;
+        const Decision found = look_at_signs(piece, false);
+        return found == Decision::open ? look_at_changes(piece, axis) : found;
       }
     }
-    return Found::open;  // collinear
+    return Decision::open;  // collinear
   }
 
-  Found look_at_changes(Piece& piece, std::size_t axis) {
+  Decision look_at_changes(Piece& piece, std::size_t axis) {
     std::optional<TimeEnclosure> first;
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& l = piece.dependency(axis, products_)[i];
       const PieceSigns signs = piece_signs(l);
       if (signs.known()) continue;
-      if (signs.changes > 1) return Found::open;
+      if (signs.changes > 1) return Decision::open;
       const auto cubic = raised<W>(l);
-      const Found found = look_at_root(piece, cubic, signs.first);
-      if (found == Found::open) return Found::open;
-      if (found == Found::nothing) continue;
-      if (want_ == Want::yes_no) return Found::contact;
+      const Decision found = look_at_root(piece, cubic, signs.first);
+      if (found == Decision::open) return Decision::open;
+      if (found == Decision::no) continue;
+      if (want_ == Want::yes_no) return Decision::yes;
       const auto over_step = products_.dependency(axis)[i];
       auto whole = raised<W>(over_step);
       whole[0] = Triple(over_step[0]);
@@ -122,14 +121,14 @@ class FixedSearch {
       const TimeEnclosure time = bracket(piece, whole, cubic, signs.first);
       if (!first || !(*first <= time)) first = time;
     }
-    if (!first) return Found::nothing;
+    if (!first) return Decision::no;
     time_ = *first;
-    return Found::contact;
+    return Decision::yes;
   }
 
   // By signs that are known throughout the open piece: both along some axis, or all along some axis
   // and a root (`has_root`) of the cubic inside.
-  Found look_at_signs(Piece& piece, bool has_root) const {
+  Decision look_at_signs(Piece& piece, bool has_root) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       SignSet inside;
       bool known = true;
@@ -141,14 +140,14 @@ class FixedSearch {
           known = false;
         }
       }
-      if (inside.both()) return Found::nothing;
-      if (has_root && known && inside.any()) return Found::contact;
+      if (inside.both()) return Decision::no;
+      if (has_root && known && inside.any()) return Decision::yes;
     }
-    return Found::open;
+    return Decision::open;
   }
 
   // At the one root in the open piece of a cubic that has the sign `before` before it.
-  Found look_at_root(Piece& piece, const FixedCubic<Triple>& cubic, int before) {
+  Decision look_at_root(Piece& piece, const FixedCubic<Triple>& cubic, int before) {
     std::optional<SignAtRoot<W>> sign_at_root;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       SignSet there;
@@ -165,10 +164,10 @@ class FixedSearch {
           known = false;
         }
       }
-      if (there.both()) return Found::nothing;
-      if (known && there.any()) return Found::contact;
+      if (there.both()) return Decision::no;
+      if (known && there.any()) return Decision::yes;
     }
-    return Found::open;
+    return Decision::open;
   }
 
   // Of the one root in the open piece of a cubic: `whole` as coplanarity(), over the step; `cubic`

@@ -65,16 +65,16 @@ struct PiercingSigns {
 
 }  // namespace
 
-Piercing bounded_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
+Decision bounded_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
   const PiercingSigns<ProvedBounds> signs(e0, e1, face);
-  if (signs.pierces()) return Piercing::yes;
-  if (signs.side0 * signs.side1 > 0) return Piercing::no;
+  if (signs.pierces()) return Decision::yes;
+  if (signs.side0 * signs.side1 > 0) return Decision::no;
   const auto [least, greatest] = std::minmax_element(signs.turns.begin(), signs.turns.end());
-  if (*least < 0 && *greatest > 0) return Piercing::no;
+  if (*least < 0 && *greatest > 0) return Decision::no;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (surely_apart(e0, e1, face, axis)) return Piercing::no;
+    if (surely_apart(e0, e1, face, axis)) return Decision::no;
   }
-  return Piercing::open;
+  return Decision::open;
 }
 
 template <class Number>

@@ -1,14 +1,13 @@
 // Whether a segment strictly pierces a triangle at an instant, in doubles or floats alone.
 #pragma once
 
+#include "detector/mesh/step_types.h"
 #include "detector/mesh/types.h"
 
 namespace assay::detector {
 
-enum class Piercing : std::uint8_t { no, yes, open };
-
 // With proved bounds: `no` and `yes` are never wrong, `open` cannot tell. 40 ns, no allocation.
-Piercing bounded_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face);
+Decision bounded_piercing(const Point& e0, const Point& e1, const std::array<Point, 3>& face);
 
 // As computed in Number (double or float); no promise.
 template <class Number>

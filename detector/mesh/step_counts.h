@@ -5,23 +5,28 @@
 
 namespace assay::detector {
 
-// How a feature pair was decided. `open`: bounded arithmetic could not tell, and counts a contact.
-enum class ContactRung : std::uint8_t { axis, filter, exact, open };
+// Which rung of the elementary test decided a feature pair: the order along an axis, doubles with
+// error bounds, integers of fixed width, integers without bound. `open`: bounded arithmetic has none
+// after the filter, could not tell, and counts a contact.
+enum class ContactRung : std::uint8_t { axis, filter, fixed, unbounded, open };
 
 struct ContactRungCounts {
-  std::uint64_t axis = 0, filter = 0, exact = 0, open = 0;
+  std::uint64_t axis = 0, filter = 0, fixed = 0, unbounded = 0, open = 0;
   void add(ContactRung rung) {
-    ++(rung == ContactRung::axis     ? axis
-       : rung == ContactRung::filter ? filter
-       : rung == ContactRung::exact  ? exact
-                                     : open);
+    ++(rung == ContactRung::axis        ? axis
+       : rung == ContactRung::filter    ? filter
+       : rung == ContactRung::fixed     ? fixed
+       : rung == ContactRung::unbounded ? unbounded
+                                        : open);
   }
-  std::uint64_t total() const { return axis + filter + exact + open; }
+  std::uint64_t by_integers() const { return fixed + unbounded; }
+  std::uint64_t total() const { return axis + filter + by_integers() + open; }
 
   ContactRungCounts& operator+=(const ContactRungCounts& other) {
     axis += other.axis;
     filter += other.filter;
-    exact += other.exact;
+    fixed += other.fixed;
+    unbounded += other.unbounded;
     open += other.open;
     return *this;
   }

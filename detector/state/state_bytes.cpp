@@ -62,28 +62,28 @@ void anchor_list(Archive& archive, Anchors& anchors) {
   }
 }
 
-void chosen_anchors(Writer& out, const ViewChoice& choice) {
-  if (there_is(out, choice.anchors)) anchor_list(out, *choice.anchors);
+void chosen_anchors(Writer& out, const PolicyState& policy) {
+  if (there_is(out, policy.anchors)) anchor_list(out, *policy.anchors);
 }
-void chosen_anchors(Reader& in, ViewChoice& choice) {
+void chosen_anchors(Reader& in, PolicyState& policy) {
   std::optional<std::vector<ViewAnchor>> anchors;
   if (!there_is(in, anchors)) return;
   anchor_list(in, *anchors);
-  choice.anchors = std::make_shared<const std::vector<ViewAnchor>>(std::move(*anchors));
+  policy.anchors = std::make_shared<const std::vector<ViewAnchor>>(std::move(*anchors));
 }
 
-template <class Archive, class Choice>
-void choice_fields(Archive& archive, Choice& choice) {
-  chosen_anchors(archive, choice);
-  field(archive, choice.is_worn);
-  field(archive, choice.age);
-  field(archive, choice.least_age);
-  field(archive, choice.best_share);
-  field(archive, choice.share_before);
-  field(archive, choice.rest);
-  field(archive, choice.next_rest);
-  field(archive, choice.candidates);
-  field(archive, choice.overhead);
+template <class Archive, class Policy>
+void policy_fields(Archive& archive, Policy& policy) {
+  chosen_anchors(archive, policy);
+  field(archive, policy.anchors_are_due);
+  field(archive, policy.anchor_age);
+  field(archive, policy.least_anchor_age);
+  field(archive, policy.best_share);
+  field(archive, policy.replaced_at);
+  field(archive, policy.pause);
+  field(archive, policy.next_pause);
+  field(archive, policy.candidates);
+  field(archive, policy.overhead);
 }
 
 // A flag for each component, in the form since the first build of version 1: it said that nothing
@@ -116,7 +116,7 @@ void committed_fields(Archive& archive, Committed& state) {
     }
   }
   component_flags(archive, state);
-  choice_fields(archive, state.choice);
+  policy_fields(archive, state.policy);
 }
 
 template <class Archive, class State>

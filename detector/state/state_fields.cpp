@@ -46,7 +46,7 @@ bool fits(const StateFields& state, const Surface& surface, std::size_t anchors)
     if (!std::isfinite(rule.height)) return false;
   }
   if (!state.committed) return true;
-  const auto& chosen = state.committed->choice.anchors;
+  const auto& chosen = state.committed->policy.anchors;
   return fits(*state.committed, surface) && (!chosen || fit(*chosen, anchors, n));
 }
 

@@ -7,7 +7,7 @@
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/step_types.h"
 #include "detector/mesh/topology.h"
-#include "detector/state/view_choice.h"
+#include "detector/state/policy_state.h"
 
 namespace assay::detector {
 
@@ -26,7 +26,7 @@ struct StepState {
   std::vector<std::optional<std::array<Point, 2>>> inside;
 
   // From evaluation to evaluation this stays as it was committed.
-  ViewChoice choice;
+  PolicyState policy;
 
   // By the workers of the pace, which is not asked to stop.
   void keep(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops));

@@ -17,7 +17,7 @@
 //         if all triangles are in V+: self-collision free
 //     +     a component, with its ghosts, and winding number 1   ReleaseRule (L5)
 //     +     ends the step if there is one component alone
-//     +   no views where they do not pay: every pair is tested   ViewAuto
+//     +   no views where they do not pay: every pair is tested   CullingPolicy
 //     +   what is clean at the start: last commit, or layers     find_start (L8, L9)
 //         hole by hole: pairs of the BVH and the ghosts,
 //           elementary tests; what is in contact goes into Vv    sweep_ghosts (L11)
@@ -38,8 +38,9 @@
 #include "detector/parallel/shared_stop.h"
 #include "detector/search/stopwatch.h"
 #include "detector/step/clean_triangles.h"
+#include "detector/step/cost_model.h"
+#include "detector/step/step_end.h"
 #include "detector/step/step_input.h"
-#include "detector/step/step_outcome.h"
 #include "detector/step_result.h"
 
 namespace assay::detector {
@@ -48,10 +49,10 @@ namespace {
 class Step {
  public:
   Step(StepContext& context, const StepState* known, const PositionsView& x_t0,
-       const PositionsView& x_t1, ViewAuto& view_auto, const StopFunction& stop)
+       const PositionsView& x_t1, CullingPolicy& policy, const StopFunction& stop)
       : context_(context),
         mesh_(context.surface.mesh),
-        auto_(view_auto),
+        policy_(policy),
         work_{context.surface,
               context.tree,
               *context.stages.boundary,
@@ -65,7 +66,7 @@ class Step {
   // primitives: none, one, or one for each component.
   StepResult run(const PositionsView& mesh_x_t0, const PositionsView& mesh_x_t1,
                  std::span<const ViewPrimitive> primitives, std::optional<StepState>& next) {
-    if (looks()) place_primitives(mesh_x_t0, mesh_x_t1, primitives);
+    if (policy_.is_due()) place_primitives(mesh_x_t0, mesh_x_t1, primitives);
     const bool completed = !work_.pace.stopped() && run_stages();
     result_.answer = !completed              ? Answer::undecided
                      : result_.pairs.empty() ? Answer::free
@@ -73,27 +74,19 @@ class Step {
     if (completed)
       next = state_at_end(work_, *context_.stages.release, result_.pairs, is_complete(),
                           mesh_x_t1);  // whole or not at all, should memory fail
-    if (next) next->choice = auto_.after(work_.counts, primitives.empty());
+    if (next) next->policy = policy_.next(work_.counts, primitives.empty());
     result_.first = least_time(result_.pairs);
-    if (completed && uses_views(context_.options.culling))
-      result_.views = is_auto() ? auto_.use() : ViewUse::used;
+    if (completed) result_.views = policy_.use();
     hand_over();
     return std::move(result_);
   }
 
  private:
-  bool is_auto() const { return chooses_views(context_.options.culling); }
-  bool looks() const {
-    return uses_views(context_.options.culling) && !(is_auto() && !auto_.looks());
-  }
-
   void place_primitives(const PositionsView& x_t0, const PositionsView& x_t1,
                         std::span<const ViewPrimitive> given) {
     if (given.empty()) {
-      const auto& first = context_.anchors;
-      const auto& anchors = is_auto() ? auto_.anchors(first, work_.x_t0, work_.pace) : first;
       constexpr std::uint64_t work_of_anchor = 10;
-      for (const auto& anchor : anchors) {
+      for (const auto& anchor : policy_.anchors(context_.anchors, work_.x_t0, work_.pace)) {
         if (work_.pace.after(work_of_anchor)) return;
         work_.primitives.push_back(place_view(anchor, x_t0, x_t1));
       }
@@ -108,13 +101,15 @@ class Step {
     work_.clean.assign(mesh_.triangles.size(), 0);
     work_.touched.assign(mesh_.triangles.size(), 0);
     work_.free.assign(mesh_.components.size(), 0);
-    if (looks() && (!is_auto() || auto_.glances(work_)) && !classify_components()) return false;
-    if (is_auto() && !work_.all_free() && !(work_.has_views() && auto_.promises(work_))) {
+    if (policy_.is_due() && policy_.worth_classifying(work_) && !classify_components())
+      return false;
+    if (policy_.may_use_views() && !work_.all_free() &&
+        !(work_.has_views() && policy_.worth_sweeping(work_))) {
       drop_views();
     }
     if (work_.has_views()) {
       if (!find_start()) return false;
-      if (is_auto() && !work_.all_free() && !auto_.pays(work_)) drop_views();
+      if (!work_.all_free() && !policy_.worth_using(work_)) drop_views();
     }
     if (work_.has_views()) {
       const bool all_free = work_.all_free();
@@ -156,7 +151,7 @@ class Step {
   bool find_start() {
     Stopwatch watch(result_.times.start);
     return find_clean_at_start(work_, *context_.stages.release, context_.options.start,
-                               is_auto() ? StartBy::view_alone : StartBy::view_and_layers);
+                               policy_.start_by());
   }
 
   bool sweep_ghosts() {
@@ -202,7 +197,8 @@ class Step {
     bool completed = true;
     {
       Stopwatch watch(times.broad_phase);
-      completed = candidates.mark(types) && candidates.collect(worth_proving(candidates));
+      completed =
+          candidates.mark(types) && candidates.collect(policy_.worth_proving(work_, candidates));
     }
     // The tests are made as candidates come up.
     times.narrow_phase = candidates.test_time();
@@ -217,20 +213,8 @@ class Step {
     work_.counts.marking = candidates.marking_counts();
     work_.counts.narrow = candidates.narrow_counts();
     work_.counts.closure_rounds = candidates.closure_rounds();
-    if (is_auto() && work_.has_views()) auto_.weigh(work_.counts, candidates_of_k);
+    if (work_.has_views()) policy_.record_cost(work_.counts, candidates_of_k);
     return completed;
-  }
-
-  // Whether patches are proved apart in this search (L14).
-  bool worth_proving(CandidateSearch& candidates) {
-    if (context_.options.culling != Culling::automatic) return true;
-    // Proofs are about pairs of one component.
-    if (work_.has_views() && work_.all_free()) return false;
-    const double asked = candidates.asked_share();
-    const std::size_t triangles = mesh_.triangles.size();
-    constexpr ProvableShares at_best = {1, 1};
-    return auto_.proofs_pay(at_best, asked, triangles) &&
-           auto_.proofs_pay(candidates.provable_shares(), asked, triangles);
   }
 
   // Whether the pairs found are all there are.
@@ -244,9 +228,29 @@ class Step {
 
   StepContext& context_;
   const Topology& mesh_;
-  ViewAuto& auto_;
+  CullingPolicy& policy_;
   StepWork work_;
   StepResult result_;
+};
+
+// The policy of the culling asked for, made without allocating.
+class PolicyOfStep {
+ public:
+  PolicyOfStep(const StepContext& context, const std::optional<StepState>& known)
+      : PolicyOfStep(context, known ? known->policy : PolicyState{}) {}
+  CullingPolicy& policy() {
+    if (model_) return *model_;
+    return fixed_;
+  }
+
+ private:
+  PolicyOfStep(const StepContext& context, const PolicyState& before)
+      : fixed_(context.options.culling, before) {
+    if (chooses_views(context.options.culling))
+      model_.emplace(context.surface, context.adjacent_pairs, before);
+  }
+  FixedPolicy fixed_;
+  std::optional<CostModel> model_;
 };
 
 StepResult undecided() {
@@ -268,15 +272,14 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
     return refused(std::move(*problem));
   const StepState* state =
       known && context.stages.release->still_holds(*known, x_t0, pace) ? &*known : nullptr;
-  const Culling culling = context.options.culling;
-  ViewAuto view_auto(context.surface, context.adjacent_pairs, known ? known->choice : ViewChoice{});
-  const bool may_look = uses_views(culling) && (!chooses_views(culling) || view_auto.looks());
+  PolicyOfStep policy_of_step(context, known);
+  CullingPolicy& policy = policy_of_step.policy();
   double total = 0;
   StepResult result;
   {
     Stopwatch watch(total);
-    if (context.surface.is_closed() || !may_look) {
-      result = Step(context, state, x_t0, x_t1, view_auto, stop).run(x_t0, x_t1, primitives, next);
+    if (context.surface.is_closed() || !policy.is_due()) {
+      result = Step(context, state, x_t0, x_t1, policy, stop).run(x_t0, x_t1, primitives, next);
     } else {
       constexpr std::uint64_t work_of_ghost = 10, work_of_vertex = 3;
       auto apexes =
@@ -285,8 +288,7 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
       const Positions all_t0 = with_apexes(x_t0, apexes, false);
       if (pace.after(work_of_vertex * at(context.surface.first_apex))) return undecided();
       const Positions all_t1 = with_apexes(x_t1, apexes, true);
-      result =
-          Step(context, state, all_t0, all_t1, view_auto, stop).run(x_t0, x_t1, primitives, next);
+      result = Step(context, state, all_t0, all_t1, policy, stop).run(x_t0, x_t1, primitives, next);
       if (!result.primitives.empty()) result.apexes = std::move(apexes);
     }
   }

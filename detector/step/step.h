@@ -3,8 +3,8 @@
 
 #include "detector/parallel/workers.h"
 #include "detector/step/stages.h"
-#include "detector/step/view_auto.h"
 #include "detector/step_result.h"
+#include "detector/view/view_anchor.h"
 
 namespace assay::detector {
 
@@ -17,7 +17,7 @@ struct StepContext {
   SearchMemory search;               // the marks of that tree
   std::vector<ViewAnchor> anchors;   // one for each component
   std::vector<ApexRule> apex_rules;  // one for each loop
-  std::uint64_t adjacent_pairs = 0;  // of view-auto, see view_auto.h
+  std::uint64_t adjacent_pairs = 0;  // of the mesh; the cost model's (cost_model.h)
   Workers workers;
 };
 

@@ -60,7 +60,7 @@ bool contact_at(ContactPolynomials& polynomials, const AlgebraicTimes& times, in
   return true;
 }
 
-AlgebraicVerdict algebraic_verdict(ContactPolynomials& polynomials, detector::Want want) {
+AlgebraicAnswer algebraic_answer(ContactPolynomials& polynomials, detector::Want want) {
   const AlgebraicTimes times(event_polynomials(polynomials));
   for (int i = 0; i < times.size(); ++i) {
     if (!contact_at(polynomials, times, i)) continue;

@@ -10,7 +10,7 @@
 
 namespace assay::oracle {
 
-struct AlgebraicVerdict {
+struct AlgebraicAnswer {
   bool contact = false;
   detector::TimeEnclosure first;  // when contact, and a time was wanted
 };
@@ -19,7 +19,7 @@ struct AlgebraicVerdict {
 // identically zero, t=0 and the zeros of the L of one axis where they are not all zero; when all L
 // are, t=0 and the zeros of the D of such an axis; else t=0. Between these times nothing changes,
 // and the set of contact times is closed, so the first of them with a contact is the answer.
-AlgebraicVerdict algebraic_verdict(ContactPolynomials& polynomials, detector::Want want);
+AlgebraicAnswer algebraic_answer(ContactPolynomials& polynomials, detector::Want want);
 
 // The polynomials among whose zeros in [0,1] a contact begins; none is identically zero.
 std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials);

@@ -14,17 +14,17 @@ ContactAnswer answer(const FourPoints& q, detector::Want want) {
   require_exact_processor_state();
   if (separated_by_axis(q)) return {false, {}, Rung::axis};
 
-  const IntervalVerdict quick = interval_verdict(q, want);
-  if (quick.verdict == Verdict::no_contact) return {false, {}, Rung::interval};
-  if (quick.verdict == Verdict::contact && want == detector::Want::yes_no) {
+  const IntervalAnswer quick = interval_answer(q, want);
+  if (quick.decision == detector::Decision::no) return {false, {}, Rung::interval};
+  if (quick.decision == detector::Decision::yes && want == detector::Want::yes_no) {
     return {true, {}, Rung::interval};
   }
 
   ContactPolynomials polynomials(q);
-  if (quick.verdict == Verdict::contact) {
+  if (quick.decision == detector::Decision::yes) {
     return {true, simple_zero_time(polynomials.coplanarity(), quick.s, quick.e), Rung::interval};
   }
-  const AlgebraicVerdict full = algebraic_verdict(polynomials, want);
+  const AlgebraicAnswer full = algebraic_answer(polynomials, want);
   return {full.contact, full.first, Rung::algebraic};
 }
 

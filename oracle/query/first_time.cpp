@@ -119,14 +119,14 @@ std::optional<std::strong_ordering> compare_first_times(const Query& a, const Qu
   return std::nullopt;
 }
 
-ClaimVerdict check_first_time(const Query& query, const detector::TimeEnclosure& claim) {
+ClaimCheck check_first_time(const Query& query, const detector::TimeEnclosure& claim) {
   require_exact_processor_state();
   const bool in_step = claim.lo >= 0 && claim.hi <= 1;
   const bool well_formed = claim.lo == claim.hi || claim.hi == std::nextafter(claim.lo, 2.0);
   if (!in_step || !well_formed) return {false, ClaimRung::signs};
   ContactPolynomials polynomials(points_of(query));
   if (proved_by_signs(polynomials, claim)) return {true, ClaimRung::signs};
-  const AlgebraicVerdict solved = algebraic_verdict(polynomials, detector::Want::first_time);
+  const AlgebraicAnswer solved = algebraic_answer(polynomials, detector::Want::first_time);
   return {solved.contact && solved.first == claim, ClaimRung::solved};
 }
 

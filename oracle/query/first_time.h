@@ -22,7 +22,7 @@ std::optional<std::strong_ordering> compare_first_times(const Query& a, const Qu
 // How a claim was judged: by exact signs at the claimed doubles alone, or by solving.
 enum class ClaimRung : std::uint8_t { signs, solved };
 
-struct ClaimVerdict {
+struct ClaimCheck {
   bool holds = false;
   ClaimRung rung = ClaimRung::signs;
 };
@@ -30,6 +30,6 @@ struct ClaimVerdict {
 // Whether `claim` is the enclosure of the query's first contact time: lo = hi, a double at which
 // the contact begins, or adjacent doubles with lo < time < hi. Signs of F and of the L at the
 // claimed doubles settle nearly all claims (a few us); those with a zero of F in doubt are solved.
-ClaimVerdict check_first_time(const Query& query, const detector::TimeEnclosure& claim);
+ClaimCheck check_first_time(const Query& query, const detector::TimeEnclosure& claim);
 
 }  // namespace assay::oracle

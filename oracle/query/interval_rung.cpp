@@ -69,17 +69,17 @@ bool separated_on_piece(const std::array<Linear, 3>& u, int first_group) {
   return false;
 }
 
-struct PieceVerdict {
-  Verdict verdict = Verdict::unknown;
+struct PieceDecision {
+  detector::Decision decision = detector::Decision::open;
   bool one_zero = false;  // F is strictly monotone on the piece
 };
 
-PieceVerdict judge_piece(const std::array<Linear, 3>& u, int first_group) {
-  if (separated_on_piece(u, first_group)) return {Verdict::no_contact};
+PieceDecision judge_piece(const std::array<Linear, 3>& u, int first_group) {
+  if (separated_on_piece(u, first_group)) return {detector::Decision::no};
 
   const QuadraticVector<Interval> w1 = cross(u[1], u[2]);
   const Bernstein<Interval, 3> f = dot(u[0], w1);
-  if (sure_sign(f) != 0) return {Verdict::no_contact};
+  if (sure_sign(f) != 0) return {detector::Decision::no};
 
   const QuadraticVector<Interval> w2 = cross(u[2], u[0]);
   const QuadraticVector<Interval> w3 = cross(u[0], u[1]);
@@ -95,18 +95,18 @@ PieceVerdict judge_piece(const std::array<Linear, 3>& u, int first_group) {
       positive += s > 0;
       negative += s < 0;
     }
-    if (positive > 0 && negative > 0) return {Verdict::no_contact};
+    if (positive > 0 && negative > 0) return {detector::Decision::no};
     all_agree = all_agree || positive == 4 || negative == 4;
   }
   if (!f_changes || !all_agree) return {};
   // F' has the scaled coefficients f1 - 3 f0, 2 (f2 - f1), 3 f3 - f2; the factor is no matter.
   const Interval three(3.0);
   const Bernstein<Interval, 2> slope = {f[1] - three * f[0], f[2] - f[1], three * f[3] - f[2]};
-  return {Verdict::contact, sure_sign(slope) != 0};
+  return {detector::Decision::yes, sure_sign(slope) != 0};
 }
 
 // Not inlined: nothing of it may move out of the region that rounds upward.
-[[gnu::noinline]] IntervalVerdict judge_pieces(const FourPoints& q, detector::Want want) {
+[[gnu::noinline]] IntervalAnswer judge_pieces(const FourPoints& q, detector::Want want) {
   const Differences differences(q);
   std::array<Piece, kMaxDepth + 2> stack;  // later pieces below earlier ones
   int size = 0, judged = 0;
@@ -117,11 +117,11 @@ PieceVerdict judge_piece(const std::array<Linear, 3>& u, int first_group) {
     if (++judged > kMaxPieces) return {};
     std::array<Linear, 3> u;
     for (int j = 0; j < 3; ++j) u[j] = {differences.at(j, piece.s), differences.at(j, piece.e)};
-    const PieceVerdict verdict = judge_piece(u, q.first_group);
-    if (verdict.verdict == Verdict::no_contact) continue;
-    if (verdict.verdict == Verdict::contact) {
-      if (want == detector::Want::yes_no) return {Verdict::contact};
-      if (verdict.one_zero) return {Verdict::contact, piece.s, piece.e};
+    const PieceDecision inside = judge_piece(u, q.first_group);
+    if (inside.decision == detector::Decision::no) continue;
+    if (inside.decision == detector::Decision::yes) {
+      if (want == detector::Want::yes_no) return {detector::Decision::yes};
+      if (inside.one_zero) return {detector::Decision::yes, piece.s, piece.e};
     }
     if (piece.depth == kMaxDepth) {
       if (want == detector::Want::first_time) return {};
@@ -132,12 +132,12 @@ PieceVerdict judge_piece(const std::array<Linear, 3>& u, int first_group) {
     stack[size++] = {middle, piece.e, piece.depth + 1};
     stack[size++] = {piece.s, middle, piece.depth + 1};
   }
-  return {all_free ? Verdict::no_contact : Verdict::unknown};
+  return {all_free ? detector::Decision::no : detector::Decision::open};
 }
 
 }  // namespace
 
-IntervalVerdict interval_verdict(const FourPoints& q, detector::Want want) {
+IntervalAnswer interval_answer(const FourPoints& q, detector::Want want) {
   if (!all_coordinates_below(q.x, kLargest)) return {};
   const Interval::Protector round_upward;
   return judge_pieces(q, want);

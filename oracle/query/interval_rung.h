@@ -7,10 +7,8 @@
 
 namespace assay::oracle {
 
-enum class Verdict { no_contact, contact, unknown };
-
-struct IntervalVerdict {
-  Verdict verdict = Verdict::unknown;
+struct IntervalAnswer {
+  detector::Decision decision = detector::Decision::open;
   // With Want::first_time and a contact: [s,e] holds exactly one zero of F, inside and simple, F
   // has strictly opposite signs at s and e, and that zero is the first contact time.
   double s = 0, e = 1;
@@ -21,6 +19,6 @@ struct IntervalVerdict {
 // it and some axis has all four L surely of one sign. Pieces are taken in time order; a contact
 // with its time is claimed only when all earlier pieces are free.
 // Coordinates of 2^300 or more are left to the next rung, so no interval ever overflows.
-IntervalVerdict interval_verdict(const FourPoints& q, detector::Want want);
+IntervalAnswer interval_answer(const FourPoints& q, detector::Want want);
 
 }  // namespace assay::oracle

@@ -19,7 +19,7 @@ class Referee {
   Referee(const Query& query, const RefereeOptions& options)
       : query_(query), options_(options), hull_(double_hull(query)) {}
 
-  RefereeVerdict run() {
+  detector::Decision run() {
     const int deepest = std::clamp(options_.depth, 0, kMostDepth);
     std::vector<std::int64_t> pieces = {0};  // piece k of depth d is [k/2^d, (k+1)/2^d]
     std::uint64_t looked_at = 0;
@@ -27,18 +27,18 @@ class Referee {
     for (int depth = 0; depth <= deepest; ++depth) {
       std::vector<std::int64_t> left;
       for (const std::int64_t k : pieces) {
-        if (++looked_at > options_.max_boxes) return RefereeVerdict::open;
+        if (++looked_at > options_.max_boxes) return detector::Decision::open;
         if (!separated(k, depth)) left.push_back(k);
       }
-      if (left.empty()) return RefereeVerdict::no_contact;
-      if (contact_in_some(left, depth)) return RefereeVerdict::contact;
+      if (left.empty()) return detector::Decision::no;
+      if (contact_in_some(left, depth)) return detector::Decision::yes;
       pieces.clear();
       for (const std::int64_t k : left) {
         pieces.push_back(2 * k);
         if (begins_in_time(2 * k + 1, depth + 1)) pieces.push_back(2 * k + 1);
       }
     }
-    return RefereeVerdict::open;
+    return detector::Decision::open;
   }
 
  private:
@@ -111,12 +111,12 @@ class Referee {
 
 }  // namespace
 
-RefereeVerdict referee(const detector::VertexFace& query, const RefereeOptions& options) {
+detector::Decision referee(const detector::VertexFace& query, const RefereeOptions& options) {
   require_exact_processor_state();
   return Referee(query, options).run();
 }
 
-RefereeVerdict referee(const detector::EdgeEdge& query, const RefereeOptions& options) {
+detector::Decision referee(const detector::EdgeEdge& query, const RefereeOptions& options) {
   require_exact_processor_state();
   return Referee(query, options).run();
 }

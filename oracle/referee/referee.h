@@ -18,8 +18,6 @@
 
 namespace assay::oracle {
 
-enum class RefereeVerdict : std::uint8_t { contact, no_contact, open };
-
 struct RefereeOptions {
   // Times are cut in halves this often at most, 0 to 61. 17 confirm every no of random queries;
   // neighbours of a touch need about the number of bits in which they differ from it.
@@ -31,7 +29,7 @@ struct RefereeOptions {
 };
 
 // An open verdict never becomes the opposite of a decided one: more depth only settles more.
-RefereeVerdict referee(const detector::VertexFace& query, const RefereeOptions& options = {});
-RefereeVerdict referee(const detector::EdgeEdge& query, const RefereeOptions& options = {});
+detector::Decision referee(const detector::VertexFace& query, const RefereeOptions& options = {});
+detector::Decision referee(const detector::EdgeEdge& query, const RefereeOptions& options = {});
 
 }  // namespace assay::oracle

@@ -109,14 +109,14 @@ class Second {
   }
 
   // Counts and compares; true when the referee has proved a contact.
-  static bool compare_query(const Feature& feature, bool judged, RefereeVerdict verdict,
+  static bool compare_query(const Feature& feature, bool judged, detector::Decision verdict,
                             SecondOpinion& found) {
     ++found.queries;
-    if (verdict == RefereeVerdict::open) {
+    if (verdict == detector::Decision::open) {
       ++found.open;
       return false;
     }
-    const bool contact = verdict == RefereeVerdict::contact;
+    const bool contact = verdict == detector::Decision::yes;
     ++(contact ? found.contact : found.no_contact);
     if (contact != judged) {
       found.contradictions.push_back(

@@ -9,7 +9,7 @@
 #include "detector/step_result.h"
 #include "properties/faults/fault.h"
 #include "properties/judging/agreement.h"
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {

@@ -14,19 +14,20 @@ std::string text(const detector::TimeEnclosure& t) {
 }
 
 std::string text(const MethodAnswer& answer) {
-  if (answer.verdict == QueryVerdict::open) return "cannot tell";
-  if (answer.verdict == QueryVerdict::no_contact) return "no contact";
+  if (answer.decision == detector::Decision::open) return "cannot tell";
+  if (answer.decision == detector::Decision::no) return "no contact";
   return answer.first ? "contact at " + text(*answer.first) : "contact";
 }
 
 MethodAnswer as_method(const oracle::ContactAnswer& answer) {
-  if (!answer.contact) return {QueryVerdict::no_contact, {}};
-  return {QueryVerdict::contact, answer.first};
+  if (!answer.contact) return {detector::Decision::no, {}};
+  return {detector::Decision::yes, answer.first};
 }
 
 bool contradicts(const MethodAnswer& a, const MethodAnswer& b) {
-  if (a.verdict == QueryVerdict::open || b.verdict == QueryVerdict::open) return false;
-  return a.verdict != b.verdict || (a.first && b.first && *a.first != *b.first);
+  if (a.decision == detector::Decision::open || b.decision == detector::Decision::open)
+    return false;
+  return a.decision != b.decision || (a.first && b.first && *a.first != *b.first);
 }
 
 std::optional<std::string> first_contradiction(const GeneratedQuery& made, std::uint64_t pick,
@@ -42,7 +43,7 @@ std::optional<std::string> first_contradiction(const GeneratedQuery& made, std::
   bool open = false;
   for (const QueryMethod& method : query_methods()) {
     const MethodAnswer answer = method.answer(query);
-    open = open || answer.verdict == QueryVerdict::open;
+    open = open || answer.decision == detector::Decision::open;
     if (contradicts(answer, expected)) {
       return fmt::format("{}: {}; oracle: {}", method.name, text(answer), text(expected));
     }

@@ -19,27 +19,28 @@ detector::EdgeEdge edge_edge(const Query& q) {
   return {{q.points[0], q.points[1]}, {q.points[2], q.points[3]}};
 }
 
-QueryVerdict verdict(bool contact) {
-  return contact ? QueryVerdict::contact : QueryVerdict::no_contact;
+detector::Decision decision(bool contact) {
+  return contact ? detector::Decision::yes : detector::Decision::no;
 }
 
 MethodAnswer oracle_yes_no(const Query& query) {
-  return {verdict(ask_oracle(query, Want::yes_no).contact), {}};
+  return {decision(ask_oracle(query, Want::yes_no).contact), {}};
 }
 
 MethodAnswer detector_yes_no(const Query& query) {
-  return {verdict(detector::test_contact(query, Want::yes_no).contact), {}};
+  return {decision(detector::test_contact(query, Want::yes_no).contact), {}};
 }
 
 MethodAnswer detector_timed(const Query& query) {
   const auto result = detector::test_contact(query, Want::first_time);
-  if (!result.contact) return {QueryVerdict::no_contact, {}};
-  return {QueryVerdict::contact, result.time};
+  if (!result.contact) return {detector::Decision::no, {}};
+  return {detector::Decision::yes, result.time};
 }
 
 MethodAnswer detector_integers(const Query& query) {
-  const auto first = detector::exact_first_contact(query);
-  return {verdict(first.has_value()), first};
+  const auto exact = detector::exact_contact(query);
+  if (!exact.contact) return {detector::Decision::no, {}};
+  return {detector::Decision::yes, exact.time};
 }
 
 // Small: what is not settled soon is mostly a touch, which no amount of work settles.
@@ -48,8 +49,8 @@ constexpr oracle::RefereeOptions referee_options = {60, 100};
 MethodAnswer second_referee(const Query& query) {
   const auto told = query.first_group == 1 ? oracle::referee(vertex_face(query), referee_options)
                                            : oracle::referee(edge_edge(query), referee_options);
-  if (told == oracle::RefereeVerdict::open) return {QueryVerdict::open, {}};
-  return {verdict(told == oracle::RefereeVerdict::contact), {}};
+  if (told == detector::Decision::open) return {detector::Decision::open, {}};
+  return {decision(told == detector::Decision::yes), {}};
 }
 
 constexpr std::array methods = {

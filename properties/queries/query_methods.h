@@ -6,6 +6,7 @@
 #include <span>
 
 #include "detector/contact/four_points.h"
+#include "detector/mesh/step_types.h"
 #include "oracle/query/contact.h"
 
 namespace assay::properties {
@@ -13,11 +14,9 @@ namespace assay::properties {
 // A query in the order of both rooms: vertex-face {0}|{1,2,3}, edge-edge {0,1}|{2,3}.
 using Query = detector::FourPoints;
 
-enum class QueryVerdict : std::uint8_t { no_contact, contact, open };
-
 struct MethodAnswer {
-  QueryVerdict verdict = QueryVerdict::open;     // open: the method cannot tell
-  std::optional<detector::TimeEnclosure> first;  // set when it answers with a time
+  detector::Decision decision = detector::Decision::open;  // open: the method cannot tell
+  std::optional<detector::TimeEnclosure> first;            // set when it answers with a time
 };
 
 struct QueryMethod {

@@ -49,8 +49,8 @@ std::uint64_t result_hash(const StepResult& result) {
         result.counts.search.box_tests, result.counts.search.child_counts,
         result.counts.search.skipped, result.counts.search.contour_tests,
         result.counts.search.candidate_pairs, result.counts.narrow.elementary_tests,
-        result.counts.narrow.rungs.exact, result.counts.view.lanes, result.counts.view.filter,
-        result.counts.view.exact, result.counts.closure_rounds}) {
+        result.counts.narrow.rungs.by_integers(), result.counts.view.lanes,
+        result.counts.view.filter, result.counts.view.exact, result.counts.closure_rounds}) {
     hash.add(count);
   }
   for (const auto sign : result.signs) hash.add(static_cast<std::uint64_t>(sign));

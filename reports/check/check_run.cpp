@@ -92,24 +92,24 @@ class CheckRun {
 
   // Whether there are steps to go through.
   bool begin() {
-    const auto verdict = subject_.begin();
-    if (verdict.disturbances > 0)
+    const auto judged = subject_.begin();
+    if (judged.disturbances > 0)
       say(fmt::format("the detector's process was killed from outside {} times, and began anew\n",
-                      verdict.disturbances));
+                      judged.disturbances));
     if (const auto seconds = subject_.processor_seconds())
       say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n", *seconds,
                       step_count(), step_count() == 1 ? "" : "s"));
-    if (verdict.outcome == Outcome::holds) return true;
-    outcome_.ended = verdict.what;
-    for (const auto claim : verdict.broken) {
+    if (judged.outcome == Outcome::holds) return true;
+    outcome_.ended = judged.what;
+    for (const auto claim : judged.broken) {
       outcome_.ended +=
           fmt::format("{}{}", outcome_.ended.empty() ? "broken: " : "; broken: ", name_of(claim));
     }
     say(fmt::format("the detector's run: {}\n", outcome_.ended));
-    outcome_.defect = verdict.outcome == Outcome::defect;
+    outcome_.defect = judged.outcome == Outcome::defect;
     outcome_.undecided = !outcome_.defect;
     // What only differs between two runs has steps to show.
-    return verdict.broken == std::vector<properties::Claim>{properties::Claim::deterministic};
+    return judged.broken == std::vector<properties::Claim>{properties::Claim::deterministic};
   }
 
   ShownWork shown_work(std::size_t s) const {

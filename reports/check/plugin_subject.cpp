@@ -60,7 +60,7 @@ class Plugin : public Subject {
 
   // All steps at once: the worker carries the detector's state from one to the next. A second time
   // where it claims to be deterministic.
-  properties::RunVerdict begin() override {
+  properties::JudgedRun begin() override {
     const std::size_t times = claims_.deterministic ? 2 : 1;
     runs_ =
         worker_.run(case_, std::vector<properties::Configuration>(times, {description_.name, {}}));

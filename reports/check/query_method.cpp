@@ -22,33 +22,30 @@ QueryAnswer answer_by_oracle(const LabelledQuery& q) {
 
 template <detector::Arithmetic arithmetic>
 QueryAnswer answer_by_detector(const LabelledQuery& q) {
-  using detector::ContactRung;
   const auto answer = detector::test_contact(four_points_of(q), detector::Want::yes_no, arithmetic);
-  return {answer.contact, answer.rung == ContactRung::axis     ? 0
-                          : answer.rung == ContactRung::filter ? 1
-                                                               : 2};
+  return {answer.contact, static_cast<int>(answer.rung)};
 }
 
 QueryAnswer answer_by_referee(const LabelledQuery& q) {
-  const auto verdict =
+  const auto decision =
       std::visit([](const auto& query) { return oracle::referee(query); }, q.query);
-  return {verdict == oracle::RefereeVerdict::contact, 0, verdict == oracle::RefereeVerdict::open};
+  return {decision == detector::Decision::yes, 0, decision == detector::Decision::open};
 }
 
 struct Method {
-  std::array<const char*, 3> rungs;
+  RungNames rungs;
   QueryAnswer (*answer)(const LabelledQuery&);
 };
 
 const Method& method_of(QueryMethod method) {
   using detector::Arithmetic;
   static const std::array<Method, 6> methods = {{
-      {{"axis", "interval", "algebraic"}, answer_by_oracle},
-      {{"", "", ""}, answer_by_referee},
-      {{"axis", "filter", "exact"}, answer_by_detector<Arithmetic::exact>},
-      {{"axis", "filter", "open"}, answer_by_detector<Arithmetic::bounded>},
-      {{"axis", "filter", ""}, answer_by_detector<Arithmetic::double_precision>},
-      {{"axis", "filter", ""}, answer_by_detector<Arithmetic::single_precision>},
+      {{"axis", "interval", "algebraic", "", ""}, answer_by_oracle},
+      {{"", "", "", "", ""}, answer_by_referee},
+      {{"axis", "filter", "fixed", "unbounded", ""}, answer_by_detector<Arithmetic::exact>},
+      {{"axis", "filter", "", "", "open"}, answer_by_detector<Arithmetic::bounded>},
+      {{"axis", "filter", "", "", ""}, answer_by_detector<Arithmetic::double_precision>},
+      {{"axis", "filter", "", "", ""}, answer_by_detector<Arithmetic::single_precision>},
   }};
   return methods[static_cast<std::size_t>(method)];
 }
@@ -61,7 +58,7 @@ QueryAnswer answer_by(QueryMethod method, const LabelledQuery& query) {
   return method_of(method).answer(query);
 }
 
-const std::array<const char*, 3>& rungs_of(QueryMethod method) { return method_of(method).rungs; }
+const RungNames& rungs_of(QueryMethod method) { return method_of(method).rungs; }
 
 bool claims_no_false_positives(QueryMethod method) { return method <= QueryMethod::detector_exact; }
 bool claims_no_false_negatives(QueryMethod method) {

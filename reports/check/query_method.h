@@ -25,14 +25,14 @@ const char* name_of(QueryMethod method);
 
 struct QueryAnswer {
   bool contact = false;
-  // 0 axis, 1 interval or filter, 2 the last: algebraic, exact or open; 0 for the referee
-  int rung = 0;
+  int rung = 0;       // which of rungs_of(method) decided; 0 for the referee, which has none
   bool open = false;  // by the referee: not decided
 };
 QueryAnswer answer_by(QueryMethod method, const corpus::LabelledQuery& query);
 
 // The names of its rungs, by QueryAnswer::rung; "" where there is none.
-const std::array<const char*, 3>& rungs_of(QueryMethod method);
+using RungNames = std::array<const char*, 5>;
+const RungNames& rungs_of(QueryMethod method);
 
 // Whether an answer that differs from the truth refutes the method: bounded arithmetic may raise
 // false alarms, plain doubles and floats promise nothing.

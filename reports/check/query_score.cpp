@@ -76,7 +76,8 @@ void QueryScore::print() const {
   if (!method_ || !*rungs_of(*method_)[0]) return;
   const auto& rungs = rungs_of(*method_);
   std::string text;
-  for (std::size_t r = 0; r < rungs.size() && *rungs[r]; ++r) {
+  for (std::size_t r = 0; r < rungs.size(); ++r) {
+    if (!*rungs[r]) continue;
     text += fmt::format(
         "{}{} {:.1f} %", r == 0 ? "rungs: " : ", ", rungs[r],
         count() ? 100.0 * static_cast<double>(rungs_[r]) / static_cast<double>(count()) : 0.0);

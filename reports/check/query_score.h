@@ -62,7 +62,7 @@ class QueryScore {
   std::string name_;
   std::vector<double> microseconds_;
   std::size_t yes_ = 0, unlabelled_ = 0, false_positives_ = 0, false_negatives_ = 0;
-  std::array<std::size_t, 3> rungs_ = {0, 0, 0};
+  std::array<std::size_t, 5> rungs_ = {};
   std::size_t open_ = 0;  // by the referee; neither yes nor a difference
   std::vector<Difference> differences_, contradictions_;
 };

@@ -7,7 +7,7 @@
 
 #include "detector/options.h"
 #include "detector/step_result.h"
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/check_input.h"
 #include "reports/terminal/complaint.h"
@@ -37,9 +37,9 @@ class Subject {
   // What a plug-in printed meanwhile, the last lines of it.
   virtual std::string printed() const { return {}; }
 
-  // Before the first step; what the run as a whole broke, with no verdict on any step. Not `holds`:
+  // Before the first step; what the run as a whole broke, without judging any step. Not `holds`:
   // there may be no steps to ask for.
-  virtual properties::RunVerdict begin() { return {}; }
+  virtual properties::JudgedRun begin() { return {}; }
 
   // Steps are asked for in order, each once.
   virtual detector::StepResult answer(std::size_t step, const detector::StopFunction& stop) = 0;

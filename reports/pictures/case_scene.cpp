@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "detector/mesh/mesh_checks.h"
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::reports {

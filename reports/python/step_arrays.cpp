@@ -21,7 +21,7 @@ py::dict dict_of(const StepCounts& counts) {
                                   search.contour_tests, search.candidate_pairs),
       "marking"_a = py::make_tuple(marking.changed, marking.marked, marking.cleared),
       "narrow"_a = py::make_tuple(narrow.elementary_tests, narrow.rungs.axis, narrow.rungs.filter,
-                                  narrow.rungs.exact, narrow.rungs.open),
+                                  narrow.rungs.fixed, narrow.rungs.unbounded, narrow.rungs.open),
       "view"_a = py::make_tuple(view.lanes, view.filter, view.exact, view.open),
       "ghosts"_a = py::make_tuple(ghosts.box_tests, ghosts.pairs, ghosts.elementary_tests,
                                   ghosts.near_triangles),

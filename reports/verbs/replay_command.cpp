@@ -122,7 +122,7 @@ std::string sets_text(const detector::StepResult& result) {
 }
 
 void print_run(const properties::Configuration& configuration, const properties::CaseRun& run,
-               const properties::Verdict& verdict) {
+               const properties::JudgedTrial& verdict) {
   fmt::print("{}: {}{}\n", configuration.name, properties::name_of(verdict.outcome),
              run.what.empty() ? "" : " (" + run.what + ")");
   for (std::size_t s = 0; s < run.steps.size(); ++s) {

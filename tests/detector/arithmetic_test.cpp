@@ -85,10 +85,10 @@ TEST(Arithmetic, BoundedPiercingIsNeverWrong) {
     const std::array<Point, 3> face = {draw.point(3), draw.point(3), draw.point(3)};
     const bool exact = segment_pierces_triangle(e0, e1, face);
     const auto bounded = bounded_piercing(e0, e1, face);
-    if (bounded == Piercing::open) {
+    if (bounded == Decision::open) {
       ++open;
     } else {
-      ASSERT_EQ(bounded == Piercing::yes, exact) << i;
+      ASSERT_EQ(bounded == Decision::yes, exact) << i;
     }
     yes += exact ? 1 : 0;
   }
@@ -100,8 +100,8 @@ TEST(Arithmetic, BoundedPiercingIsNeverWrong) {
 
 TEST(Arithmetic, BoundedPiercingTellsCoplanarTrianglesApart) {
   const std::array<Point, 3> face = {Point{0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-  EXPECT_EQ(bounded_piercing({.7, .6, 1}, {.6, .7, 1}, face), Piercing::no);
-  EXPECT_EQ(bounded_piercing({.1, .1, 1}, {.2, .2, 1}, face), Piercing::open);
+  EXPECT_EQ(bounded_piercing({.7, .6, 1}, {.6, .7, 1}, face), Decision::no);
+  EXPECT_EQ(bounded_piercing({.1, .1, 1}, {.2, .2, 1}, face), Decision::open);
 }
 
 TEST(Arithmetic, BoundedWindingNumbersAreRightOrAbsent) {

@@ -10,7 +10,7 @@
 #include "properties/campaign/query_plan.h"
 #include "properties/campaign/stored/evidence.h"
 #include "properties/campaign/trials/trials.h"
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 
 namespace assay::properties {
 namespace {
@@ -107,10 +107,10 @@ class Repetitions {
         return;
       }
       ++row.runs;
-      const auto verdict = judge_run(c, first ? *first : run, {}, claims,
-                                     request_.detector.contract, first ? &run : nullptr);
-      if (verdict.outcome != Outcome::holds) {
-        tell(c, first ? *first : run, run, verdict, row);
+      const auto judged = judge_run(c, first ? *first : run, {}, claims, request_.detector.contract,
+                                    first ? &run : nullptr);
+      if (judged.outcome != Outcome::holds) {
+        tell(c, first ? *first : run, run, judged, row);
         return;
       }
       if (!first) first = std::move(run);
@@ -119,8 +119,8 @@ class Repetitions {
 
   // A run that differs from the first, or that ended in a way that breaks a claim.
   void tell(const corpus::Case& c, const CaseRun& first, const CaseRun& run,
-            const RunVerdict& verdict, Repetition& row) {
-    row.broken = verdict.outcome == Outcome::defect;
+            const JudgedRun& judged, Repetition& row) {
+    row.broken = judged.outcome == Outcome::defect;
     const auto s = differing_step(first, run);
     row.what = !s ? fmt::format("{}: {}", name_of(run.end), run.what)
                   : fmt::format("step {}, run {} with {} threads: {}; run 1 with {}: {}", *s + 1,
@@ -128,7 +128,7 @@ class Repetitions {
                                 row.threads.front(), answer_of(first, *s));
     if (!row.broken) return;
     Failure failure;
-    failure.claim = verdict.broken.front();
+    failure.claim = judged.broken.front();
     failure.kind = failure.claim == Claim::deterministic ? "two runs differ" : name_of(run.end);
     failure.cause = "large mesh";
     failure.what = fmt::format("{}, {} triangles, {}", c.id, row.triangles, row.what);

@@ -1,4 +1,4 @@
-// What a campaign counts of a case besides its verdict: tags, set pairs of contacts, laws.
+// What a campaign counts of a case besides its outcome: tags, set pairs of contacts, laws.
 #pragma once
 
 #include <span>

@@ -70,53 +70,53 @@ void name_features(Failure& failure, const detector::FourPoints& query) {
 
 }  // namespace
 
-Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
-                    const CaseRun& run, const Configuration& configuration,
-                    const DetectorUnderTest& detector, const CaseRun* again) {
+JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
+                        const CaseRun& run, const Configuration& configuration,
+                        const DetectorUnderTest& detector, const CaseRun* again) {
   const Claims claims = detector.claims_in(configuration);
   // The built-in detector's steps are judged more strictly below.
   const auto by_claims = detector.built_in ? std::span<const oracle::StepJudgement>{} : truth;
-  RunVerdict whole = judge_run(c, run, by_claims, claims, detector.contract, again);
+  JudgedRun whole = judge_run(c, run, by_claims, claims, detector.contract, again);
   if (detector.built_in) {
     for (std::size_t s = 0; s < run.steps.size(); ++s) {
       whole.steps.push_back(compare(run.steps[s], truth[s], configuration.options));
     }
   }
-  Verdict verdict{whole.outcome, {}, whole.left_out_misses, {}};
+  JudgedTrial judged{whole.outcome, {}, whole.left_out_misses, {}};
   const auto steps = corpus::steps_of(c);
-  for (std::size_t s = 0; s < whole.steps.size() && !verdict.failure; ++s) {
+  for (std::size_t s = 0; s < whole.steps.size() && !judged.failure; ++s) {
     const StepDiff& diff = whole.steps[s];
     if (diff.outcome == Outcome::defect) {
-      verdict.outcome = Outcome::defect;
-      verdict.failure = failure_of(diff, run.steps[s]);
-      if (verdict.failure->kind == "error") {
+      judged.outcome = Outcome::defect;
+      judged.failure = failure_of(diff, run.steps[s]);
+      if (judged.failure->kind == "error") {
         const auto error = error_of(run, s);
-        verdict.failure->what = error.empty() ? whole.what : error;
+        judged.failure->what = error.empty() ? whole.what : error;
       }
       if (detector.built_in) {
-        find_stage(*verdict.failure, c, steps[s], diff);
+        find_stage(*judged.failure, c, steps[s], diff);
       } else {
-        find_cause(*verdict.failure, c, steps[s], truth[s], detector.contract);
+        find_cause(*judged.failure, c, steps[s], truth[s], detector.contract);
       }
-      verdict.failure->step = s;
-    } else if (diff.outcome != Outcome::holds && verdict.outcome == Outcome::holds) {
-      verdict.outcome = diff.outcome;
+      judged.failure->step = s;
+    } else if (diff.outcome != Outcome::holds && judged.outcome == Outcome::holds) {
+      judged.outcome = diff.outcome;
     }
   }
-  if (verdict.outcome == Outcome::defect && !verdict.failure) {
-    verdict.failure.emplace();
-    verdict.failure->claim = whole.broken.front();
-    verdict.failure->kind =
+  if (judged.outcome == Outcome::defect && !judged.failure) {
+    judged.failure.emplace();
+    judged.failure->claim = whole.broken.front();
+    judged.failure->kind =
         whole.broken.front() == Claim::deterministic ? "two runs differ" : name_of(run.end);
-    verdict.failure->what = whole.what.empty() ? verdict.failure->kind : whole.what;
+    judged.failure->what = whole.what.empty() ? judged.failure->kind : whole.what;
   }
-  if (verdict.failure) {
-    auto& failure = *verdict.failure;
+  if (judged.failure) {
+    auto& failure = *judged.failure;
     failure.configuration = configuration.name;
     if (const auto query = query_of(c)) name_features(failure, *query);
   }
-  verdict.steps = std::move(whole.steps);
-  return verdict;
+  judged.steps = std::move(whole.steps);
+  return judged;
 }
 
 }  // namespace assay::properties

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "properties/campaign/trials/failure.h"
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 
 namespace assay::properties {
 
@@ -28,18 +28,18 @@ struct DetectorUnderTest {
 // arithmetic.
 DetectorUnderTest built_in_detector();
 
-struct Verdict {
+struct JudgedTrial {
   Outcome outcome = Outcome::holds;
   std::optional<Failure> failure;   // of a defect: the first step that shows one
   std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
   std::vector<StepDiff> steps;      // of a completed run
 };
 
-// truth: of the same case, contracted (run_verdict.h). again: a second run, if there was one. The
+// truth: of the same case, contracted (judged_run.h). again: a second run, if there was one. The
 // built-in detector's times in exact arithmetic must be the oracle's in every bit; a plug-in is
 // judged by its claims.
-Verdict judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
-                    const CaseRun& run, const Configuration& configuration,
-                    const DetectorUnderTest& detector, const CaseRun* again = nullptr);
+JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
+                        const CaseRun& run, const Configuration& configuration,
+                        const DetectorUnderTest& detector, const CaseRun* again = nullptr);
 
 }  // namespace assay::properties

@@ -200,21 +200,21 @@ class Trials {
   void judge_configuration(Trial& trial, std::size_t i, const CaseRun* again,
                            WorkerProcess& worker) const {
     const auto& configuration = trial.configurations[i];
-    const Verdict verdict = judge_trial(trial.seen, trial.truth, trial.runs[i], configuration,
-                                        request_.detector, again);
-    trial.record.outcomes += letter_of(verdict.outcome);
+    const JudgedTrial judged = judge_trial(trial.seen, trial.truth, trial.runs[i], configuration,
+                                           request_.detector, again);
+    trial.record.outcomes += letter_of(judged.outcome);
     if (!request_.detector.built_in) {
-      count_measures(verdict.steps, trial.runs[i].steps, trial.truth, trial.record.counts);
-      count_left_out(0, 0, verdict.left_out_misses, trial.record.counts);
+      count_measures(judged.steps, trial.runs[i].steps, trial.truth, trial.record.counts);
+      count_left_out(0, 0, judged.left_out_misses, trial.record.counts);
     }
-    if (!verdict.failure) return;
+    if (!judged.failure) return;
     // A failure is run twice before it is reported; a difference is itself a failure.
     const bool flaky = !same_answers(trial.runs[i], run(trial, {&configuration, 1}, worker)[0]);
     const auto failing =
-        failing_case(trial.seen, configuration, request_.detector, *verdict.failure);
+        failing_case(trial.seen, configuration, request_.detector, *judged.failure);
     trial.failures.push_back({trial.record.id, configuration.name,
-                              verdict.failure->signature() + (flaky ? " (flaky)" : ""),
-                              verdict.failure->what, corpus::case_text(failing), "", flaky,
+                              judged.failure->signature() + (flaky ? " (flaky)" : ""),
+                              judged.failure->what, corpus::case_text(failing), "", flaky,
                               printed_of(trial.runs[i], again)});
   }
 

@@ -73,7 +73,7 @@ bool is_taken_with_one_too_few(const detector::SavedState& saved, detector::Dete
   if (!fields.committed || fields.anchors.empty()) return false;
   auto chosen = fields.anchors;
   chosen.pop_back();
-  fields.committed->choice.anchors =
+  fields.committed->policy.anchors =
       std::make_shared<const std::vector<detector::ViewAnchor>>(std::move(chosen));
   return !detector.restore(detector::SavedState(std::move(fields)));
 }

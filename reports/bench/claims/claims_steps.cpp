@@ -50,7 +50,7 @@ void compare(const NamedStep& named, bool is_rod_twist, int rounds, BenchReport&
   report.add(fmt::format("exact over double, whole step, {}", name), "times",
              ratio_of(samples[1], samples[4]), wanted::exact_over_double,
              fmt::format("view-point; integers decide {} of {} tests",
-                         point.result().counts.narrow.rungs.exact,
+                         point.result().counts.narrow.rungs.by_integers(),
                          point.result().counts.narrow.elementary_tests));
 }
 

@@ -4,7 +4,7 @@
 
 #include "properties/campaign/stored/step_measures.h"
 #include "properties/judging/contracted_case.h"
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 #include "reports/bench/detector/timed_runs.h"
 #include "reports/bench/interleave.h"
 
@@ -25,12 +25,12 @@ FirstTimesOff off(const properties::ByHowMuch& values, std::uint64_t steps) {
   return {steps, properties::worst_of(values)};
 }
 
-PluginErrors errors_of(const properties::RunVerdict& verdict, const properties::CaseRun& run,
+PluginErrors errors_of(const properties::JudgedRun& judged, const properties::CaseRun& run,
                        const std::vector<oracle::StepJudgement>& truth, bool claims_pairs) {
   PluginErrors errors;
-  for (const auto claim : verdict.broken) errors.broken.emplace_back(name_of(claim));
+  for (const auto claim : judged.broken) errors.broken.emplace_back(name_of(claim));
   properties::Counts counts;
-  count_measures(verdict.steps, run.steps, truth, counts);
+  count_measures(judged.steps, run.steps, truth, counts);
   const auto measures = properties::measures_in(counts);
   errors.judged = truth.size();
   errors.undecided = truth.size();
@@ -39,8 +39,8 @@ PluginErrors errors_of(const properties::RunVerdict& verdict, const properties::
   errors.spurious = measures.spurious_pairs;
   errors.late = off(measures.late, measures.late_steps());
   errors.early = off(measures.early, measures.early_steps());
-  for (std::size_t s = 0; s < verdict.steps.size(); ++s) {
-    const auto& diff = verdict.steps[s];
+  for (std::size_t s = 0; s < judged.steps.size(); ++s) {
+    const auto& diff = judged.steps[s];
     const Answer answer = run.steps[s].answer;
     if (answer == Answer::free || answer == Answer::collision) --errors.undecided;
     errors.contact += diff.first_contact ? 1 : 0;
@@ -106,9 +106,8 @@ ComparedSequence ComparedWorkers::compare(const SequenceToCompare& sequence,
   }
   tick();
   const auto truth = properties::judge_case(*seen, contract, plugin_.jobs);
-  const auto verdict = judge_run(*seen, *plugin_runs.first, truth, claims, contract);
-  out.errors =
-      errors_of(verdict, *plugin_runs.first, truth, claims.all_pairs || claims.first_pairs);
+  const auto judged = judge_run(*seen, *plugin_runs.first, truth, claims, contract);
+  out.errors = errors_of(judged, *plugin_runs.first, truth, claims.all_pairs || claims.first_pairs);
   if (claims.deterministic && plugin_runs.has_differing_runs)
     out.errors.broken.emplace_back(name_of(properties::Claim::deterministic));
   for (const auto& claim : out.errors.broken)

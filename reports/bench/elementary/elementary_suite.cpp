@@ -21,8 +21,8 @@ using properties::name_of;
 std::string rungs_of(const std::vector<FourPoints>& queries) {
   ContactRungCounts rungs;
   for (const auto& q : queries) rungs.add(test_contact(q, Want::yes_no).rung);
-  return fmt::format("decided by axis {}, filter {}, integers {}", rungs.axis, rungs.filter,
-                     rungs.exact);
+  return fmt::format("decided by axis {}, filter {}, fixed {}, unbounded {}", rungs.axis,
+                     rungs.filter, rungs.fixed, rungs.unbounded);
 }
 
 // Mean us a query of each arithmetic, in turn. Bounds are asked of exact.

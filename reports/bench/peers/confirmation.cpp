@@ -82,17 +82,17 @@ class StepWitness {
 
   // Whether it proves a contact of these features up to a time.
   bool by_referee(const detector::Feature& feature, double until) const {
-    using oracle::referee, oracle::RefereeVerdict;
+    using oracle::referee;
     if (until <= 0) return false;
     const oracle::RefereeOptions options{.until = until};
     const auto& v = feature.vertices;
     if (feature.kind == FeatureKind::vertex_face) {
       const detector::VertexFace query{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}};
-      return referee(query, options) == RefereeVerdict::contact;
+      return referee(query, options) == detector::Decision::yes;
     }
     if (feature.kind != FeatureKind::edge_edge) return false;
     const detector::EdgeEdge query{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}};
-    return referee(query, options) == RefereeVerdict::contact;
+    return referee(query, options) == detector::Decision::yes;
   }
 
   // The features alone are triangles that have become a point, a segment, or are one.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "oracle/mesh/step.h"
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 #include "reports/bench/peers/peer_subject.h"
 
 namespace assay::reports {

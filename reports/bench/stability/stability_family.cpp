@@ -52,11 +52,7 @@ void add_outcome(const HardOutcome& outcome, const std::string& id, FamilyStabil
 }
 
 void add_rungs(const detector::StepResult& result, FamilyStability& to) {
-  const auto& rungs = result.counts.narrow.rungs;
-  to.rungs.axis += rungs.axis;
-  to.rungs.filter += rungs.filter;
-  to.rungs.exact += rungs.exact;
-  to.rungs.open += rungs.open;
+  to.rungs += result.counts.narrow.rungs;
   to.view_rungs += result.counts.view;
 }
 

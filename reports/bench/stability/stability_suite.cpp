@@ -92,9 +92,10 @@ void add_rung_rows(const std::string& what, const FamilyStability& found, BenchR
   const auto tests = static_cast<double>(r.total());
   const auto share = [&](std::uint64_t n) { return percent(static_cast<double>(n), tests); };
   if (tests > 0) {
-    report.add(what + ": elementary tests settled by the filter", "%", exactly(share(r.filter)), {},
-               fmt::format("of {}; axis {:.1f} %, integers {:.1f} %, left open {:.1f} %", r.total(),
-                           share(r.axis), share(r.exact), share(r.open)));
+    report.add(
+        what + ": elementary tests settled by the filter", "%", exactly(share(r.filter)), {},
+        fmt::format("of {}; axis {:.1f} %, fixed {:.1f} %, unbounded {:.1f} %, left open {:.1f} %",
+                    r.total(), share(r.axis), share(r.fixed), share(r.unbounded), share(r.open)));
   }
   const auto& v = found.view_rungs;
   const auto views = static_cast<double>(v.lanes + v.filter + v.exact + v.open);

@@ -43,7 +43,8 @@ class NarrowCounts:
     elementary_tests: int
     axis: int
     filter: int
-    exact: int
+    fixed: int
+    unbounded: int
     open: int
 
 

@@ -49,15 +49,15 @@ void compare(const FourPoints& query, Tally& tally) {
   const FixedResult yes_no = fixed_contact(query, Want::yes_no);
   const auto general = general_first_contact(query);
   // Of several times in one plane the first may stay open where one of them is known.
-  if (yes_no.verdict != FixedVerdict::open) {
-    ASSERT_EQ(yes_no.verdict == FixedVerdict::contact, general.has_value());
+  if (yes_no.decision != Decision::open) {
+    ASSERT_EQ(yes_no.decision == Decision::yes, general.has_value());
   }
-  if (fixed.verdict == FixedVerdict::open) {
+  if (fixed.decision == Decision::open) {
     ++tally.open;
     return;
   }
-  ASSERT_EQ(fixed.verdict, yes_no.verdict);
-  ASSERT_EQ(fixed.verdict == FixedVerdict::contact, general.has_value());
+  ASSERT_EQ(fixed.decision, yes_no.decision);
+  ASSERT_EQ(fixed.decision == Decision::yes, general.has_value());
   if (!general) return;
   ++tally.contacts;
   ASSERT_EQ(fixed.time, *general);
@@ -147,7 +147,7 @@ TEST(ContactFixed, FindsTimesNearZero) {
                                {{0, 1, 0}, {0, 1, 0}}},
                               1};
     const FixedResult fixed = fixed_contact(query, Want::first_time);
-    ASSERT_EQ(fixed.verdict, FixedVerdict::contact) << height;
+    ASSERT_EQ(fixed.decision, Decision::yes) << height;
     EXPECT_EQ(fixed.time, *general_first_contact(query)) << height;
     EXPECT_EQ(*fixed_bracketed_time(query, 0, 1, .5), fixed.time) << height;
   }

@@ -42,23 +42,23 @@ std::vector<NamedQuery> named_queries() {
        true,
        {.5, .5},
        ContactRung::filter},
-      {"onto an edge", vertex_moves({.5, 0, 1}, {.5, 0, -1}), true, {.5, .5}, ContactRung::exact},
-      {"onto a corner", vertex_moves({0, 0, 1}, {0, 0, -1}), true, {.5, .5}, ContactRung::exact},
+      {"onto an edge", vertex_moves({.5, 0, 1}, {.5, 0, -1}), true, {.5, .5}, ContactRung::fixed},
+      {"onto a corner", vertex_moves({0, 0, 1}, {0, 0, -1}), true, {.5, .5}, ContactRung::fixed},
       {"touches at t=1",
        vertex_moves({.25, .25, 1}, {.25, .25, 0}),
        true,
        {1, 1},
-       ContactRung::exact},
+       ContactRung::fixed},
       {"leaves at t=0",
        vertex_moves({.25, .25, 0}, {.25, .25, 1}),
        true,
        {0, 0},
-       ContactRung::exact},
+       ContactRung::fixed},
       {"no motion, inside",
        vertex_moves({.25, .25, 0}, {.25, .25, 0}),
        true,
        {0, 0},
-       ContactRung::exact},
+       ContactRung::fixed},
       {"no motion, in the plane outside",
        vertex_moves({.75, .75, 0}, {.75, .75, 0}),
        false,
@@ -68,13 +68,13 @@ std::vector<NamedQuery> named_queries() {
        vertex_moves({-1, .25, 0}, {1, .25, 0}),
        true,
        {.5, .5},
-       ContactRung::exact},
+       ContactRung::fixed},
       {"triangle of one point, met",
        four_points(VertexFace{{{-1, 0, 0}, {3, 0, 0}},
                               {still({1, 0, 0}), still({1, 0, 0}), still({1, 0, 0})}}),
        true,
        {.5, .5},
-       ContactRung::exact},
+       ContactRung::unbounded},
       {"collinear throughout, no contact",
        four_points(VertexFace{{{5, 0, 0}, {4, 0, 0}},
                               {still({0, 0, 0}), still({1, 0, 0}), still({2, 0, 0})}}),
@@ -90,22 +90,22 @@ std::vector<NamedQuery> named_queries() {
        ee(still({0, 0, 0}), still({2, 0, 0}), {{1, 0, 1}, {1, 0, -1}}, {{3, 0, 1}, {3, 0, -1}}),
        true,
        {.5, .5},
-       ContactRung::exact},
+       ContactRung::unbounded},
       {"edges meet at end points",
        ee(still({0, 0, 0}), still({1, 0, 0}), {{1, 0, 1}, {1, 0, 0}}, {{2, 1, 1}, {2, 1, 0}}),
        true,
        {1, 1},
-       ContactRung::exact},
+       ContactRung::fixed},
       {"zero-length edge meets an edge",
        ee(still({0, 0, 0}), still({2, 0, 0}), {{1, 1, 0}, {1, -1, 0}}, {{1, 1, 0}, {1, -1, 0}}),
        true,
        {.5, .5},
-       ContactRung::exact},
+       ContactRung::unbounded},
       {"double root: rises, touches, sinks",
        ee({{-1, -1, 0}, {1, -1, 0}}, {{-1, 1, 0}, {1, 1, 0}}, still({0, 0, 0}), still({0, 0, 1})),
        true,
        {.5, .5},
-       ContactRung::exact},
+       ContactRung::fixed},
   };
 }
 
@@ -118,7 +118,7 @@ void expect_named_queries() {
       EXPECT_EQ(result.time, q.time) << q.name;
     }
     EXPECT_EQ(test_contact(q.query, Want::yes_no).contact, q.contact) << q.name;
-    EXPECT_EQ(exact_first_contact(q.query).has_value(), q.contact) << q.name;
+    EXPECT_EQ(exact_contact(q.query).contact, q.contact) << q.name;
   }
 }
 
@@ -135,7 +135,7 @@ TEST(ElementaryTest, IrrationalTimeIsEnclosedInAdjacentDoubles) {
   ASSERT_TRUE(result.contact);
   EXPECT_TRUE(result.time.lo == result.time.hi ||
               result.time.hi == std::nextafter(result.time.lo, 2.0));
-  EXPECT_EQ(exact_first_contact(query), result.time);
+  EXPECT_EQ(exact_contact(query).time, result.time);
 }
 
 // An axis multiplied by a power of two changes neither contact nor time, nor who decides.

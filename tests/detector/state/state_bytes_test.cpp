@@ -50,11 +50,12 @@ StateFields full_state() {
   state.committed->met = {{0, 3}, {2, 5}};
   state.committed->met_is_complete = false;
   state.committed->inside[0] = {{{1, -0.0, 0x1p-1074}, {-2, .1, 4}}};
-  auto& choice = state.committed->choice;
-  choice.anchors = std::make_shared<const std::vector<ViewAnchor>>(state.anchors);
-  choice.is_worn = true;
-  choice.age = 3, choice.least_age = 32, choice.best_share = .7, choice.share_before = .3;
-  choice.rest = 5, choice.next_rest = 8, choice.candidates = 1234, choice.overhead = 17.5;
+  auto& policy = state.committed->policy;
+  policy.anchors = std::make_shared<const std::vector<ViewAnchor>>(state.anchors);
+  policy.anchors_are_due = true;
+  policy.anchor_age = 3, policy.least_anchor_age = 32, policy.best_share = .7,
+  policy.replaced_at = .3;
+  policy.pause = 5, policy.next_pause = 8, policy.candidates = 1234, policy.overhead = 17.5;
   return state;
 }
 
@@ -87,17 +88,17 @@ TEST(StateBytes, AreTheSameStateAgain) {
   EXPECT_EQ(a.met_is_complete, b.met_is_complete);
   EXPECT_EQ(a.inside, b.inside);
   EXPECT_TRUE(std::signbit((*a.inside[0])[0][1]));
-  ASSERT_TRUE(a.choice.anchors);
-  expect_equal(*a.choice.anchors, *b.choice.anchors);
-  EXPECT_EQ(a.choice.is_worn, b.choice.is_worn);
-  EXPECT_EQ(a.choice.age, b.choice.age);
-  EXPECT_EQ(a.choice.least_age, b.choice.least_age);
-  EXPECT_EQ(a.choice.best_share, b.choice.best_share);
-  EXPECT_EQ(a.choice.share_before, b.choice.share_before);
-  EXPECT_EQ(a.choice.rest, b.choice.rest);
-  EXPECT_EQ(a.choice.next_rest, b.choice.next_rest);
-  EXPECT_EQ(a.choice.candidates, b.choice.candidates);
-  EXPECT_EQ(a.choice.overhead, b.choice.overhead);
+  ASSERT_TRUE(a.policy.anchors);
+  expect_equal(*a.policy.anchors, *b.policy.anchors);
+  EXPECT_EQ(a.policy.anchors_are_due, b.policy.anchors_are_due);
+  EXPECT_EQ(a.policy.anchor_age, b.policy.anchor_age);
+  EXPECT_EQ(a.policy.least_anchor_age, b.policy.least_anchor_age);
+  EXPECT_EQ(a.policy.best_share, b.policy.best_share);
+  EXPECT_EQ(a.policy.replaced_at, b.policy.replaced_at);
+  EXPECT_EQ(a.policy.pause, b.policy.pause);
+  EXPECT_EQ(a.policy.next_pause, b.policy.next_pause);
+  EXPECT_EQ(a.policy.candidates, b.policy.candidates);
+  EXPECT_EQ(a.policy.overhead, b.policy.overhead);
   EXPECT_EQ(bytes_of(again), bytes_of(state));
 }
 
@@ -227,7 +228,7 @@ TEST(StateBytes, WhatContradictsTheMeshIsRefused) {
   expect_damaged("a weight", [&](auto& s) { s.anchors[0].ends[0].weights[0] = nan; });
   expect_damaged("weights", [](auto& s) { s.anchors[0].ends[0].weights.pop_back(); });
   expect_damaged("chosen anchors", [](auto& s) {
-    s.committed->choice.anchors = std::make_shared<const std::vector<ViewAnchor>>();
+    s.committed->policy.anchors = std::make_shared<const std::vector<ViewAnchor>>();
   });
 }
 

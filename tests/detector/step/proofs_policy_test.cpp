@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "detector/detector.h"
-#include "detector/step/view_auto.h"
+#include "detector/step/cost_model.h"
 #include "detector/traditional/traditional.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"
@@ -111,13 +111,13 @@ TEST(ProofsPolicy, WhatIsHopedForIsHeldAgainstTheCostOfCones) {
   const Surface surface = make_surface(sheet.triangles, sheet.flat.rows());
   const std::uint64_t adjacent = adjacent_pairs(surface.mesh);
   const std::size_t triangles = surface.mesh.triangles.size();
-  ViewAuto policy(surface, adjacent, {});
-  EXPECT_TRUE(policy.proofs_pay({1, 1}, 1, triangles));
-  EXPECT_TRUE(policy.proofs_pay({1, .5}, 1, triangles));
-  EXPECT_FALSE(policy.proofs_pay({.4, 1}, 1, triangles)) << "few patches are free";
-  EXPECT_FALSE(policy.proofs_pay({.7, 0}, 1, triangles)) << "only small patches are free";
-  EXPECT_FALSE(policy.proofs_pay({1, 1}, .05, triangles)) << "few neighbours are asked for";
-  EXPECT_FALSE(policy.proofs_pay({1, 1}, 1, 2 * adjacent)) << "cones cost more than they save";
+  CostModel policy(surface, adjacent, {});
+  EXPECT_TRUE(policy.worth_proving({1, 1}, 1, triangles));
+  EXPECT_TRUE(policy.worth_proving({1, .5}, 1, triangles));
+  EXPECT_FALSE(policy.worth_proving({.4, 1}, 1, triangles)) << "few patches are free";
+  EXPECT_FALSE(policy.worth_proving({.7, 0}, 1, triangles)) << "only small patches are free";
+  EXPECT_FALSE(policy.worth_proving({1, 1}, .05, triangles)) << "few neighbours are asked for";
+  EXPECT_FALSE(policy.worth_proving({1, 1}, 1, 2 * adjacent)) << "cones cost more than they save";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // The decisions of view-auto, one by one, from the counts that they rest on.
 #include <gtest/gtest.h>
 
-#include "detector/step/view_auto.h"
+#include "detector/step/cost_model.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {
@@ -42,11 +42,11 @@ struct TwoOpen {
 // The fewest pairs of culling bvh at which the views of a step are used.
 std::uint64_t least_pairs(bool first_is_free, bool second_is_free, double overhead = 0) {
   TwoOpen mesh;
-  ViewChoice before;
+  PolicyState before;
   before.overhead = overhead;
   StepWork work = mesh.work(first_is_free, second_is_free);
   for (std::uint64_t pairs = 0; pairs < 10'000; ++pairs) {
-    if (ViewAuto(mesh.surface, pairs, before).promises(work)) return pairs;
+    if (CostModel(mesh.surface, pairs, before).worth_sweeping(work)) return pairs;
   }
   return 10'000;
 }
@@ -65,20 +65,20 @@ TEST(ViewPolicy, L15_DirtyAtAnUnknownStartTheNextStepIsLookedAt) {
   TwoOpen mesh;
   StepWork work = mesh.work(true, false);
   work.clean.assign(mesh.surface.mesh.triangles.size(), 0);
-  ViewAuto policy(mesh.surface, 1'000'000, {});
-  ASSERT_TRUE(policy.promises(work));
-  EXPECT_FALSE(policy.pays(work));
+  CostModel policy(mesh.surface, 1'000'000, {});
+  ASSERT_TRUE(policy.worth_sweeping(work));
+  EXPECT_FALSE(policy.worth_using(work));
   EXPECT_EQ(policy.use(), ViewUse::start_unknown);
-  EXPECT_EQ(policy.after({}, true).rest, 0u);
+  EXPECT_EQ(policy.next({}, true).pause, 0u);
   const StepState state;
   work.known = &state;
-  ViewAuto known(mesh.surface, 1'000'000, {});
-  ASSERT_TRUE(known.promises(work));
-  EXPECT_FALSE(known.pays(work));
+  CostModel known(mesh.surface, 1'000'000, {});
+  ASSERT_TRUE(known.worth_sweeping(work));
+  EXPECT_FALSE(known.worth_using(work));
   EXPECT_EQ(known.use(), ViewUse::among_dirty);
-  EXPECT_EQ(known.after({}, true).rest, 1u);
+  EXPECT_EQ(known.next({}, true).pause, 1u);
   work.clean.assign(mesh.surface.mesh.triangles.size(), 1);
-  EXPECT_TRUE(known.pays(work));
+  EXPECT_TRUE(known.worth_using(work));
 }
 
 // A pair left out saves a third of its cost.
@@ -88,27 +88,27 @@ TEST(ViewPolicy, WhatViewsHaveCostMustBeSavedByTheSigns) {
 }
 
 // After a look that paid.
-ViewChoice after_a_look(const ViewChoice& before) {
+PolicyState after_views_paid(const PolicyState& before) {
   const TwoOpen mesh;
-  return ViewAuto(mesh.surface, 100, before).after({}, true);
+  return CostModel(mesh.surface, 100, before).next({}, true);
 }
 
 TEST(ViewPolicy, WhatViewsHaveCostIsForgottenByHalves) {
-  ViewChoice choice;
-  choice.overhead = 64;
+  PolicyState state;
+  state.overhead = 64;
   for (const double expected : {32., 16., 8.}) {
-    choice = after_a_look(choice);
-    EXPECT_EQ(choice.overhead, expected);
+    state = after_views_paid(state);
+    EXPECT_EQ(state.overhead, expected);
   }
 }
 
 TEST(ViewPolicy, RestsAreForgottenByHalves) {
-  ViewChoice choice;
-  choice.next_rest = 32;
+  PolicyState state;
+  state.next_pause = 32;
   for (const std::uint64_t expected : {16u, 8u, 4u, 2u, 1u, 1u}) {
-    choice = after_a_look(choice);
-    EXPECT_EQ(choice.next_rest, expected);
-    EXPECT_EQ(choice.rest, 0u);
+    state = after_views_paid(state);
+    EXPECT_EQ(state.next_pause, expected);
+    EXPECT_EQ(state.pause, 0u);
   }
 }
 

@@ -58,12 +58,12 @@ void for_random_queries(std::uint64_t seed, const Law& law) {
 TEST(ContactLaws, RungsAgree) {
   for_random_queries(11, [](const FeatureQuery& query) {
     ContactPolynomials polynomials(query.q);
-    const AlgebraicVerdict full = algebraic_verdict(polynomials, Want::first_time);
+    const AlgebraicAnswer full = algebraic_answer(polynomials, Want::first_time);
     EXPECT_FALSE(separated_by_axis(query.q) && full.contact);
     for (const Want want : {Want::yes_no, Want::first_time}) {
-      const IntervalVerdict quick = interval_verdict(query.q, want);
-      if (quick.verdict == Verdict::unknown) continue;
-      EXPECT_EQ(quick.verdict == Verdict::contact, full.contact);
+      const IntervalAnswer quick = interval_answer(query.q, want);
+      if (quick.decision == detector::Decision::open) continue;
+      EXPECT_EQ(quick.decision == detector::Decision::yes, full.contact);
       if (!full.contact || want == Want::yes_no) continue;
       EXPECT_EQ(simple_zero_time(polynomials.coplanarity(), quick.s, quick.e), full.first);
     }

@@ -29,23 +29,23 @@ MovingPoint rest(const Point& p) { return {p, p}; }
 
 constexpr std::array<Point, 3> kFace = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
 
-RefereeVerdict over_resting_face(const Point& from, const Point& to) {
+detector::Decision over_resting_face(const Point& from, const Point& to) {
   return referee(VertexFace{{from, to}, {rest(kFace[0]), rest(kFace[1]), rest(kFace[2])}});
 }
 
 TEST(Referee, VertexThroughAFace) {
-  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, -1}), RefereeVerdict::contact);
-  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, -.7}), RefereeVerdict::contact);
-  EXPECT_EQ(over_resting_face({3, 3, 1}, {3, 3, -1}), RefereeVerdict::no_contact);
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, -1}), detector::Decision::yes);
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, -.7}), detector::Decision::yes);
+  EXPECT_EQ(over_resting_face({3, 3, 1}, {3, 3, -1}), detector::Decision::no);
 }
 
 TEST(Referee, TouchingCounts) {
-  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, 0}), RefereeVerdict::contact);   // at t=1
-  EXPECT_EQ(over_resting_face({1, 1, 0}, {1, 1, 1}), RefereeVerdict::contact);   // at t=0
-  EXPECT_EQ(over_resting_face({0, 0, 1}, {0, 0, -1}), RefereeVerdict::contact);  // a corner
-  EXPECT_EQ(over_resting_face({2, 2, 1}, {2, 2, -2}), RefereeVerdict::contact);  // t=1/3, an edge
-  EXPECT_EQ(over_resting_face({-1, 1, 0}, {5, 1, 0}), RefereeVerdict::contact);  // in its plane
-  EXPECT_EQ(over_resting_face({-1, 5, 0}, {5, 5, 0}), RefereeVerdict::no_contact);
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, 0}), detector::Decision::yes);   // at t=1
+  EXPECT_EQ(over_resting_face({1, 1, 0}, {1, 1, 1}), detector::Decision::yes);   // at t=0
+  EXPECT_EQ(over_resting_face({0, 0, 1}, {0, 0, -1}), detector::Decision::yes);  // a corner
+  EXPECT_EQ(over_resting_face({2, 2, 1}, {2, 2, -2}), detector::Decision::yes);  // t=1/3, an edge
+  EXPECT_EQ(over_resting_face({-1, 1, 0}, {5, 1, 0}), detector::Decision::yes);  // in its plane
+  EXPECT_EQ(over_resting_face({-1, 5, 0}, {5, 5, 0}), detector::Decision::no);
 }
 
 // Through a resting face at t = 1/2, and through one that rises meanwhile.
@@ -54,26 +54,26 @@ TEST(Referee, AskedUpToATime) {
     return referee(query, RefereeOptions{.until = until});
   };
   const VertexFace half{{{1, 1, 1}, {1, 1, -1}}, {rest(kFace[0]), rest(kFace[1]), rest(kFace[2])}};
-  EXPECT_EQ(up_to(half, 1), RefereeVerdict::contact);
-  EXPECT_EQ(up_to(half, .5), RefereeVerdict::contact);
-  EXPECT_EQ(up_to(half, .75), RefereeVerdict::contact);
-  EXPECT_EQ(up_to(half, .25), RefereeVerdict::no_contact);
-  EXPECT_NE(up_to(half, std::nextafter(.5, 0)), RefereeVerdict::contact);
+  EXPECT_EQ(up_to(half, 1), detector::Decision::yes);
+  EXPECT_EQ(up_to(half, .5), detector::Decision::yes);
+  EXPECT_EQ(up_to(half, .75), detector::Decision::yes);
+  EXPECT_EQ(up_to(half, .25), detector::Decision::no);
+  EXPECT_NE(up_to(half, std::nextafter(.5, 0)), detector::Decision::yes);
   // The vertex falls as 1 - t, and below it the face rises as 2 t: they meet at t = 1/3.
   VertexFace rising = half;
   rising.vertex = {{1, 1, 1}, {1, 1, 0}};
   rising.face = {{{{0, 0, 0}, {0, 0, 0}}, {{4, 0, 0}, {4, 0, 4}}, {{0, 4, 0}, {0, 4, 4}}}};
-  ASSERT_EQ(up_to(rising, 1), RefereeVerdict::contact);
-  EXPECT_EQ(up_to(rising, .75), RefereeVerdict::contact);
-  EXPECT_EQ(up_to(rising, .125), RefereeVerdict::no_contact);
+  ASSERT_EQ(up_to(rising, 1), detector::Decision::yes);
+  EXPECT_EQ(up_to(rising, .75), detector::Decision::yes);
+  EXPECT_EQ(up_to(rising, .125), detector::Decision::no);
 }
 
 TEST(Referee, OneUnitInTheLastPlaceDecides) {
   const double below = std::nextafter(0.0, -1), above = std::nextafter(0.0, 1);
-  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, below}), RefereeVerdict::contact);
-  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, above}), RefereeVerdict::no_contact);
-  EXPECT_EQ(over_resting_face({above, 1, 1}, {above, 1, -1}), RefereeVerdict::contact);
-  EXPECT_EQ(over_resting_face({below, 1, 1}, {below, 1, -1}), RefereeVerdict::no_contact);
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, below}), detector::Decision::yes);
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, above}), detector::Decision::no);
+  EXPECT_EQ(over_resting_face({above, 1, 1}, {above, 1, -1}), detector::Decision::yes);
+  EXPECT_EQ(over_resting_face({below, 1, 1}, {below, 1, -1}), detector::Decision::no);
 }
 
 TEST(Referee, ParallelAndZeroLengthEdges) {
@@ -85,15 +85,15 @@ TEST(Referee, ParallelAndZeroLengthEdges) {
     };
     return referee(EdgeEdge{{falls(a0), falls(a1)}, {rest(b0), rest(b1)}});
   };
-  EXPECT_EQ(edges({0, 0, 1}, {2, 0, 1}, {1, 0, 0}, {3, 0, 0}), RefereeVerdict::contact);
-  EXPECT_EQ(edges({0, 0, 1}, {2, 0, 1}, {3, 0, 0}, {4, 0, 0}), RefereeVerdict::no_contact);
-  EXPECT_EQ(edges({1, 0, 1}, {1, 0, 1}, {0, 0, 0}, {3, 0, 0}), RefereeVerdict::contact);
-  EXPECT_EQ(edges({1, 0, 1}, {1, 0, 1}, {1, 0, 0}, {1, 0, 0}), RefereeVerdict::contact);
+  EXPECT_EQ(edges({0, 0, 1}, {2, 0, 1}, {1, 0, 0}, {3, 0, 0}), detector::Decision::yes);
+  EXPECT_EQ(edges({0, 0, 1}, {2, 0, 1}, {3, 0, 0}, {4, 0, 0}), detector::Decision::no);
+  EXPECT_EQ(edges({1, 0, 1}, {1, 0, 1}, {0, 0, 0}, {3, 0, 0}), detector::Decision::yes);
+  EXPECT_EQ(edges({1, 0, 1}, {1, 0, 1}, {1, 0, 0}, {1, 0, 0}), detector::Decision::yes);
 }
 
 TEST(Referee, NoMotion) {
-  EXPECT_EQ(over_resting_face({1, 1, 0}, {1, 1, 0}), RefereeVerdict::contact);
-  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, 1}), RefereeVerdict::no_contact);
+  EXPECT_EQ(over_resting_face({1, 1, 0}, {1, 1, 0}), detector::Decision::yes);
+  EXPECT_EQ(over_resting_face({1, 1, 1}, {1, 1, 1}), detector::Decision::no);
 }
 
 TEST(Referee, ExtremeNumbers) {
@@ -102,10 +102,10 @@ TEST(Referee, ExtremeNumbers) {
     return referee(VertexFace{{{s / 4, s / 4, z}, {s / 4, s / 4, -z}},
                               {rest({-s, -s, 0}), rest({s, -s, 0}), rest({0, s, 0})}});
   };
-  EXPECT_EQ(scaled(kHuge, kHuge), RefereeVerdict::contact);
-  EXPECT_EQ(scaled(4 * kTiny, kTiny), RefereeVerdict::contact);
-  EXPECT_EQ(scaled(kHuge, kTiny), RefereeVerdict::contact);
-  EXPECT_EQ(over_resting_face({1, 1, kTiny}, {1, 1, kHuge}), RefereeVerdict::no_contact);
+  EXPECT_EQ(scaled(kHuge, kHuge), detector::Decision::yes);
+  EXPECT_EQ(scaled(4 * kTiny, kTiny), detector::Decision::yes);
+  EXPECT_EQ(scaled(kHuge, kTiny), detector::Decision::yes);
+  EXPECT_EQ(over_resting_face({1, 1, kTiny}, {1, 1, kHuge}), detector::Decision::no);
 }
 
 // Within a plane, a flat face sweeps over a vertex at an irrational time: coplanar throughout, so
@@ -118,19 +118,19 @@ TEST(Referee, IrrationalTouchStaysOpen) {
   const ContactAnswer answer = vertex_face_contact(touch, detector::Want::first_time);
   ASSERT_TRUE(answer.contact);
   EXPECT_EQ(answer.first.lo, std::nextafter(std::sqrt(.5), 0));
-  EXPECT_EQ(referee(touch), RefereeVerdict::open);
+  EXPECT_EQ(referee(touch), detector::Decision::open);
 }
 
 TEST(Referee, LessDepthOnlyLeavesMoreOpen) {
   Random random(31);
   for (int i = 0; i < 300; ++i) {
     const Points x = random_query(random, QueryKind::generic, 1);
-    const RefereeVerdict full = referee(vertex_face(x));
+    const detector::Decision full = referee(vertex_face(x));
     for (const int depth : {0, 3, 8}) {
-      const RefereeVerdict part = referee(vertex_face(x), {depth, 1000});
-      EXPECT_TRUE(part == full || part == RefereeVerdict::open) << i << " depth " << depth;
+      const detector::Decision part = referee(vertex_face(x), {depth, 1000});
+      EXPECT_TRUE(part == full || part == detector::Decision::open) << i << " depth " << depth;
     }
-    EXPECT_TRUE(referee(vertex_face(x), {60, 0}) == RefereeVerdict::open);
+    EXPECT_TRUE(referee(vertex_face(x), {60, 0}) == detector::Decision::open);
   }
 }
 
@@ -148,7 +148,7 @@ TEST(Referee, DepthSeventeenConfirmsEveryNo) {
     if (contact) continue;
     const RefereeOptions options = {17, 1000};
     EXPECT_EQ(is_vertex_face ? referee(vertex_face(x), options) : referee(edge_edge(x), options),
-              RefereeVerdict::no_contact)
+              detector::Decision::no)
         << i;
     ++confirmed;
   }
@@ -168,7 +168,7 @@ Tally compare_with_contact(QueryKind kind, std::uint64_t seed, int queries) {
     const int first_group = 1 + i % 2;
     const Points x = random_query(random, kind, first_group);
     const auto begin = std::chrono::steady_clock::now();
-    const RefereeVerdict verdict =
+    const detector::Decision verdict =
         first_group == 1 ? referee(vertex_face(x)) : referee(edge_edge(x));
     microseconds +=
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count();
@@ -177,12 +177,12 @@ Tally compare_with_contact(QueryKind kind, std::uint64_t seed, int queries) {
                           : edge_edge_contact(edge_edge(x), detector::Want::yes_no))
             .contact;
     ++tally.queries;
-    if (verdict == RefereeVerdict::open) {
+    if (verdict == detector::Decision::open) {
       ++(contact ? tally.open_contact : tally.open_none);
       continue;
     }
     ++(contact ? tally.contact : tally.no_contact);
-    EXPECT_EQ(verdict == RefereeVerdict::contact, contact)
+    EXPECT_EQ(verdict == detector::Decision::yes, contact)
         << test::name_of(kind) << ", seed " << seed << ", query " << i;
   }
   std::printf("%-22s seed %llu: %d queries, %d contact, %d none, open %.2f %% (%d + %d), %.1f us\n",

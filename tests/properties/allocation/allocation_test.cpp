@@ -90,7 +90,7 @@ TEST(Allocation, NoneInElementaryTestsBeforeIntegersWithoutBound) {
                 fixed = fixed_contact(query, Want::first_time);
               }),
               0u);
-    EXPECT_EQ(fixed.verdict, x < 0 ? FixedVerdict::no_contact : FixedVerdict::contact);
+    EXPECT_EQ(fixed.decision, x < 0 ? detector::Decision::no : detector::Decision::yes);
   }
 }
 

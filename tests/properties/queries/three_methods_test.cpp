@@ -12,14 +12,14 @@
 namespace assay::tests {
 namespace {
 
+using detector::Decision;
 using detector::Want;
-using oracle::RefereeVerdict;
 using oracle::test::QueryKind;
 
 struct Verdicts {
   oracle::ContactAnswer oracle;
   detector::ContactResult detector;
-  RefereeVerdict referee;
+  detector::Decision referee;
 };
 
 template <class Query>
@@ -48,15 +48,15 @@ TEST(ThreeMethods, AgreeOnEveryKindOfQuery) {
       const int first_group = 1 + i % 2;
       const Verdicts v = judge(random_query(random, kind, first_group), first_group);
       contacts += v.oracle.contact ? 1 : 0;
-      open += v.referee == RefereeVerdict::open ? 1 : 0;
+      open += v.referee == detector::Decision::open ? 1 : 0;
       ASSERT_EQ(v.detector.contact, v.oracle.contact)
           << name_of(kind) << ", seed " << seed << ", query " << i;
       if (v.oracle.contact) {
         ASSERT_EQ(v.detector.time, v.oracle.first)
             << name_of(kind) << ", seed " << seed << ", query " << i;
       }
-      if (v.referee == RefereeVerdict::open) continue;
-      ASSERT_EQ(v.referee == RefereeVerdict::contact, v.oracle.contact)
+      if (v.referee == detector::Decision::open) continue;
+      ASSERT_EQ(v.referee == detector::Decision::yes, v.oracle.contact)
           << name_of(kind) << ", seed " << seed << ", query " << i;
     }
     const double share = static_cast<double>(open) / kQueries;

@@ -12,7 +12,7 @@
 #include <map>
 #include <thread>
 
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 #include "properties/worker/process_tree.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"

@@ -9,7 +9,7 @@
 #include <map>
 #include <sstream>
 
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 

@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "detector/detector.h"
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 #include "properties/worker/wire_fields.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"

@@ -127,15 +127,15 @@ TEST_F(PublicQueries, CoplanarThroughoutAreSettled) {
           std::visit([](const auto& query) { return detector::four_points(query); }, q.query);
       if (!detector::coplanar_throughout(points)) continue;
       ++coplanar;
-      const auto ours = detector::exact_first_contact(points);
+      const auto ours = detector::exact_contact(points);
       const auto judged = std::holds_alternative<detector::VertexFace>(q.query)
                               ? oracle::vertex_face_contact(std::get<detector::VertexFace>(q.query),
                                                             detector::Want::first_time)
                               : oracle::edge_edge_contact(std::get<detector::EdgeEdge>(q.query),
                                                           detector::Want::first_time);
-      EXPECT_EQ(ours.has_value(), judged.contact) << entry.path() << " query " << i;
-      if (ours && judged.contact) {
-        EXPECT_EQ(*ours, judged.first) << entry.path() << " query " << i;
+      EXPECT_EQ(ours.contact, judged.contact) << entry.path() << " query " << i;
+      if (ours.contact && judged.contact) {
+        EXPECT_EQ(ours.time, judged.first) << entry.path() << " query " << i;
       }
       EXPECT_EQ(q.truth, judged.contact) << entry.path() << " query " << i;
     }

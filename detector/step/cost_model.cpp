@@ -1,4 +1,4 @@
-#include "detector/step/view_auto.h"
+#include "detector/step/cost_model.h"
 
 #include <algorithm>
 
@@ -7,8 +7,9 @@
 namespace assay::detector {
 namespace {
 
-// A pair inside V+ or inside V- is left out. Near pairs have equal signs more often than far ones,
-// so of a component's pairs at least about (p^2 + n^2) / m^2 are saved.
+// The share of pairs that are left out because both triangles lie in V+ or both in V-. Near pairs
+// have equal signs more often than far ones, so of a component with p positive and n negative
+// triangles of m, at least about (p^2 + n^2) / m^2 of the pairs are left out.
 double saved_share(const StepWork& work, bool all_clean) {
   double saved = 0, count = 0;
   for (std::size_t c = 0; c < work.primitives.size(); ++c) {
@@ -26,17 +27,17 @@ double saved_share(const StepWork& work, bool all_clean) {
   return saved / count;
 }
 
-// A saved pair saves about a third of its cost (measured on meshes where V+ and V- lie upon each
-// other: the boxes above it are still tested), and view test, marking and closure cost 1 to 4 % of
-// a step.
+// A pair that is left out saves about a third of a candidate's cost, because the boxes above it are
+// still tested (measured on meshes whose V+ and V- lie upon each other).
+constexpr double worth_of_saved = 1.0 / 3;
+
+// View test, marking and closure cost 1 to 4 % of a step. An eighth of the pairs left out pays
+// them.
 constexpr double least_share = 0.125;
 
-// Of the pairs of a ghost's box and a triangle's, each takes up to six elementary tests, and such a
-// test 1.5 times the cost of a candidate. A winding number looks at each triangle, for 20 ns.
+// A pair of a ghost's box and a triangle's box takes up to six elementary tests, each of which
+// costs as much as 1.5 candidates. A winding number looks at each triangle, for 20 ns.
 constexpr double cost_of_test = 1.5, cost_of_ghost_pair = 9, cost_of_crossing = 0.1;
-
-// Of the cost of a candidate, what is saved with one that is left out: see least_share.
-constexpr double worth_of_saved = 1.0 / 3;
 
 // Whether more than `limit` triangles lie in the boxes of ghosts of components that are not free.
 bool has_more_ghost_pairs(const StepWork& work, double limit) {
@@ -57,23 +58,23 @@ bool has_more_ghost_pairs(const StepWork& work, double limit) {
   return false;
 }
 
-// A glance costs about what 500 triangles cost the view test. What doubles leave open takes
-// integers: 3 us a triangle.
-constexpr std::size_t seen_at_a_glance = 64, worth_a_glance = 4'096;
+// A sample costs about what 500 triangles cost the view test, so it is drawn from large components
+// alone. A triangle whose sign doubles leave open takes integers, for 3 us.
+constexpr std::size_t sample_size = 64, worth_sampling = 4'096;
 constexpr double cost_of_open = 15;
 
-// In candidates a triangle: cones take 0.1 us a triangle; where patches of a hundred triangles are
-// not free, a proof is asked for at each of the many small ones, for half a microsecond a triangle.
-// What proofs leave out are pairs of neighbours: half of these lie within small patches that are
-// free, nearly all within large ones.
+// Costs in candidates a triangle: cones take 0.1 us a triangle. If patches of a hundred triangles
+// are not free, a proof is asked for at each of the many small ones, for half a microsecond a
+// triangle. Worths: proofs leave out pairs of neighbours, of which about half lie within small
+// patches that are free, and nearly all within large ones.
 constexpr double cost_of_cones = 0.6, cost_of_small = 3, worth_of_small = 0.5,
                  worth_of_large = 0.45, least_provable = 0.5;
 
-constexpr std::uint64_t longest_rest = 32;
+constexpr std::uint64_t longest_pause = 32;
 
-// A choice looks at an eighth of the triangles and costs at most half a step of culling bvh: made
-// every 16 steps or more it stays below 5 %.
-constexpr std::uint64_t first_age = 16, greatest_age = 4096;
+// Choosing anchors looks at an eighth of the triangles and costs at most half a step of culling
+// bvh. Because it is done every 16 steps or less often, it stays below 5 %.
+constexpr std::uint64_t first_anchor_age = 16, greatest_anchor_age = 4096;
 constexpr double loss_that_wears = 0.125, gain_that_counts = 0.0625;
 
 }  // namespace
@@ -92,9 +93,9 @@ std::uint64_t adjacent_pairs(const Topology& mesh) {
          pairs_at(mesh.edge_triangles, mesh.edges.size());
 }
 
-const std::vector<ViewAnchor>& ViewAuto::anchors(const std::vector<ViewAnchor>& first,
-                                                 const PositionsView& x_t0, PacedStop& pace) {
-  if (choice_.is_worn) {
+const std::vector<ViewAnchor>& CostModel::anchors(const std::vector<ViewAnchor>& first,
+                                                  const PositionsView& x_t0, PacedStop& pace) {
+  if (state_.anchors_are_due) {
     auto chosen = std::make_shared<std::vector<ViewAnchor>>();
     for (const auto& component : surface_.all().components) {
       const Effort effort = effort_for(component, surface_.mesh, Effort::quick);
@@ -102,36 +103,36 @@ const std::vector<ViewAnchor>& ViewAuto::anchors(const std::vector<ViewAnchor>& 
       chosen->push_back(
           choose_view_anchor(surface_.all(), component, surface_.first_apex, x_t0, effort, &pace));
     }
-    choice_.anchors = std::move(chosen);
-    chose_ = true;
+    state_.anchors = std::move(chosen);
+    chose_anchors_ = true;
   }
-  return choice_.anchors ? *choice_.anchors : first;
+  return state_.anchors ? *state_.anchors : first;
 }
 
-bool ViewAuto::does_without(ViewUse because) {
+bool CostModel::does_without(ViewUse because) {
   paid_ = false;
   use_ = because;
   return false;
 }
 
-std::uint64_t ViewAuto::expected_candidates() const {
-  return std::max(adjacent_, choice_.candidates);
+std::uint64_t CostModel::expected_candidates() const {
+  return std::max(adjacent_, state_.candidates);
 }
 
-bool ViewAuto::glances(const StepWork& work) {
+bool CostModel::worth_classifying(const StepWork& work) {
   double saved = 0, count = 0, open = 0;
   for (std::size_t c = 0; c < work.primitives.size(); ++c) {
     const auto own = work.own_triangles(c);
     const auto m = static_cast<double>(own.size());
     count += m;
-    if (own.size() < worth_a_glance) {
+    if (own.size() < worth_sampling) {
       saved += m;
       continue;
     }
     std::size_t positive = 0, negative = 0;
     ViewCounts rungs;
-    for (std::size_t i = 0; i < seen_at_a_glance; ++i) {
-      const auto& v = work.surface.mesh.triangles[at(own[i * own.size() / seen_at_a_glance])];
+    for (std::size_t i = 0; i < sample_size; ++i) {
+      const auto& v = work.surface.mesh.triangles[at(own[i * own.size() / sample_size])];
       const MovingTriangle triangle = {moving_point(work.x_t0, work.x_t1, v[0]),
                                        moving_point(work.x_t0, work.x_t1, v[1]),
                                        moving_point(work.x_t0, work.x_t1, v[2])};
@@ -139,10 +140,10 @@ bool ViewAuto::glances(const StepWork& work) {
       positive += sign == ViewSign::positive;
       negative += sign == ViewSign::negative;
     }
-    const double p = static_cast<double>(positive) / seen_at_a_glance,
-                 n = static_cast<double>(negative) / seen_at_a_glance;
+    const double p = static_cast<double>(positive) / sample_size,
+                 n = static_cast<double>(negative) / sample_size;
     saved += m * (p * p + n * n);
-    open += m * static_cast<double>(rungs.open) / seen_at_a_glance;
+    open += m * static_cast<double>(rungs.open) / sample_size;
   }
   const double hoped = worth_of_saved * saved / count * static_cast<double>(expected_candidates());
   if (saved / count >= least_share && cost_of_open * open <= hoped) return true;
@@ -150,10 +151,10 @@ bool ViewAuto::glances(const StepWork& work) {
   return does_without(ViewUse::hopeless);
 }
 
-bool ViewAuto::promises(StepWork& work) {
+bool CostModel::worth_sweeping(StepWork& work) {
   share_of_signs_ = share_ = saved_share(work, true);
   const double hoped = worth_of_saved * share_ * static_cast<double>(expected_candidates());
-  if (share_ < least_share || choice_.overhead > hoped)
+  if (share_ < least_share || state_.overhead > hoped)
     return does_without(ViewUse::saving_too_little);
   if (surface_.is_closed()) return true;
   if (!work.tree.refit(surface_.mesh, work.x_t0, work.x_t1, work.pace)) return paid_ = false;
@@ -162,7 +163,17 @@ bool ViewAuto::promises(StepWork& work) {
          does_without(ViewUse::among_ghosts);
 }
 
-bool ViewAuto::proofs_pay(const ProvableShares& provable, double asked, std::size_t triangles) {
+bool CostModel::worth_proving(const StepWork& work, CandidateSearch& candidates) {
+  // Proofs are about pairs of one component, and of a free one no pair is asked for.
+  if (work.has_views() && work.all_free()) return false;
+  const double asked = candidates.asked_share();
+  const std::size_t triangles = surface_.mesh.triangles.size();
+  constexpr ProvableShares at_best = {1, 1};
+  return worth_proving(at_best, asked, triangles) &&
+         worth_proving(candidates.provable_shares(), asked, triangles);
+}
+
+bool CostModel::worth_proving(const ProvableShares& provable, double asked, std::size_t triangles) {
   const double hoped = (worth_of_small * provable.of_small + worth_of_large * provable.of_large) *
                        asked * static_cast<double>(adjacent_);
   const double cost = cost_of_cones + cost_of_small * (1 - provable.of_large);
@@ -170,19 +181,19 @@ bool ViewAuto::proofs_pay(const ProvableShares& provable, double asked, std::siz
   return proves_;
 }
 
-bool ViewAuto::pays(const StepWork& work) {
+bool CostModel::worth_using(const StepWork& work) {
   share_ = saved_share(work, false);
   if (share_ >= least_share) return true;
   if (!work.known) {
     use_ = ViewUse::start_unknown;
     return false;
   }
-  overhead_ = cost_beside_k(work.counts);
+  overhead_ = cost_beside_search(work.counts);
   return does_without(ViewUse::among_dirty);
 }
 
 // In candidates; the closure not included.
-double ViewAuto::cost_beside_k(const StepCounts& counts) const {
+double CostModel::cost_beside_search(const StepCounts& counts) const {
   const double tests = static_cast<double>(counts.ghosts.elementary_tests) +
                        static_cast<double>(counts.release.elementary_tests);
   const double crossings = static_cast<double>(counts.release.winding_numbers) *
@@ -190,47 +201,51 @@ double ViewAuto::cost_beside_k(const StepCounts& counts) const {
   return cost_of_test * tests + cost_of_crossing * crossings;
 }
 
-void ViewAuto::weigh(const StepCounts& counts, std::uint64_t candidates_of_k) {
+void CostModel::record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) {
   const auto k = static_cast<double>(candidates_of_k);
   const double all = share_ < 1 ? k / (1 - share_) : k;
   // How much proofs leave out depends on the tree, and so on where the detector was made.
   const double saved = proves_ ? share_ * static_cast<double>(expected_candidates())
                                : std::max(all, static_cast<double>(adjacent_)) - k;
   const double closure = static_cast<double>(counts.search.candidate_pairs) - k;
-  overhead_ = closure + cost_beside_k(counts);
+  overhead_ = closure + cost_beside_search(counts);
   paid_ = *overhead_ <= worth_of_saved * saved;
 }
 
-ViewChoice ViewAuto::after(const StepCounts& counts, bool own) const {
-  ViewChoice next = choice_;
+PolicyState CostModel::next(const StepCounts& counts, bool has_own_primitives) const {
+  PolicyState next = state_;
   if (counts.search.candidate_pairs > 0 && !proves_)
     next.candidates = counts.search.candidate_pairs;
-  ++next.age;
-  if (!looks()) {
-    --next.rest;
+  ++next.anchor_age;
+  if (!is_due()) {
+    --next.pause;
     return next;
   }
-  next.overhead = overhead_ ? *overhead_ : choice_.overhead / 2;
+  next.overhead = overhead_ ? *overhead_ : state_.overhead / 2;
   if (paid_) {
-    next.next_rest = std::max<std::uint64_t>(next.next_rest / 2, 1);
+    next.next_pause = std::max<std::uint64_t>(next.next_pause / 2, 1);
   } else {
-    next.rest = next.next_rest;
-    next.next_rest = std::min(2 * next.next_rest, longest_rest);
+    next.pause = next.next_pause;
+    next.next_pause = std::min(2 * next.next_pause, longest_pause);
   }
-  if (!own) return next;
-  if (chose_) {
-    const bool is_better = share_of_signs_ >= choice_.share_before + gain_that_counts;
-    next.least_age = is_better ? first_age : std::min(2 * choice_.least_age, greatest_age);
-    next.is_worn = false;
-    next.age = 0;
+  if (has_own_primitives) update_anchors(next);
+  return next;
+}
+
+void CostModel::update_anchors(PolicyState& next) const {
+  if (chose_anchors_) {
+    const bool is_better = share_of_signs_ >= state_.replaced_at + gain_that_counts;
+    next.least_anchor_age =
+        is_better ? first_anchor_age : std::min(2 * state_.least_anchor_age, greatest_anchor_age);
+    next.anchors_are_due = false;
+    next.anchor_age = 0;
     next.best_share = share_of_signs_;
-    return next;
+    return;
   }
   next.best_share = std::max(next.best_share, share_of_signs_);
   const bool has_worn = !paid_ || share_of_signs_ < next.best_share - loss_that_wears;
-  next.is_worn = has_worn && next.age >= next.least_age;
-  next.share_before = share_of_signs_;
-  return next;
+  next.anchors_are_due = has_worn && next.anchor_age >= next.least_anchor_age;
+  next.replaced_at = share_of_signs_;
 }
 
 }  // namespace assay::detector

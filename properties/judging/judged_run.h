@@ -1,4 +1,4 @@
-// The verdict on one run of a case: the diffs of its steps, and what only the whole run shows.
+// One run of a case, judged: the diffs of its steps, and what only the whole run shows.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace assay::properties {
 
-struct RunVerdict {
+struct JudgedRun {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> broken;        // in the order of Claim, each once
   std::string what;                 // how the run ended, where it did not complete
@@ -40,8 +40,8 @@ StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudge
 // want of memory, is undecided; `again`, a second run, breaks `total` when it crashes and
 // `deterministic` when it differs. A run that did not take place is Outcome::error. Without
 // judgements only these are judged.
-RunVerdict judge_run(const corpus::Case& c, const CaseRun& run,
-                     std::span<const oracle::StepJudgement> judgements, const Claims& claims,
-                     const Contract& contract, const CaseRun* again = nullptr);
+JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
+                    std::span<const oracle::StepJudgement> judgements, const Claims& claims,
+                    const Contract& contract, const CaseRun* again = nullptr);
 
 }  // namespace assay::properties

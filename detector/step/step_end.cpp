@@ -1,4 +1,4 @@
-#include "detector/step/step_outcome.h"
+#include "detector/step/step_end.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// Verdicts on hand-made runs of a case.
+// What is said of hand-made runs of a case.
 #include <gtest/gtest.h>
 
 #include "properties/campaign/trials/trials.h"
@@ -14,9 +14,9 @@ using detector::Culling;
 using detector::Pairs;
 using detector::Start;
 
-class Verdicts : public testing::Test {
+class JudgedTrials : public testing::Test {
  protected:
-  Verdicts() {
+  JudgedTrials() {
     for (std::uint64_t i = 0; truth.empty() || truth[0].pairs.size() < 2; ++i) {
       c = test::small_case(7, i);
       truth = judge_case(c);
@@ -27,29 +27,29 @@ class Verdicts : public testing::Test {
     plugin.claims = claims_of({});
     plugin.configurations = {configuration};
   }
-  Verdict judge(const CaseRun& run, const DetectorUnderTest& detector,
-                const CaseRun* again = nullptr) const {
+  JudgedTrial judge(const CaseRun& run, const DetectorUnderTest& detector,
+                    const CaseRun* again = nullptr) const {
     return judge_trial(c, truth, run, configuration, detector, again);
   }
   static CaseRun ended(RunEnd end, const std::string& what) { return {end, what, {}}; }
   void expect_failure(const CaseRun& run, const DetectorUnderTest& detector, Claim claim,
                       const std::string& signature) const {
-    const auto verdict = judge(run, detector);
-    EXPECT_EQ(verdict.outcome, Outcome::defect);
-    ASSERT_TRUE(verdict.failure);
-    EXPECT_EQ(verdict.failure->claim, claim) << name_of(verdict.failure->claim);
-    EXPECT_EQ(verdict.failure->signature(), signature + cause_behind(verdict, detector));
-    EXPECT_EQ(verdict.failure->configuration, "bvh");
-    EXPECT_EQ(verdict.failure->step, 0u);
-    EXPECT_FALSE(verdict.failure->what.empty());
-    EXPECT_EQ(verdict.failure->what.find('\n'), std::string::npos);
+    const auto judged = judge(run, detector);
+    EXPECT_EQ(judged.outcome, Outcome::defect);
+    ASSERT_TRUE(judged.failure);
+    EXPECT_EQ(judged.failure->claim, claim) << name_of(judged.failure->claim);
+    EXPECT_EQ(judged.failure->signature(), signature + cause_behind(judged, detector));
+    EXPECT_EQ(judged.failure->configuration, "bvh");
+    EXPECT_EQ(judged.failure->step, 0u);
+    EXPECT_FALSE(judged.failure->what.empty());
+    EXPECT_EQ(judged.failure->what.find('\n'), std::string::npos);
   }
   // What the signature of a plug-in's step ends with.
-  std::string cause_behind(const Verdict& verdict, const DetectorUnderTest& detector) const {
-    if (detector.built_in || !verdict.failure->pair) return "";
+  std::string cause_behind(const JudgedTrial& judged, const DetectorUnderTest& detector) const {
+    if (detector.built_in || !judged.failure->pair) return "";
     const auto contact =
         std::find_if(truth[0].pairs.begin(), truth[0].pairs.end(),
-                     [&](const auto& exact) { return exact.pair == *verdict.failure->pair; });
+                     [&](const auto& exact) { return exact.pair == *judged.failure->pair; });
     return ", " + text_of(cause_of(c.triangles, c.frames[0], c.frames[1], *contact));
   }
   std::string feature_of_first() const { return name_of(truth[0].pairs[0].feature.kind); }
@@ -61,15 +61,15 @@ class Verdicts : public testing::Test {
   DetectorUnderTest built_in = built_in_detector(), plugin;
 };
 
-TEST_F(Verdicts, ARightRunHolds) {
+TEST_F(JudgedTrials, ARightRunHolds) {
   for (const auto* detector : {&built_in, &plugin}) {
-    const auto verdict = judge(right, *detector, &right);
-    EXPECT_EQ(verdict.outcome, Outcome::holds);
-    EXPECT_FALSE(verdict.failure);
+    const auto judged = judge(right, *detector, &right);
+    EXPECT_EQ(judged.outcome, Outcome::holds);
+    EXPECT_FALSE(judged.failure);
   }
 }
 
-TEST_F(Verdicts, ACrashBreaksTotal) {
+TEST_F(JudgedTrials, ACrashBreaksTotal) {
   const auto crash = ended(RunEnd::crashed, "killed by signal 11 (Segmentation fault)");
   for (const auto* detector : {&built_in, &plugin}) {
     expect_failure(crash, *detector, Claim::total, "total: crashed");
@@ -80,13 +80,13 @@ TEST_F(Verdicts, ACrashBreaksTotal) {
   EXPECT_FALSE(judge(crash, plugin).failure);
 }
 
-TEST_F(Verdicts, ARefusalOfAValidMeshBreaksTotal) {
+TEST_F(JudgedTrials, ARefusalOfAValidMeshBreaksTotal) {
   expect_failure(ended(RunEnd::refused, "too many"), plugin, Claim::total, "total: refused");
   c.expected.answer = Answer::error;
   EXPECT_EQ(judge(ended(RunEnd::refused, "as it must"), plugin).outcome, Outcome::holds);
 }
 
-TEST_F(Verdicts, AHangIsUndecided) {
+TEST_F(JudgedTrials, AHangIsUndecided) {
   for (const auto end : {RunEnd::hung, RunEnd::out_of_memory}) {
     EXPECT_EQ(judge(ended(end, "no answer in 10 s"), plugin).outcome, Outcome::undecided);
     EXPECT_FALSE(judge(ended(end, "no answer in 10 s"), built_in).failure);
@@ -94,7 +94,7 @@ TEST_F(Verdicts, AHangIsUndecided) {
   EXPECT_EQ(judge(ended(RunEnd::not_run, "no worker"), plugin).outcome, Outcome::error);
 }
 
-TEST_F(Verdicts, AMissingPair) {
+TEST_F(JudgedTrials, AMissingPair) {
   auto wrong = right;
   wrong.steps[0].pairs.erase(wrong.steps[0].pairs.begin());
   // The stage is found by running the built-in again, which has no fault here: the last one.
@@ -106,11 +106,11 @@ TEST_F(Verdicts, AMissingPair) {
   expect_failure(wrong, plugin, judge(wrong, plugin).failure->claim,
                  std::string(name_of(judge(wrong, plugin).failure->claim)) + ": missing pair, " +
                      feature_of_first());
-  const auto verdict = judge(wrong, plugin);
-  EXPECT_EQ(verdict.failure->pair, truth[0].pairs[0].pair);
+  const auto judged = judge(wrong, plugin);
+  EXPECT_EQ(judged.failure->pair, truth[0].pairs[0].pair);
 }
 
-TEST_F(Verdicts, FreeAgainstAContact) {
+TEST_F(JudgedTrials, FreeAgainstAContact) {
   auto wrong = right;
   wrong.steps[0].answer = Answer::free;
   wrong.steps[0].pairs.clear();
@@ -118,7 +118,7 @@ TEST_F(Verdicts, FreeAgainstAContact) {
                  "free-sound: answered free, " + feature_of_first());
 }
 
-TEST_F(Verdicts, ALatePair) {
+TEST_F(JudgedTrials, ALatePair) {
   auto wrong = right;
   auto& contact = wrong.steps[0].pairs[0];
   if (contact.time.hi == 1) GTEST_FAIL() << "choose a case whose first pair meets before t = 1";
@@ -131,7 +131,7 @@ TEST_F(Verdicts, ALatePair) {
   EXPECT_TRUE(failure->signature().starts_with(std::string(name_of(failure->claim)) + ": late"));
 }
 
-TEST_F(Verdicts, ASpuriousPair) {
+TEST_F(JudgedTrials, ASpuriousPair) {
   corpus::Case quiet;
   for (std::uint64_t i = 0;; ++i) {
     quiet = test::small_case(9, i);
@@ -153,19 +153,19 @@ TEST_F(Verdicts, ASpuriousPair) {
   EXPECT_EQ(failure->pair, (detector::TrianglePair{0, 1}));
 }
 
-TEST_F(Verdicts, TwoRunsThatDiffer) {
+TEST_F(JudgedTrials, TwoRunsThatDiffer) {
   auto other = right;
   ++other.steps[0].counts.closure_rounds;
   ASSERT_FALSE(same_answers(right, other));
-  const auto verdict = judge(right, plugin, &other);
-  EXPECT_EQ(verdict.outcome, Outcome::defect);
-  ASSERT_TRUE(verdict.failure);
-  EXPECT_EQ(verdict.failure->signature(), "deterministic: two runs differ");
+  const auto judged = judge(right, plugin, &other);
+  EXPECT_EQ(judged.outcome, Outcome::defect);
+  ASSERT_TRUE(judged.failure);
+  EXPECT_EQ(judged.failure->signature(), "deterministic: two runs differ");
   plugin.claims.deterministic = false;
   EXPECT_EQ(judge(right, plugin, &other).outcome, Outcome::holds);
 }
 
-TEST_F(Verdicts, TheCaseOfAFailureSaysWhatItIs) {
+TEST_F(JudgedTrials, TheCaseOfAFailureSaysWhatItIs) {
   c.id = "test:1:broken:7";
   auto wrong = right;
   wrong.steps[0].pairs.erase(wrong.steps[0].pairs.begin());

@@ -1,4 +1,4 @@
-#include "properties/judging/run_verdict.h"
+#include "properties/judging/judged_run.h"
 
 #include <algorithm>
 
@@ -20,17 +20,17 @@ Outcome worse(Outcome a, Outcome b) {
   return rank(a) < rank(b) ? b : a;
 }
 
-void add_broken(RunVerdict& verdict, Claim claim) {
-  verdict.outcome = Outcome::defect;
-  const auto place = std::lower_bound(verdict.broken.begin(), verdict.broken.end(), claim);
-  if (place == verdict.broken.end() || *place != claim) verdict.broken.insert(place, claim);
+void add_broken(JudgedRun& judged, Claim claim) {
+  judged.outcome = Outcome::defect;
+  const auto place = std::lower_bound(judged.broken.begin(), judged.broken.end(), claim);
+  if (place == judged.broken.end() || *place != claim) judged.broken.insert(place, claim);
 }
 
-void not_answered(RunVerdict& verdict, const Claims& claims) {
+void not_answered(JudgedRun& judged, const Claims& claims) {
   if (claims.total) {
-    add_broken(verdict, Claim::total);
+    add_broken(judged, Claim::total);
   } else {
-    verdict.outcome = Outcome::error;
+    judged.outcome = Outcome::error;
   }
 }
 
@@ -63,50 +63,50 @@ StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudge
   return diff;
 }
 
-RunVerdict judge_run(const corpus::Case& c, const CaseRun& run,
-                     std::span<const oracle::StepJudgement> judgements, const Claims& claims,
-                     const Contract& contract, const CaseRun* again) {
-  RunVerdict verdict;
-  verdict.what = run.what;
-  verdict.disturbances = run.disturbances + (again ? again->disturbances : 0);
+JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
+                    std::span<const oracle::StepJudgement> judgements, const Claims& claims,
+                    const Contract& contract, const CaseRun* again) {
+  JudgedRun judged;
+  judged.what = run.what;
+  judged.disturbances = run.disturbances + (again ? again->disturbances : 0);
   switch (run.end) {
     case RunEnd::completed:
       break;
     case RunEnd::crashed:
-      not_answered(verdict, claims);
+      not_answered(judged, claims);
       break;
     case RunEnd::refused:
-      if (c.expected.answer != detector::Answer::error) not_answered(verdict, claims);
+      if (c.expected.answer != detector::Answer::error) not_answered(judged, claims);
       break;
     case RunEnd::hung:
     case RunEnd::out_of_memory:
-      verdict.outcome = Outcome::undecided;
+      judged.outcome = Outcome::undecided;
       break;
     case RunEnd::not_run:
-      verdict.outcome = Outcome::error;
-      return verdict;
+      judged.outcome = Outcome::error;
+      return judged;
   }
-  const Contract judged = says_query(c) ? on_queries(contract) : contract;
+  const Contract of_case = says_query(c) ? on_queries(contract) : contract;
   for (std::size_t s = 0; s < std::min(run.steps.size(), judgements.size()); ++s) {
-    auto diff = compare_step(run, s, judgements[s], claims, judged, c.triangles);
-    verdict.outcome = worse(verdict.outcome, diff.outcome);
-    for (const auto claim : diff.broken) add_broken(verdict, claim);
-    verdict.left_out_misses += diff.left_out_missed ? 1 : 0;
-    verdict.steps.push_back(std::move(diff));
+    auto diff = compare_step(run, s, judgements[s], claims, of_case, c.triangles);
+    judged.outcome = worse(judged.outcome, diff.outcome);
+    for (const auto claim : diff.broken) add_broken(judged, claim);
+    judged.left_out_misses += diff.left_out_missed ? 1 : 0;
+    judged.steps.push_back(std::move(diff));
   }
-  if (!again) return verdict;
+  if (!again) return judged;
   if (again->end == RunEnd::crashed && run.end != RunEnd::crashed) {
-    verdict.what = again->what;
-    not_answered(verdict, claims);
+    judged.what = again->what;
+    not_answered(judged, claims);
   }
   const auto ended_by_itself = [](const CaseRun& one) {
     return one.end == RunEnd::completed || one.end == RunEnd::crashed || one.end == RunEnd::refused;
   };
   if (claims.deterministic && ended_by_itself(run) && ended_by_itself(*again) &&
       !same_answers(run, *again)) {
-    add_broken(verdict, Claim::deterministic);
+    add_broken(judged, Claim::deterministic);
   }
-  return verdict;
+  return judged;
 }
 
 }  // namespace assay::properties

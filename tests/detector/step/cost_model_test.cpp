@@ -1,6 +1,6 @@
 // view-auto: what it looks from, when it does without views, and that this is a matter of cost
 // alone.
-#include "detector/step/view_auto.h"
+#include "detector/step/cost_model.h"
 
 #include <gtest/gtest.h>
 
@@ -54,14 +54,14 @@ void expect_same_bytes(const StepResult& a, const StepResult& b) {
   }
 }
 
-TEST(ViewAuto, ASphereIsSeenFromAPoint) {
+TEST(CostModel, ASphereIsSeenFromAPoint) {
   const auto result = make(revolved(sphere_rings), sphere(1)).step(sphere(1), sphere(2));
   ASSERT_EQ(result.primitives.size(), 1u);
   EXPECT_TRUE(result.primitives[0].is_point());
   EXPECT_EQ(result.counts.free_components, 1u);
 }
 
-TEST(ViewAuto, AWavyTubeIsSeenFromALine) {
+TEST(CostModel, AWavyTubeIsSeenFromALine) {
   const Positions x = wavy_tube(), grown = 1.25 * x;
   const Triangles t = revolved(tube_rings);
   const auto count = static_cast<std::size_t>(t.rows());
@@ -72,7 +72,7 @@ TEST(ViewAuto, AWavyTubeIsSeenFromALine) {
   EXPECT_GE(result.view_positive, by_point.view_positive + count / 16);
 }
 
-TEST(ViewAuto, L10_EveryComponentIsSeenFromWhatSuitsIt) {
+TEST(CostModel, L10_EveryComponentIsSeenFromWhatSuitsIt) {
   const Triangles tube = revolved(tube_rings), ball = revolved(sphere_rings);
   const Positions x_tube = wavy_tube(), x_ball = sphere(1);
   Triangles t(tube.rows() + ball.rows(), 3);
@@ -109,7 +109,7 @@ Positions sheet_positions(int rising_rows) {
 
 // A sheet seen along itself: integers would decide that the flat triangles have no sign, which
 // costs more than what the signs of the others can save.
-TEST(ViewAuto, ALargeSheetIsGlancedAtAndNoMore) {
+TEST(CostModel, ALargeSheetIsGlancedAtAndNoMore) {
   const Triangles t = sheet_triangles();
   const MovingPoint corner = {{0, 0, 0}, {0, 0, 0}};
   const ViewPrimitive along = {corner, corner};
@@ -126,7 +126,7 @@ TEST(ViewAuto, ALargeSheetIsGlancedAtAndNoMore) {
 }
 
 // A sheet folded like an accordion. Of an unknown start nothing is clean, so views save nothing.
-TEST(ViewAuto, FallsBackWhereAllIsDirtyAndCostsWhatBvhCosts) {
+TEST(CostModel, FallsBackWhereAllIsDirtyAndCostsWhatBvhCosts) {
   constexpr int columns = 24;
   Triangles t(2 * (columns - 1), 3);
   Positions x(2 * columns, 3);
@@ -152,7 +152,7 @@ TEST(ViewAuto, FallsBackWhereAllIsDirtyAndCostsWhatBvhCosts) {
 }
 
 // Turned inside out, an octahedron is V0 altogether; then it breathes.
-TEST(ViewAuto, L5L8_ComesBackWhenViewsPayAgain) {
+TEST(CostModel, L5L8_ComesBackWhenViewsPayAgain) {
   const Positions x = octahedron_positions(2);
   Detector detector = make(octahedron(), x), bvh = make(octahedron(), x, Culling::bvh);
   Positions at = x;
@@ -174,7 +174,7 @@ TEST(ViewAuto, L5L8_ComesBackWhenViewsPayAgain) {
   EXPECT_LE(looks, free + 4);
 }
 
-TEST(ViewAuto, L8L9_AnUnclosedMeshIsVerifiedAgainWhenItComesBack) {
+TEST(CostModel, L8L9_AnUnclosedMeshIsVerifiedAgainWhenItComesBack) {
   const Triangles all = revolved(sphere_rings);
   const Triangles t = all.bottomRows(all.rows() - 6);
   const Positions x = sphere(1);
@@ -198,7 +198,7 @@ TEST(ViewAuto, L8L9_AnUnclosedMeshIsVerifiedAgainWhenItComesBack) {
 }
 
 // The primitive hangs on many vertices of the sphere: one of them, pulled far out, takes it along.
-TEST(ViewAuto, L5_ChoosesAgainWhereThePrimitiveNoLongerPays) {
+TEST(CostModel, L5_ChoosesAgainWhereThePrimitiveNoLongerPays) {
   const Triangles t = revolved(sphere_rings);
   const auto count = static_cast<std::size_t>(t.rows());
   const Positions x = sphere(1);
@@ -231,7 +231,7 @@ std::vector<Positions> eventful_frames() {
   return frames;
 }
 
-TEST(ViewAuto, EvaluateLeavesTheChoiceAloneAndResetForgetsIt) {
+TEST(CostModel, EvaluateLeavesTheChoiceAloneAndResetForgetsIt) {
   const auto frames = eventful_frames();
   Detector plain = make(octahedron(), frames[0]), asked = make(octahedron(), frames[0]);
   int without = 0, with = 0;
@@ -253,7 +253,7 @@ TEST(ViewAuto, EvaluateLeavesTheChoiceAloneAndResetForgetsIt) {
 
 // The flat pressing and the passage through the hole below happen without views. What is dirty
 // after them is what a verified start says, by the ghosts too: some are pierced already there.
-TEST(ViewAuto, L15_AfterStepsWithoutViewsDirtyIsAsAtANewStart) {
+TEST(CostModel, L15_AfterStepsWithoutViewsDirtyIsAsAtANewStart) {
   const Triangles all = revolved(sphere_rings);
   const Triangles t = all.bottomRows(all.rows() - 1);
   const Positions x = sphere(1);
@@ -286,7 +286,7 @@ TEST(ViewAuto, L15_AfterStepsWithoutViewsDirtyIsAsAtANewStart) {
   }
 }
 
-TEST(ViewAuto, AdjacentPairsAreThoseThatShareAVertex) {
+TEST(CostModel, AdjacentPairsAreThoseThatShareAVertex) {
   const Surface surface = make_surface(octahedron(), 6);
   // Of 28 pairs the four of opposite triangles share none.
   EXPECT_EQ(adjacent_pairs(surface.mesh), 24u);

@@ -1,0 +1,95 @@
+// The policy of the cullings automatic and view_auto: a cost model of views and of proofs.
+//
+// It weighs what views are expected to save against what they are expected to cost. All of it is
+// computed from the numbers of triangles and pairs of this step and of the steps committed
+// before, never from a clock: the same input gives the same bytes. A step may be seen from
+// anywhere (L3), so each step may have primitives of its own.
+//
+// The unit of cost is one candidate pair of culling bvh with all that belongs to it (box tests,
+// axis order, elementary tests, its share of the refit): 0.15 to 0.2 us.
+//
+// From step to step the model is in one of these states:
+//
+//                     views pay: the next pause is halved
+//                          +-----+
+//                          |     v
+//     first step ------>  views are due  ---- views do not pay ---->  pause of `next_pause` steps,
+//                          ^        ^                                 which is then doubled (<= 32)
+//                          |        |                                     |
+//                          |        +----- the pause is over -------------+
+//                          |
+//           anchors chosen again: they had lost an eighth of the pairs that they once saved, or
+//           views did not pay, and the anchors had served for `least_anchor_age` steps
+//
+// Example: on a sheet seen along itself views do not pay in steps 1, 3, 6, 11, 20; the pauses
+// between these are of 1, 2, 4 and 8 steps.
+#pragma once
+
+#include <optional>
+
+#include "detector/step/culling_policy.h"
+
+namespace assay::detector {
+
+// The number of pairs of triangles that share a vertex. Culling bvh has them as candidates in every
+// step, because their boxes touch. O(M).
+std::uint64_t adjacent_pairs(const Topology& mesh);
+
+class CostModel : public CullingPolicy {
+ public:
+  // adjacent: adjacent_pairs of the mesh. The surface must outlive this object.
+  CostModel(const Surface& surface, std::uint64_t adjacent, PolicyState before)
+      : surface_(surface), adjacent_(adjacent), state_(std::move(before)) {}
+
+  bool may_use_views() const override { return true; }
+  // Not while a pause lasts.
+  bool is_due() const override { return state_.pause == 0; }
+  // Chooses anchors again when they are due, from the positions at the start of the step.
+  const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
+                                         const PositionsView& x_t0, PacedStop& pace) override;
+
+  // Classifies a few triangles of each large component, in doubles alone. No where doubles can tell
+  // few of their signs, as on a sheet that is seen along itself: integers would have to decide the
+  // others, and the view test would cost more than the rest of the step.
+  bool worth_classifying(const StepWork& work) override;
+  // Whether the signs would save enough if all triangles were clean, and few enough triangles are
+  // near ghosts. Refits the tree of an unclosed mesh.
+  bool worth_sweeping(StepWork& work) override;
+  // Leaves out layers, which cost about a step of culling bvh.
+  StartBy start_by() const override { return StartBy::view_alone; }
+  // Whether the signs save enough among the triangles that are clean. If nothing was known of the
+  // start, a no begins no pause.
+  bool worth_using(const StepWork& work) override;
+
+  bool worth_proving(const StepWork& work, CandidateSearch& candidates) override;
+  // Whether normal cones and contours are expected to save more than they cost (L14).
+  // asked_share: of the pairs of neighbours, the share that K asks for.
+  bool worth_proving(const ProvableShares& provable, double asked_share, std::size_t triangles);
+
+  // Views have paid if release, ghost sweep and closure cost less than the pairs they left out.
+  void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) override;
+
+  ViewUse use() const override { return is_due() ? use_ : ViewUse::resting; }
+  PolicyState next(const StepCounts& counts, bool has_own_primitives) const override;
+
+ private:
+  // Notes that views would not pay in this step, and why. Returns false.
+  bool does_without(ViewUse because);
+  std::uint64_t expected_candidates() const;
+  // What release and ghost sweep have cost, in candidates.
+  double cost_beside_search(const StepCounts& counts) const;
+  void update_anchors(PolicyState& next) const;
+
+  const Surface& surface_;
+  std::uint64_t adjacent_;
+  PolicyState state_;
+  bool chose_anchors_ = false;
+  double share_of_signs_ = 1;  // the share of pairs that the signs save if all triangles are clean
+  double share_ = 1;           // the same with the triangles that are clean; a free step saves all
+  bool paid_ = true;
+  bool proves_ = false;
+  ViewUse use_ = ViewUse::used;
+  std::optional<double> overhead_;  // of this step, where views were used or found not worth using
+};
+
+}  // namespace assay::detector

@@ -1,0 +1,79 @@
+// What a step asks of its culling: whether it is seen from view primitives, whether it goes on with
+// what was seen, and whether patches are worth proving apart.
+//
+// Every answer is a matter of cost alone, so a policy cannot make a step wrong: a step without
+// views tests every pair, and a proof leaves out pairs that are not in contact (L14). A step asks
+// in the order of the functions below. After the first no it does without views.
+#pragma once
+
+#include <vector>
+
+#include "detector/options.h"
+#include "detector/search/candidate_search.h"
+#include "detector/state/policy_state.h"
+#include "detector/step/clean_triangles.h"
+#include "detector/step/step_work.h"
+#include "detector/step_result.h"
+
+namespace assay::detector {
+
+class CullingPolicy {
+ public:
+  virtual ~CullingPolicy() = default;
+
+  // Whether steps of this culling may have views. Then each step follows what is clean, so that a
+  // later step with views can rely on it.
+  virtual bool may_use_views() const = 0;
+  // Whether view primitives are placed in this step.
+  virtual bool is_due() const = 0;
+  // Where each component is seen from. `first`: the anchors of preprocessing.
+  virtual const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
+                                                 const PositionsView& x_t0, PacedStop& pace) = 0;
+  // Whether the triangles are classified. REQUIRES that primitives are placed.
+  virtual bool worth_classifying(const StepWork& work) = 0;
+  // Whether the ghosts are swept. REQUIRES that the triangles are classified.
+  virtual bool worth_sweeping(StepWork& work) = 0;
+  // How it is found out which triangles are clean at the start.
+  virtual StartBy start_by() const = 0;
+  // Whether the search goes by views. REQUIRES that it is known which triangles are clean.
+  virtual bool worth_using(const StepWork& work) = 0;
+
+  // Whether the search proves patches apart. REQUIRES that types are marked.
+  virtual bool worth_proving(const StepWork& work, CandidateSearch& candidates) = 0;
+  // Told after a search with views. `candidates_of_k`: those before the closure.
+  virtual void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) = 0;
+
+  // Whether views were used, as far as that is decided.
+  virtual ViewUse use() const = 0;
+  // What the policy of the next step begins with. has_own_primitives: the primitives were placed at
+  // the policy's anchors; otherwise the caller gave them.
+  virtual PolicyState next(const StepCounts& counts, bool has_own_primitives) const = 0;
+};
+
+// The cullings that decide nothing: views always (view_point, view_line) or never.
+class FixedPolicy : public CullingPolicy {
+ public:
+  FixedPolicy(Culling culling, PolicyState before)
+      : has_views_(uses_views(culling)), state_(std::move(before)) {}
+
+  bool may_use_views() const override { return has_views_; }
+  bool is_due() const override { return has_views_; }
+  const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first, const PositionsView&,
+                                         PacedStop&) override {
+    return first;
+  }
+  bool worth_classifying(const StepWork&) override { return true; }
+  bool worth_sweeping(StepWork&) override { return true; }
+  StartBy start_by() const override { return StartBy::view_and_layers; }
+  bool worth_using(const StepWork&) override { return true; }
+  bool worth_proving(const StepWork&, CandidateSearch&) override { return true; }
+  void record_cost(const StepCounts&, std::uint64_t) override {}
+  ViewUse use() const override { return has_views_ ? ViewUse::used : ViewUse::not_asked_for; }
+  PolicyState next(const StepCounts&, bool) const override { return state_; }
+
+ private:
+  bool has_views_;
+  PolicyState state_;
+};
+
+}  // namespace assay::detector
