@@ -126,8 +126,8 @@ class Step {
   }
 
   // The rest of the step is that of culling bvh. What is clean is set back to what was known
-  // before the step: an independent account of the state (properties/laws/facts/carried_state.h)
-  // is kept from results, and that of a step without views has no view primitive to release from.
+  // before the step, because the result of a step without views shows no view primitive, and
+  // whoever keeps account of the state from results could not follow a release from one.
   void drop_views() {
     take_clean_at_start(work_, context_.options.start);
     work_.signs.clear();
