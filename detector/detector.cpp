@@ -11,7 +11,7 @@ namespace assay::detector {
 
 namespace {
 
-// One anchor for each component: the place from which it is seen best, with its ghosts, at rest.
+// One anchor for each component: where it is seen from best, with its ghosts, at these positions.
 std::vector<ViewAnchor> place_anchors(const Surface& surface,
                                       const std::vector<ApexRule>& apex_rules, Culling culling,
                                       const PositionsView& positions, PacedStop& pace) {

@@ -24,7 +24,7 @@ enum class ViewUse : std::uint8_t {
   not_asked_for,      // the culling has no views, or the step was refused or stopped before
   resting,            // views have not paid in the steps before
   start_unknown,      // a new start that shows too little clean; the next step knows more (L15)
-  hopeless,           // doubles can tell the signs of too few of some triangles sampled
+  hopeless,           // of a sample of triangles, doubles can tell too few signs
   saving_too_little,  // too few triangles are of one sign
   among_ghosts,       // too many triangles are near ghosts
   among_dirty,        // too few triangles are clean

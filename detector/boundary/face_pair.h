@@ -12,7 +12,8 @@ class FacePairTest {
   using Corners = std::array<std::int32_t, 3>;
 
   // Corners are rows of the views. With piercing_at_start two triangles also meet if an edge of
-  // one pierces the other at t=0; features need not meet during the step for that.
+  // one pierces the other at t=0. No features need meet during the step for that, so it has a test
+  // of its own.
   FacePairTest(const PositionsView& x_t0, const PositionsView& x_t1,
                const ElementaryTest& elementary, bool piercing_at_start)
       : x_t0_(x_t0), x_t1_(x_t1), elementary_(elementary), pierces_too_(piercing_at_start) {}

@@ -35,8 +35,9 @@ struct GhostSweep {
 
 // Sets touched[t] of each mesh triangle t that a ghost of the hole touches at any time in [0,1].
 // They touch if closed faces of the two that share no vertex meet; triangles next to the loop and
-// degenerate ghosts are no exceptions. Only triangles of the hole's own component are looked at,
-// and none that is set already. REQUIRES a hole tree of this step and of the grid of sweep.tree.
+// degenerate ghosts are no exceptions. Only triangles of the hole's own component are looked at.
+// Those that are set already are not tested again. REQUIRES a hole tree of this step and of the
+// grid of sweep.tree.
 // Descends the hole's tree against the component's part of the mesh's tree, with up to 15
 // elementary tests for each pair whose boxes meet. False if stopped.
 bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,

@@ -17,7 +17,7 @@
 
 namespace assay::detector {
 
-// The items of a piece, which make some 10 us of work; fewer are not worth sharing out.
+// How many items make a piece: some 10 us of work. Fewer are not worth sharing out.
 inline constexpr std::size_t shared_piece = 4096;
 // The same for rows of positions that are only read or copied.
 inline constexpr std::size_t rows_of_piece = 32'768;
@@ -52,7 +52,7 @@ bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_e
   return !pace->stopped();
 }
 
-// Calls body(i) for i = 0 .. count - 1, each of so much work. False if it was ended.
+// Calls body(i) for i = 0 .. count - 1, each of which costs work_of_each. False if it was ended.
 template <class Body>
 bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, Body body) {
   const auto run = [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -1,5 +1,5 @@
-// A user's stop function made fit for several threads. Only the calling thread ever calls it, so
-// it need not be prepared for other threads; they all hear of its answer.
+// A user's stop function made fit for several threads. Only the thread that makes this object ever
+// calls it, so it need not be prepared for other threads; they all hear of its answer.
 #pragma once
 
 #include <atomic>
@@ -11,8 +11,7 @@ namespace assay::detector {
 
 class SharedStop {
  public:
-  // `stop` must outlive this object, and this object must outlive what function() returns. The
-  // thread that makes it is the calling thread.
+  // `stop` must outlive this object, and this object must outlive what function() returns.
   explicit SharedStop(const StopFunction& stop)
       : stop_(stop), caller_(std::this_thread::get_id()) {}
 

@@ -1,6 +1,5 @@
 // The pair rule in terms of triangle types: which pairs of types the present search asks for, and
-// which were asked for by searches before it. FeaturePairs takes each feature pair once with the
-// help of both.
+// which were asked for by searches before it.
 #pragma once
 
 #include "detector/search/triangle_type.h"

@@ -7,9 +7,9 @@
 // it holds by more than a margin:
 //   y_k = (x_k - centre_k) * scale, |y_k| <= 2 (FloatGrid::scaled), is off by 2^-52 at most; a sum
 //   of three, at most 6, takes two more roundings and is off by less than 2^-49. It is rounded to
-//   the nearest float g, off by at most 2^-22 (half a unit of floats in [4,8)). Where
+//   the nearest float g, off by at most 2^-22 (half a unit of floats in [4,8)). If
 //   g(a) + margin < g(b) in floats, with the sum's own rounding of at most 2^-22 and margin 2^-20,
-//   the true sums differ by more than 2^-20 - 3 * 2^-22 - 2 * 2^-49 > 0.
+//   then the true sums differ by more than 2^-20 - 3 * 2^-22 - 2 * 2^-49 > 0.
 // So diagonals do not tell apart what lies closer than about a millionth of the mesh's size.
 #pragma once
 

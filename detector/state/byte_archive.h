@@ -1,5 +1,6 @@
-// Turns numbers, flags, kinds and lists of numbers into bytes and back. Writer and Reader take the
-// same calls, so one description of a form serves both, and what is written is what is read.
+// Turns numbers, flags, values of enums (kinds) and lists into bytes and back. Writer and Reader
+// take the same calls, so one description of a form serves both, and what is written is what is
+// read.
 #pragma once
 
 #include <algorithm>

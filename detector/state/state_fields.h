@@ -19,7 +19,7 @@ struct StateFields {
   std::vector<ViewAnchor> anchors;
 };
 
-// The digest of a mesh: equal for equal triangles in the same order and equal counts. O(M).
+// The digest of a mesh: equal for equal triangles in the same order and equal vertex counts. O(M).
 std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
 
 // Whether all sizes and indices of the state fit a detector of this surface that has so many

@@ -30,8 +30,8 @@ struct StepState {
   // Evaluations leave the next member as it was when the last step was committed.
   ViewChoice choice;
 
-  // Makes `x` the positions, and compares them with `x`. The workers of the pace share the work;
-  // it is not asked to stop.
+  // `keep` makes `x` the positions; `holds_at` says whether `x` equals them in every bit. The
+  // workers of the pace share the work; it is not asked to stop.
   void keep(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops));
   bool holds_at(const PositionsView& x, const PacedStop& pace = PacedStop(never_stops)) const;
 };

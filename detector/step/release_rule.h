@@ -4,9 +4,10 @@
 // Let a step go on from a committed one. A triangle is in doubt at the instant between the two if
 // it was dirty at the start of the committed step, or if a ghost touched it or it was in contact
 // with its own component during that step. After a collision found by K alone all triangles are in
-// doubt, and after a step without views all triangles of a component with ghosts are (L15). From
-// those in doubt are released, in each component, the triangles that touch nothing of S at that
-// instant and have its common layer. Exactly the rest is dirty at the start of the new step.
+// doubt, and after a step without views all triangles of a component with ghosts are (L15). Of
+// those in doubt, the triangles that touch nothing of S at that instant and have the common layer
+// of their component are released. Exactly the rest is dirty at the start of the new step. A step
+// without views releases nothing.
 //
 // The common layer of a component is that of its triangles that are not in doubt. If there are
 // none, it is the layer that most untouched triangles of the component have (tie: the one that
@@ -43,15 +44,14 @@ class ReleaseRule {
   // ghosts, then at layers by piece, and sets work.clean of their triangles. False if stopped.
   virtual bool verify_start(StepWork& work, const std::vector<std::int32_t>& components) const;
 
-  // L9 at t=0 of a step that goes on from work.known, for the components listed. Some of their
-  // triangles are in doubt by L8, those that work.clean does not hold; sets work.clean of those
-  // released. False if stopped. The cost is that of the triangles in doubt (static_touches.h,
-  // layers.h).
+  // L9 at t=0 of a step that goes on from work.known, for the components listed. Their triangles
+  // whose work.clean is 0 are in doubt by L8; it is set to 1 for those released. False if stopped.
+  // The cost is that of the triangles in doubt (static_touches.h, layers.h).
   virtual bool release(StepWork& work, const std::vector<std::int32_t>& components) const;
 
-  // L8: sets the state at the end of the step, its clean triangles and the pairs that they rest
-  // on, from work.clean of its start and from `pairs`, the contacts found. `complete` says that
-  // these are all contacts. If they are not, no triangle is clean after a collision.
+  // L8: sets which triangles are clean in the state at the end of the step, and the pairs met,
+  // from work.clean of its start and from `pairs`, the contacts found. `complete` says that these
+  // are all contacts. If they are not, no triangle is clean after a collision.
   virtual void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
                       StepState& state) const;
 
