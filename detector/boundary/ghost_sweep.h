@@ -15,6 +15,7 @@ namespace assay::detector {
 // without lying in it; then some triangles that a ghost touches may be missed.
 enum class ByPlanes : std::uint8_t { no, strict, grazing };
 
+// What a sweep works on, and how.
 struct GhostSweep {
   const Surface& surface;
   const BoundingVolumeTree& tree;  // of the mesh, refitted to the step

@@ -40,9 +40,10 @@ class CandidateSearch {
                   SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
                   const PacedStop& pace);
 
-  // A step calls mark, then collect, then close; each returns false if it was stopped.
-  // Sets the marks of the tree to the types of all triangles, by triangle. The types of the
-  // closure are not among them.
+  // A step calls mark, collect and, if it closes the set of pairs, close; each returns false if it
+  // was stopped.
+
+  // Sets the marks of the tree to these types, by triangle. REQUIRES none of those of the closure.
   bool mark(std::span<const TriangleType> types);
   // Finds the candidates and tests their feature pairs. With uses_proofs the search leaves out the
   // pairs that it can prove apart (PatchProofs).

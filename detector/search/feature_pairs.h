@@ -1,12 +1,13 @@
 // From a candidate pair of triangles to the feature pairs that are tested for it.
 //
-// A pair of features is taken if each triangle represents its feature (representatives.h), if the
-// two share no vertex and their boxes are not apart (feature_boxes.h), if no earlier search has
-// asked for them, and if the triangles have the first pair of types that the search asks for among
-// all triangles that hold the two features. Over the candidates of all searches this takes each
-// feature pair once. Types are enough to decide it: triangles that hold features whose boxes meet
-// have boxes that meet too, so every pair of them whose types are asked for is a candidate (or was
-// proved apart, L14).
+// A pair of features, one of each triangle, is taken if
+//   each triangle represents its feature (representatives.h);
+//   the two share no vertex, and their boxes are not apart (feature_boxes.h);
+//   no earlier search has asked for them;
+//   among all triangles that hold the two, these have the first types that the search asks for.
+// Over the candidates of all searches this takes each feature pair once. Types are enough to
+// decide it: triangles that hold features whose boxes meet have boxes that meet too, so every pair
+// of them whose types are asked for is a candidate (or was proved apart, L14).
 #pragma once
 
 #include <vector>

@@ -20,7 +20,7 @@
 
 namespace assay::detector {
 
-// Three coordinates and a place that holds 0.
+// Three coordinates and a 0, or sums along four diagonals (feature_boxes.h).
 using FloatLanes = float __attribute__((vector_size(16)));
 using LaneTruth = int __attribute__((vector_size(16)));
 
@@ -76,8 +76,9 @@ inline bool apart_at_start(const MovingBox& a, const MovingBox& b) {
 class FloatGrid {
  public:
   FloatGrid() = default;
-  // The grid of a step: its centre is the middle of all positions, and its scale a power of two
-  // that brings them near 1. So no accuracy is lost by where a mesh lies or how large it is. O(N).
+  // The grid of a step: its centre is the middle of all positions, and its scale, by axis, a power
+  // of two that brings them near 1. So no accuracy is lost by where a mesh lies or how large it
+  // is. O(N).
   // If `pace` was stopped, it must not be used.
   FloatGrid(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop* pace = nullptr);
 

@@ -1,8 +1,8 @@
 // Which triangle pairs a step looks at, and which pairs of tree nodes may hold such pairs.
 //
 // Inside a component these are the pairs of K = (V+,V-) u (U,V0) u (U,Vv) (L3; U are ALL
-// triangles, those of V0 and Vv included). Of two components they are all pairs (L10). Pairs that
-// share a vertex or an edge are looked at too.
+// triangles, those of V0 and Vv included). Between two components they are all pairs (L10). Pairs
+// that share a vertex or an edge are looked at too.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ class PairTable {
   PairTable& remove(std::uint8_t a, std::uint8_t b);
   static PairTable everything();
 
-  // Whether some flag of `a` and some flag of `b` are asked for.
+  // Whether some flag of `a` is asked for together with some flag of `b`.
   bool asks(std::uint8_t a, std::uint8_t b) const { return (partners_[a] & b) != 0; }
   // The flags that some flag of `a` asks for.
   std::uint8_t partners(std::uint8_t a) const { return partners_[a]; }

@@ -13,7 +13,7 @@ enum class TriangleType : std::uint8_t {
   positive,  // V+
   negative,  // V-
   zero,      // V0
-  violated,  // Vv: touched by a ghost
+  violated,  // Vv: touched by a ghost; in a step without views, every clean triangle
   dirty,     // Vv: it may be in contact with its own component already at t=0
   // Types of the closure (L7). V0 and Vv need none, because they were tested against everything.
   positive_grown,  // V+, joined H in this round
