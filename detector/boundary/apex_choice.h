@@ -31,9 +31,9 @@ class ApexChoice {
     std::size_t cut_short = 0;  // sweeps that were ended because they took too much work
   };
 
-  // The work that the choice may take, in the units of GhostCounts::work (box tests). It is this
-  // much for each triangle and ghost: a step of bvh takes 0.8 to 1.4 us a triangle, as 160 to 280
-  // box tests do. To this comes a base of 1 ms.
+  // The work that the choice may take, in the units of GhostCounts::work (box tests): so much for
+  // each triangle and ghost, and a base of 1 ms. A step of bvh takes 0.8 to 1.4 us a triangle, as
+  // 160 to 280 box tests do.
   static constexpr std::uint64_t work_per_triangle = 200, base_work = 200'000;
 
   // REQUIRES the tree of the mesh, refitted to x. The references must outlive this object.

@@ -26,7 +26,7 @@ class PatchProofs {
   virtual ~PatchProofs() = default;
   // True only if no two triangles below the node are in contact during the step.
   virtual bool is_free(std::int32_t node) = 0;
-  // True only if no two of the triangles below a and below b are in contact during the step.
+  // True only if no two triangles of all those below a and b are in contact during the step.
   // Asked if the boxes of a and b meet.
   virtual bool are_free(std::int32_t a, std::int32_t b) = 0;
   // Whether the search has to end; the two functions above are then false.

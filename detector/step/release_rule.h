@@ -10,9 +10,9 @@
 // without views releases nothing.
 //
 // The common layer of a component is that of its triangles that are not in doubt. If there are
-// none, it is the layer that most untouched triangles of the component have (tie: the one that
-// holds the lowest). L5 is a quicker way to the same result: if all of S is positive with winding
-// number 1, S is embedded with one layer.
+// none, it is the layer that most untouched triangles of the component have (tie: the layer that
+// holds the lowest triangle). L5 is a quicker way to the same result: if all of S is positive with
+// winding number 1, S is embedded with one layer.
 #pragma once
 
 #include "detector/step/step_work.h"
