@@ -3,8 +3,8 @@
 // A node has the flags P, N, Z, V (and `grown` in the closure) of all triangles below it. The
 // nodes with one flag are the partial tree of that set. Flags are kept from step to step. A
 // marking is given the types of all triangles and compares them with those of the LAST MARKING,
-// which may be several steps ago, because steps that L5 proves free do not mark. From each leaf
-// that changed it works upward:
+// which may be several steps ago, because a step that ends as free by L5 does not mark. From each
+// leaf that changed it works upward:
 //   a new flag is set on each ancestor until one has it already;
 //   a lost flag is cleared on each ancestor until one has it from its other child.
 // All new flags are set before any is cleared, so no flag is taken away and given back. The flags
