@@ -1,5 +1,5 @@
-// A detector of stages other than the standard ones: another broad phase, a scheme under study, or
-// one that is wrong on purpose.
+// Makes a detector of stages other than the standard ones: with another broad phase, of a scheme
+// under study, or wrong on purpose.
 //
 //   Stages stages = standard_stages(options);
 //   stages.pair_search = std::make_shared<MySearch>();
@@ -7,7 +7,8 @@
 //
 // Here MySearch is derived from PairSearch.
 //
-// The stages are no part of the promise of detector.h: their headers are not installed.
+// The interface promised to users is detector.h; stages may change, and their headers are not
+// installed.
 #pragma once
 
 #include "detector/detector.h"
@@ -15,7 +16,7 @@
 
 namespace assay::detector {
 
-// As Detector::create, with these stages. Errors are the same.
+// Does what Detector::create does, with these stages. Errors are the same.
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop = {});
 

@@ -12,7 +12,7 @@ namespace assay::detector {
 
 namespace {
 
-// From where all of S at rest is seen best, ghosts included.
+// One anchor for each component: where it is seen from best, with its ghosts, at these positions.
 std::vector<ViewAnchor> place_anchors(const Surface& surface,
                                       const std::vector<ApexRule>& apex_rules, Culling culling,
                                       const PositionsView& positions, PacedStop& pace) {
@@ -83,7 +83,7 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   PacedStop pace(asked, workers);
   if (auto problem = check_triangles(triangles, positions.rows(), pace)) return std::move(*problem);
   if (auto problem = check_positions(positions, positions.rows())) return std::move(*problem);
-  // Once it has said so it is not asked again.
+  // Once the stop function has asked for an end it is not asked again.
   const StopFunction paced = [&] { return pace.now(); };
   const auto stopped = [] {
     return Problem{InputError::stopped, "stopped while the detector was created"};
@@ -92,8 +92,9 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   Surface surface = stages.boundary->close_up(triangles, positions.rows(), pace);
   if (pace.now()) return stopped();
   const bool views = uses_views(options.culling);
-  // Before the tree, where no apex has to be chosen with its help: what the search for a place
-  // takes is given back when the tree is built.
+  // Apexes are chosen with the help of the tree, so on an unclosed mesh anchors come after it. On
+  // a closed mesh they come first, so that the memory of their search is given back before the
+  // tree is built.
   std::vector<ViewAnchor> anchors;
   if (views && surface.is_closed())
     anchors = place_anchors(surface, {}, options.culling, positions, pace);
@@ -167,7 +168,7 @@ std::optional<Problem> Detector::restore(const SavedState& saved) {
   if (!fits(state, context.surface, context.anchors.size())) {
     return Problem{InputError::damaged_state, "the state contradicts the mesh that it names"};
   }
-  StateFields copy = state;  // first: whole or not at all, should memory fail
+  StateFields copy = state;  // copied first, so that nothing has changed if memory fails here
   parts_->committed = std::move(copy.committed);
   context.apex_rules = std::move(copy.apex_rules);
   context.anchors = std::move(copy.anchors);

@@ -5,14 +5,16 @@
 //   if (result.answer == Answer::collision) use(result.first, result.pairs);
 //
 // Every vertex moves linearly from x_t0 to x_t1 over t in [0,1]. Answers are those of exact
-// arithmetic on the doubles given, unless another is asked for (Arithmetic). Touching counts;
-// triangles that share a vertex or an edge are in contact when they meet beyond what they share.
-// The primitive may be anywhere, inside or not.
+// arithmetic on the doubles given, unless another Arithmetic is asked for. Touching counts as
+// contact. Triangles that share a vertex or an edge are in contact when they meet beyond what they
+// share. View primitives may be anywhere, inside the mesh or outside.
 //
-// State is per triangle, clean or dirty (L8, L9), and belongs to exact positions: evaluate() leaves
-// it alone, commit() advances it to the end of the step evaluated last, step() is both. A step that
-// starts elsewhere than the committed positions is treated as a new start. Each call completes or
-// changes nothing. One instance a thread; no globals.
+// From step to step the detector carries a state: which triangles are clean and which are dirty
+// (L8, L9). It is valid at exactly the positions where the last committed step ended. evaluate()
+// leaves it alone, commit() advances it to the end of the step evaluated last, and step() does
+// both. A step that starts at other positions, be it in one bit, is treated as a new start. Each
+// call completes or leaves the state unchanged. An instance serves one thread at a time, and there
+// are no globals.
 #pragma once
 
 #include <memory>
@@ -29,17 +31,18 @@ namespace assay::detector {
 struct StateFields;  // of no concern to users
 struct Stages;       // assembly.h
 
-// What a detector carries from step to step, as a value that can be copied and kept, and as bytes
-// in a file. Copies share what they hold; nothing of it ever changes.
+// What a detector carries from step to step. It is an immutable value that can be copied and kept
+// (copies share what they hold), and it can be turned into bytes for a file.
 class SavedState {
  public:
   explicit SavedState(StateFields fields);
 
-  // The same bytes on every machine: 24 a vertex, 1 a triangle, 16 a pair in contact, and what the
-  // components and holes take. O(M).
+  // The bytes are the same on every machine: 24 for each vertex, 1 for each triangle, 16 for each
+  // pair in contact, and some for the components and holes. O(M).
   std::vector<std::uint8_t> bytes() const;
-  // damaged_state, other_state_version; of which mesh it is, restore() checks. Takes no more memory
-  // than a few times the bytes that are there, whatever they say. O(M).
+  // Errors: damaged_state, other_state_version. Whether the state is of the right mesh is checked
+  // by restore(). Reading takes no more memory than a few times the bytes that are there, whatever
+  // lengths they claim. O(M).
   static Expected<SavedState> read(std::span<const std::uint8_t> bytes);
 
   const StateFields& fields() const { return *fields_; }
@@ -50,44 +53,47 @@ class SavedState {
 
 class Detector {
  public:
-  // Errors: those of check_triangles and check_positions. `positions` shape the tree and the view
-  // anchors and apexes (preprocessing, O((M + ghosts) log M)); any positions of the mesh will do,
-  // the first frame is best.
+  // Errors: those of check_triangles and check_positions. The tree, the view anchors and the
+  // apexes are made from `positions` (preprocessing, O((M + ghosts) log M)). Any positions of the
+  // mesh will do; those of the first frame are best.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options);
-  // The same, and `stop` ends it: error stopped. Asked after every few milliseconds of work, but
-  // for the adjacency of the mesh and its checks, 0.5 us a triangle, of which it is asked in
-  // between.
+  // The same, and `stop` can end it, with the error `stopped`. It is asked after every few
+  // milliseconds of work, except in the few plain passes that check indices and coordinates.
   static Expected<Detector> create(const TrianglesView& triangles, const PositionsView& positions,
                                    const Options& options, const StopFunction& stop);
   Detector(Detector&&) noexcept;
   Detector& operator=(Detector&&) noexcept;
   ~Detector();
 
-  // primitives: none (the detector's own), one for all components, or one for each component, in
-  // the order of topology().components; points or lines, fixed or moving, another one in each step
-  // if so wished. Errors: wrong_primitive_count, non_finite_coordinate. With view-auto they serve
-  // in the steps that use views.
+  // Answers a step and leaves the state as it is.
+  // primitives: none (the detector then places its own), one for all components, or one for each
+  // component in the order of topology().components. Each is a point or a line, fixed or moving,
+  // and may be another one in each step. With `automatic` and `view_auto` they serve only in the
+  // steps that use views.
   // `stop` ends long work with the answer undecided.
+  // Errors: wrong_frame_size, wrong_primitive_count, non_finite_coordinate.
   StepResult evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
                       std::span<const ViewPrimitive> primitives = {},
                       const StopFunction& stop = {});
 
-  // Advances the state to the end of the step evaluated last; nothing_to_commit without one, or
-  // when that evaluate had no answer (error, undecided).
+  // Advances the state to the end of the step evaluated last. Error: nothing_to_commit, if there
+  // is no such step or if its evaluation had no answer (error, undecided).
   std::optional<Problem> commit();
 
-  // evaluate, and commit where there is an answer.
+  // Evaluates, and commits if there is an answer.
   StepResult step(const PositionsView& x_t0, const PositionsView& x_t1,
                   std::span<const ViewPrimitive> primitives = {}, const StopFunction& stop = {});
 
-  // What later steps rest on: the last commit, and where views and apexes are placed.
+  // Everything that later steps rest on: the state of the last commit, and the rules that place
+  // view primitives and apexes.
   SavedState state() const;
 
-  // Goes on from there: further results are those of the detector that was saved, bit by bit (where
-  // both were made from the same positions; else all but the counts). What was evaluated and not
-  // committed is dropped. foreign_state, and nothing changes, when it is of another mesh or
-  // culling.
+  // Goes on from a saved state. Further results equal those of the detector that was saved bit by
+  // bit if both detectors were made from the same positions; otherwise their counts may differ. A
+  // step that was evaluated and not committed is dropped. Error: foreign_state, if the state is of
+  // another mesh or culling; damaged_state, if it contradicts the mesh. After an error nothing has
+  // changed.
   std::optional<Problem> restore(const SavedState& state);
 
   // Forgets the state: the next step is a new start.

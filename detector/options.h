@@ -8,34 +8,38 @@
 namespace assay::detector {
 
 enum class Culling : std::uint8_t {
-  view_auto,    // a point or a segment, whichever sees more; bvh where that does not pay
-  view_point,   // each closed component seen from a point
-  view_line,    // each closed component seen from a segment
-  normal_cone,  // the tree, less patches with a normal cone and a simple contour [VMT94]
+  view_auto,    // a point or a segment, whichever sees more; bvh in steps where that does not pay
+  view_point,   // each component, closed by its ghosts, seen from a point
+  view_line,    // each component, closed by its ghosts, seen from a segment
+  normal_cone,  // the tree without patches that have a normal cone and a simple contour [VMT94]
   bvh,          // the tree alone
   none,         // every pair, no boxes: for small meshes and for comparison
-  automatic,    // view_auto and normal_cone in one descent, each only where it is expected to pay
+  automatic,    // view_auto and normal_cone in one descent, each if it is expected to pay
 };
 
-// Whether each step decides by itself if its views are used.
+// Whether each step decides for itself if it uses views.
 constexpr bool chooses_views(Culling culling) {
   return culling == Culling::view_auto || culling == Culling::automatic;
 }
 
-// Whether steps may be seen from view primitives.
+// Whether steps may use view primitives at all.
 constexpr bool uses_views(Culling culling) {
   return chooses_views(culling) || culling == Culling::view_point || culling == Culling::view_line;
 }
 
+// What is known to be clean at a new start: at the first step, and after a jump of positions. Of a
+// verified start, automatic and view_auto leave out the layers, and steps without views look at
+// nothing: their pairs tell the next step what is clean (L15).
 enum class Start : std::uint8_t {
-  verified,  // at the first step: static contacts and layers by piece (L9); L5 where it applies
-  clean,     // the caller vouches that nothing is in contact and layers are common
+  verified,  // what L5 shows to be clean; elsewhere what static contacts and layers show (L9)
+  clean,     // the caller vouches that nothing is in contact and that layers are common
   unknown,   // everything is dirty
 };
 
+// Which pairs in contact a step reports.
 enum class Pairs : std::uint8_t {
   all,    // the complete pair set of the step (K with closure, L7)
-  first,  // contacts found through K: the first contact time is right, the set is not complete (L6)
+  first,  // those found through K: the first contact time is right, the set is not complete (L6)
 };
 
 // How dirty triangles become clean again within a sequence.
@@ -48,7 +52,7 @@ enum class Release : std::uint8_t {
 // When a ghost counts as touching a triangle.
 enum class GhostTest : std::uint8_t {
   exact,  // their closed faces meet
-  boxes,  // their moving boxes are not apart: a superset, as sound, and dirty for longer
+  boxes,  // their moving boxes are not apart: a superset, as sound, with more dirty triangles
 };
 
 struct Options {
@@ -58,8 +62,8 @@ struct Options {
   Arithmetic arithmetic = Arithmetic::exact;
   Release release = Release::pieces;
   GhostTest ghost_test = GhostTest::exact;
-  // How many threads a step and create() may use; 0: as many as the machine has. What comes out is
-  // the same, counts too. Where the library was built without oneTBB it is one.
+  // How many threads a step and create() may use; 0 means as many as the machine has. Results are
+  // the same for any number, counts included. A library built without oneTBB uses one thread.
   std::uint32_t threads = 1;
 };
 

@@ -12,20 +12,20 @@
 
 namespace assay::detector {
 
-// Bits of StepResult::doubts.
+// Bits of StepResult::doubts; a triangle may have both.
 namespace doubt {
 inline constexpr std::uint8_t violated = 1, dirty = 2;
 }
 
-// Whether a step was made with views, and why not. A step without them tests every pair that its
-// boxes do not tell apart, so this is a matter of cost alone.
+// Whether a step used views, and if not, why. A step without views tests every pair that its boxes
+// do not tell apart, so this affects only what the step costs.
 enum class ViewUse : std::uint8_t {
   used,
-  not_asked_for,      // by the culling, or the step was refused or stopped before
+  not_asked_for,      // the culling has no views, or the step was refused or stopped before
   resting,            // views have not paid in the steps before
-  start_unknown,      // too little of it is seen to be clean; the next step knows more (L15)
-  hopeless,           // of a few triangles, doubles can tell too few signs
-  saving_too_little,  // of one sign are too few triangles
+  start_unknown,      // a new start that shows too little clean; the next step knows more (L15)
+  hopeless,           // of a sample of triangles, doubles can tell too few signs
+  saving_too_little,  // too few triangles are of one sign
   among_ghosts,       // too many triangles are near ghosts
   among_dirty,        // too few triangles are clean
 };
@@ -33,23 +33,24 @@ enum class ViewUse : std::uint8_t {
 struct StepResult {
   Answer answer = Answer::error;
   std::optional<Problem> problem;  // when answer is error
-  // When answer is collision: exact, the enclosure of the first contact time; bounded, an interval
-  // that holds it if there is a contact at all; double and float, a time without promise.
+  // The first contact time, set when answer is collision. In exact arithmetic it is its unique
+  // enclosure, in bounded arithmetic an interval that holds it if there is a contact at all, in
+  // double and float a time without promise.
   TimeEnclosure first;
   std::vector<PairContact> pairs;  // ascending by pair, each with its first time
 
-  // Sizes of V+, V-, V0 without Vv, and of Vv: disjoint, together all triangles. A step without
-  // views (culling normal_cone, bvh and none, and view-auto where it falls back to bvh) has no view
-  // sets: all are 0; doubts, signs, primitives and apexes are empty.
+  // Sizes of the view sets. V+, V- and V0 count only triangles outside Vv, so the four sets are
+  // disjoint and make up the mesh. A step without views (culling normal_cone, bvh or none, or a
+  // step of automatic and view_auto that drops its views) has no view sets: all sizes are 0, and
+  // doubts, signs, primitives and apexes are empty.
   std::size_t view_positive = 0, view_negative = 0, view_zero = 0;
   std::size_t against_all = 0;  // Vv: violated, dirty, or both
   std::size_t violated = 0;     // touched by a ghost during the step
-  std::size_t dirty = 0;        // carry doubt into this step
+  std::size_t dirty = 0;        // not known to be clean at t=0
   ViewUse views = ViewUse::not_asked_for;
 
-  // By triangle of the mesh: doubt::violated, doubt::dirty.
-  std::vector<std::uint8_t> doubts;
-  // Sign over the step of each triangle of the mesh, then of each ghost.
+  std::vector<std::uint8_t> doubts;  // by triangle of the mesh: bits of namespace doubt
+  // The sign over the step of each triangle of the mesh, then of each ghost.
   std::vector<ViewSign> signs;
   std::vector<ViewPrimitive> primitives;  // one for each component
   std::vector<MovingPoint> apexes;        // one for each loop, see Detector::surface()

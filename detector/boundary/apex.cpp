@@ -22,7 +22,8 @@ LoopBox box_of(const Loop& loop, const PositionsView& x) {
 }
 
 Point centroid(const Loop& loop, const PositionsView& x, const LoopBox& box) {
-  // Scaled before the sum and kept among the values, so that rounding cannot make it overflow.
+  // Each term is scaled before it is added, and the result clamped to the loop's box, so that
+  // rounding cannot make it overflow.
   const double weight = 1.0 / static_cast<double>(loop.size());
   Point c = {0, 0, 0};
   for (const auto v : loop) {
@@ -38,8 +39,8 @@ Point place_apex(const ApexRule& rule, const Loop& loop, const PositionsView& x)
   const LoopBox box = box_of(loop, x);
   const Point c = centroid(loop, x, box);
   if (rule.height == 0) return c;
-  // Twice the area vector of the fan from the centroid, in units of the loop's longest side so that
-  // products neither overflow nor vanish.
+  // The normal is twice the area vector of the fan from the centroid. Its unit is the longest side
+  // of the loop's box, so that products neither overflow nor vanish.
   double side = 0;
   for (std::size_t k = 0; k < 3; ++k) side = std::max(side, box.hi[k] - box.lo[k]);
   if (!(side > 0) || !std::isfinite(side)) return c;

@@ -1,7 +1,8 @@
 // Where the apex of a ghost fan stands: a deterministic function of one frame's positions.
 //
-// The apex of a step moves linearly between its places at the two frames, so it is continuous from
-// step to step (cases D7, D9: an apex that stays behind, or jumps, misses contacts).
+// During a step the apex moves linearly between its places at the two frames, so it is also
+// continuous from step to step. An apex that stays behind, or jumps, misses contacts (cases D7,
+// D9).
 #pragma once
 
 #include <array>
@@ -10,20 +11,22 @@
 
 namespace assay::detector {
 
-// The loop's centroid, moved along the loop's mean normal by `height` times the diagonal of the
-// loop's box. The centroid alone ruins culling on sheets, which it cuts.
+// Puts the apex at the loop's centroid, moved along the loop's mean normal by `height` times the
+// diagonal of the loop's box. The centroid itself (height 0) would ruin culling on sheets, because
+// ghosts through it cut the sheet.
 struct ApexRule {
   double height = 0;
 };
 
-// In the order in which ties are broken.
+// The rules to choose from. Of several that are equally good the first is taken.
 inline constexpr std::array<ApexRule, 5> apex_rules = {{{0.0}, {0.25}, {-0.25}, {1.0}, {-1.0}}};
 
-// In doubles, summed in the order of the loop: the same bytes on every machine. The centroid where
-// the mean normal vanishes or overflows. Finite for finite positions.
+// The place of the apex in one frame. It is computed in doubles, summed in the order of the loop,
+// so it has the same bytes on every machine. If the mean normal vanishes or overflows it is the
+// centroid. It is finite for finite positions.
 Point place_apex(const ApexRule& rule, const Loop& loop, const PositionsView& x);
 
-// x, and below it the apexes' places at t=0 or t=1.
+// The rows of x and, below them, the apexes at t=0 or, with at_end, at t=1.
 Positions with_apexes(const PositionsView& x, const std::vector<MovingPoint>& apexes, bool at_end);
 
 }  // namespace assay::detector

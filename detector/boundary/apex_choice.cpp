@@ -8,16 +8,16 @@
 namespace assay::detector {
 namespace {
 
-// Placing an apex and making the tree of its fan, in box tests a ghost.
+// The work to place an apex and make the tree of its fan, in box tests for each ghost.
 constexpr std::uint64_t work_to_place = 20;
 
-// In all, for a loop of a few edges: 20 us.
+// Every loop gets at least so much, which is 20 us, enough for a loop of a few edges.
 constexpr std::uint64_t least_share = 4'000;
 
 constexpr std::size_t growth_of_most = 8;
 
-// From here on what only grazes a ghost's plane is taken for untouched: on a flat sheet these are
-// all triangles along a side, for each ghost over that side.
+// In meshes of at least so many triangles, what only grazes a ghost's plane is taken for
+// untouched. On a flat sheet these are all triangles along a side, for each ghost over that side.
 constexpr std::size_t large_mesh = 256;
 
 // A sweep asks whether to go on after as much work as a few pairs take.
@@ -73,7 +73,9 @@ ApexRule ApexChoice::choose(std::size_t loop, std::uint64_t share) {
   ApexRule chosen = apex_rules[0];
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   std::array<bool, apex_rules.size()> was_cut{};
-  // Those that touch many are not followed to their end while another one may touch fewer.
+  // A rule that touches many triangles is not followed to its end while another one may touch
+  // fewer: in each round rules are given up at `most` triangles, and `most` grows from round to
+  // round.
   const std::size_t all = surface_.mesh.triangles.size();
   for (std::size_t most = 1; most / growth_of_most <= all; most *= growth_of_most) {
     for (std::size_t r = 0; r < apex_rules.size() && fewest > 0; ++r) {

@@ -1,17 +1,19 @@
-// Which rule places the apex of each loop: the one whose ghosts touch fewest triangles at rest.
+// Chooses for each loop the rule that places its apex: the one whose ghosts touch fewest triangles
+// at rest.
 //
-// A bad apex costs dirty triangles, never a wrong answer (L11 asks for ghosts that close the loops,
-// wherever they stand), so the choice is given no more work than a step of culling bvh takes: it
-// counts what it does, no clock. Loops are looked at from the shortest to the longest, each with
-// its share, by its length, of what is left; of the share each rule gets a part alike. A rule that
-// does not come to its end within that part is passed over. Where none does, the loop keeps the
-// first rule, its centroid.
+// A bad apex costs dirty triangles but never makes an answer wrong, because L11 asks only for
+// ghosts that close the loops, wherever they stand. So the choice may take no more work than a
+// step of culling bvh. It counts its work and looks at no clock. Loops are handled from the
+// shortest to the longest. Each gets a share of the work that is left, in proportion to its
+// length, and its rules divide the share evenly. A rule that does not finish within its part is
+// passed over. If no rule finishes, the loop keeps the first one, its centroid.
 //
-// A fan of valence n over n triangles is such a loop: the boxes of its ghosts and triangles all
-// hold a place near its hub, so n^2 pairs come up. Its own step under bvh is quadratic for the same
-// reason (34 s at n = 20,000): what candidates are found by are boxes of triangles. Boxes of edges
-// and vertices would leave n vertices against n faces apart, for an edge at the rim is as short as
-// its triangle is narrow; the edges of the hub would still meet in one place.
+// An example where none finishes is the loop around a fan of n triangles at one hub. The boxes of
+// its ghosts and triangles all hold a place near the hub, so n^2 pairs come up. A step of this
+// mesh under bvh is quadratic for the same reason (34 s at n = 20,000), because candidates are
+// found by boxes of triangles. With boxes of edges and vertices the n vertices would be apart from
+// the n faces, because an edge at the rim is as short as its triangle is narrow, but the edges at
+// the hub would still meet in one place.
 #pragma once
 
 #include <optional>
@@ -26,25 +28,25 @@ class ApexChoice {
   struct Result {
     std::vector<ApexRule> rules;  // by loop
     GhostCounts counts;
-    std::size_t cut_short = 0;  // sweeps that were ended for the work that they took
+    std::size_t cut_short = 0;  // sweeps that were ended because they took too much work
   };
 
-  // In units of work (GhostCounts): a step of bvh takes 0.8 to 1.4 us a triangle, 160 to 280 box
-  // tests. The base is 1 ms.
+  // The work that the choice may take, in the units of GhostCounts::work (box tests): so much for
+  // each triangle and ghost, and a base of 1 ms. A step of bvh takes 0.8 to 1.4 us a triangle, as
+  // 160 to 280 box tests do.
   static constexpr std::uint64_t work_per_triangle = 200, base_work = 200'000;
 
-  // tree: of the mesh, refitted to x. Ghosts and triangles count. The references must outlive this
-  // object.
+  // REQUIRES the tree of the mesh, refitted to x. The references must outlive this object.
   ApexChoice(const Surface& surface, const BoundingVolumeTree& tree, const PositionsView& x,
              const ElementaryTest& elementary, const StopFunction& stop);
 
-  // O(1) a triangle and ghost. Of no use where `stop` asked for an end.
+  // O(1) for each triangle and ghost. If `stop` asked for an end, the result must not be used.
   Result run();
 
  private:
   ApexRule choose(std::size_t loop, std::uint64_t share);
-  // How many triangles the ghosts touch; nothing when that is not less than `fewest`, or takes more
-  // than `most_work`.
+  // How many triangles the ghosts of the loop touch under this rule. Nothing if these are not
+  // fewer than `fewest`, or if it takes more than `most_work` to find out.
   std::optional<std::size_t> touched_by(std::size_t loop, const ApexRule& rule, std::size_t fewest,
                                         std::uint64_t most_work);
   std::uint64_t work() const { return result_.counts.work() + placing_; }
@@ -56,7 +58,7 @@ class ApexChoice {
   GhostSweep sweep_;
   std::vector<std::int32_t> ghosts_, found_;
   std::vector<std::size_t> first_ghost_;  // by loop
-  std::vector<std::uint8_t> touched_;     // none, between two sweeps
+  std::vector<std::uint8_t> touched_;     // all 0 between two sweeps
   std::uint64_t placing_ = 0;             // work beside the sweeps
   Result result_;
 };

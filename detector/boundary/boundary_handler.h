@@ -1,4 +1,5 @@
-// Holes of the mesh as a stage of the detector: ghosts, their apexes, what they touch.
+// The stage of the detector that handles holes: it makes ghosts, places their apexes, and finds
+// what they touch.
 #pragma once
 
 #include "detector/boundary/apex.h"
@@ -11,26 +12,26 @@ class BoundaryHandler {
   explicit BoundaryHandler(GhostTest test = GhostTest::exact) : test_(test) {}
   virtual ~BoundaryHandler() = default;
 
-  // Of no use where `pace` was stopped.
+  // The mesh with its ghosts. If `pace` was stopped, it must not be used.
   virtual Surface close_up(const TrianglesView& triangles, Eigen::Index vertex_count,
                            PacedStop& pace) const;
 
-  // The rule of each loop, for the life of a detector: one whose ghosts touch few triangles at x
-  // (apex_choice.h). Of no use where `stop` asked for an end.
+  // The rule that places the apex of each loop for the life of a detector: one whose ghosts touch
+  // few triangles at x (apex_choice.h). If `stop` asked for an end, it must not be used.
   virtual std::vector<ApexRule> choose_apexes(const Surface& surface, BoundingVolumeTree& tree,
                                               const PositionsView& x,
                                               const ElementaryTest& elementary,
                                               const StopFunction& stop = {}) const;
 
-  // The apexes' places over a step, one a loop: at each end a function of that frame alone, so an
-  // apex is where the last step left it.
+  // The apex of each loop over a step. Its place at either end depends on that frame alone, so
+  // each step finds it where the last one left it.
   virtual std::vector<MovingPoint> place_apexes(const Surface& surface,
                                                 const std::vector<ApexRule>& rules,
                                                 const PositionsView& x_t0,
                                                 const PositionsView& x_t1) const;
 
-  // Sets touched[t] for the ghosts given (L11), hole by hole, a small tree each. Returns false when
-  // `stop` ended it.
+  // Sets touched[t] of the triangles that the given ghosts touch (L11), hole by hole, with a small
+  // tree for each. REQUIRES ghosts of one component. Returns false if `stop` ended it.
   virtual bool sweep(const GhostSweep& sweep, std::span<const std::int32_t> ghosts,
                      const StopFunction& stop, std::vector<std::uint8_t>& touched,
                      GhostCounts& counts) const;

@@ -1,4 +1,4 @@
-// Whether two triangles of the surface meet, mesh or ghost, feature by feature.
+// Whether two triangles of the surface, of the mesh or ghosts, meet, tested feature by feature.
 #pragma once
 
 #include "detector/contact/elementary.h"
@@ -11,14 +11,15 @@ class FacePairTest {
  public:
   using Corners = std::array<std::int32_t, 3>;
 
-  // Corners are rows of the views. piercing_at_start: also edges that pierce at t=0, which features
-  // that meet later do not tell.
+  // Corners are rows of the views. With piercing_at_start two triangles also meet if an edge of
+  // one pierces the other at t=0. No features need meet during the step for that, so it has a test
+  // of its own.
   FacePairTest(const PositionsView& x_t0, const PositionsView& x_t1,
                const ElementaryTest& elementary, bool piercing_at_start)
       : x_t0_(x_t0), x_t1_(x_t1), elementary_(elementary), pierces_too_(piercing_at_start) {}
 
-  // Closed faces of the two that share no vertex meet at some time of the step. Up to 15
-  // elementary tests, most of them settled by axis order.
+  // Whether closed faces of the two (vertices, edges, triangles) that share no vertex meet at some
+  // time of the step. Makes up to 15 elementary tests, most of which are settled by axis order.
   bool meet(const Corners& a, const Corners& b, GhostCounts& counts) const;
 
  private:

@@ -6,8 +6,8 @@
 namespace assay::detector {
 namespace {
 
-// The plane of a ghost at rest, in the coordinates of the tree's grid: these are brought near 1 and
-// rounded to floats, by at most 2^-24 of the greatest of them.
+// The plane of a ghost at rest, in the coordinates of the tree's grid. These are scaled to about 1
+// and rounded to floats, which changes each by at most 2^-24 of the greatest of them.
 class GhostPlane {
  public:
   GhostPlane() = default;
@@ -19,8 +19,9 @@ class GhostPlane {
       for (const auto& corner : corners) size[k] = std::max<double>(size[k], std::abs(corner[k]));
       for (std::size_t i = 0; i < 2; ++i) sides[i][k] = double(corners[i + 1][k]) - corners[0][k];
     }
-    // A coordinate is wrong by 2^-24 size, a side and an offset of 2 size at most by twice that;
-    // the products of doubles by far less. Twice the bound, for what is of second order.
+    // A coordinate is wrong by at most 2^-24 size, a side or an offset, of at most 2 size, by
+    // twice that. The products in doubles are wrong by far less. The bound is doubled for terms of
+    // second order.
     constexpr double wrong = 0x1p-22;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t m = (k + 1) % 3, n = (k + 2) % 3;
@@ -32,7 +33,8 @@ class GhostPlane {
     }
   }
 
-  // All of the box lies on one side: strictly, or so that it may touch the plane.
+  // Whether all of the box lies on one side of the plane, either strictly or, if grazing, so that
+  // it may touch the plane.
   bool misses(const MovingBox& box, bool grazing) const {
     double middle = -offset_, reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -71,14 +73,15 @@ class HoleSweep {
   }
 
  private:
-  // Both are split at once, so that their boxes stay of like size.
+  // Both nodes are split at once, so that their boxes stay of like size.
   void descend(std::size_t of_hole, std::int32_t node) {
     if (stopped_) return;
     ++counts_.box_tests;
     if (counts_.work() >= next_asking_) ask();
     if (apart(hole_.box(of_hole), tree_.box(node))) return;
     const bool splits_hole = !hole_.is_leaf(of_hole);
-    // By planes ghost by ghost: a fan's ghosts have a side in common, no two of them a plane.
+    // With planes the hole is split down to single ghosts first, because each ghost has a plane of
+    // its own, although neighbours in a fan share a side.
     const bool splits_tree =
         !tree_.is_leaf(node) && !(sweep_.by_planes != ByPlanes::no && splits_hole);
     if (sweep_.by_planes != ByPlanes::no && !splits_hole) {
@@ -115,7 +118,8 @@ class HoleSweep {
     stopped_ = stopped_ || (stop_ && stop_());
     plan_asking();
   }
-  // At the next multiple: sweeps of many small holes, counted together, ask no more often.
+  // Asks at the next multiple of the interval. Sweeps of many small holes, whose counts go on from
+  // each other, so ask no more often than that of one large hole.
   void plan_asking() {
     next_asking_ = (counts_.work() / sweep_.work_between_stops + 1) * sweep_.work_between_stops;
   }

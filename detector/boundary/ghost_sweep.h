@@ -9,33 +9,38 @@
 
 namespace assay::detector {
 
-// Where nothing moves: whether what lies on one side of a ghost's plane is left out too, and so is
-// not near. Grazing: also what may touch the plane from one side, by the size of rounding errors,
-// without lying in it; then some of what a ghost touches may be missed.
+// For sweeps in which nothing moves: whether to leave out also the triangles on one side of a
+// ghost's plane. These are then not `near` either. `strict` leaves out what lies strictly on one
+// side. `grazing` leaves out besides what, within rounding errors, touches the plane from one side
+// without lying in it; then some triangles that a ghost touches may be missed.
 enum class ByPlanes : std::uint8_t { no, strict, grazing };
 
+// What a sweep works on, and how.
 struct GhostSweep {
   const Surface& surface;
   const BoundingVolumeTree& tree;  // of the mesh, refitted to the step
   PositionsView x_t0, x_t1;        // rows: vertices of the mesh, then apexes
   const ElementaryTest& elementary;
-  bool piercing_at_start = false;  // also edges that pierce at t=0: where no state is known
+  // Whether edges that pierce at t=0 count too; needed if no state is known at t=0.
+  bool piercing_at_start = false;
   GhostTest test = GhostTest::exact;
-  // Where given: set for each triangle whose moving box is not apart from that of a ghost.
+  // If given, set to 1 for each triangle whose moving box is not apart from that of a ghost.
   std::vector<std::uint8_t>* near = nullptr;
-  // Where given: the triangles that the sweep has set, each once.
+  // If given, gets the triangles that the sweep has set as touched, each once.
   std::vector<std::int32_t>* found = nullptr;
   ByPlanes by_planes = ByPlanes::no;
-  // `stop` is asked at the first pair and after so much work (GhostCounts): a millisecond.
+  // The stop function is asked at the first pair, and then after so much work (GhostCounts::work),
+  // which takes about a millisecond.
   std::uint64_t work_between_stops = PacedStop::usual_interval;
 };
 
-// Sets touched[t] of each mesh triangle t that a ghost of the hole (ghosts of one component)
-// touches at any time in [0,1]: closed faces of the two that share no vertex meet, those of
-// triangles next to the loop and of degenerate ghosts included. Triangles that are set already are
-// not looked at again. The hole's tree, of this step and of the tree's grid, is descended against
-// the component's part of the mesh's own: box tests where they meet, and up to 15 elementary tests
-// a pair. False when stopped.
+// Sets touched[t] of each mesh triangle t that a ghost of the hole touches at any time in [0,1].
+// They touch if closed faces of the two that share no vertex meet; triangles next to the loop and
+// degenerate ghosts are no exceptions. Only triangles of the hole's own component are looked at.
+// Those that are set already are not tested again. REQUIRES a hole tree of this step and of the
+// grid of sweep.tree.
+// Descends the hole's tree against the component's part of the mesh's tree, with up to 15
+// elementary tests for each pair whose boxes meet. False if stopped.
 bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
                 std::vector<std::uint8_t>& touched, GhostCounts& counts);
 

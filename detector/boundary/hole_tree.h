@@ -1,7 +1,7 @@
-// One small tree a hole: the ghosts of its fan, as they move.
+// A small tree for each hole, over the ghosts of its fan as they move.
 //
-// The fan's own order, along the loop, is the order of the leaves, so nothing is sorted or built:
-// node n has the children 2n+1 and 2n+2, the last nodes are the leaves.
+// The leaves have the order of the fan along its loop, so nothing needs to be sorted. Node n has
+// the children 2n+1 and 2n+2; the last nodes are the leaves.
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@ namespace assay::detector {
 
 class HoleTree {
  public:
-  // ghosts: of one loop, in its order, at least one; corners are rows of the views. Boxes compare
-  // with others of the same grid. 50 ns a ghost.
+  // REQUIRES the ghosts of one loop in its order, at least one. Their corners are rows of the
+  // views. The boxes may be compared with others of the same grid. 50 ns a ghost.
   HoleTree(const Topology& all, std::span<const std::int32_t> ghosts, const FloatGrid& grid,
            const PositionsView& x_t0, const PositionsView& x_t1);
 
@@ -26,7 +26,8 @@ class HoleTree {
   std::int32_t ghost(std::size_t leaf) const { return ghosts_[leaf + 1 - ghosts_.size()]; }
   const MovingBox& box(std::size_t node) const { return boxes_[node]; }
 
-  // Ghosts whose box is not apart from `box`, until `visit` returns true; whether it did.
+  // Calls visit(ghost) for the ghosts whose box is not apart from `box`, until it returns true.
+  // Returns whether it did.
   template <class Visit>
   bool any_near(const MovingBox& box, Visit visit) const {
     return any_near(root, box, visit);
@@ -44,7 +45,7 @@ class HoleTree {
   std::vector<MovingBox> boxes_;
 };
 
-// A tree for each hole of the ghosts of a component.
+// A tree for each hole of a component, whose ghosts are given.
 std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
                                       const FloatGrid& grid, const PositionsView& x_t0,
                                       const PositionsView& x_t1);

@@ -1,10 +1,11 @@
-// Loops over many like things, shared out to the workers of a pace.
+// Loops over many things of one kind, shared out to the workers of a pace.
 //
 //   for_all_paced(vertices, work_of_vertex, pace, [&](std::size_t v) { rounded[v] = round(v); });
 //
-// The bodies run in any order and at the same time, so each writes its own place alone. Where one
-// thing has to follow another it is for_each_paced (paced_stop.h). The calling thread takes pieces
-// too, and it alone counts work and asks to stop: the others' pieces end within microseconds.
+// The bodies run in any order and at the same time, so each may write only to a place of its own.
+// If one thing has to follow another, the loop is for_each_paced (paced_stop.h). The calling
+// thread takes pieces too. It alone counts work and asks whether to stop, because the pieces of
+// the others end within microseconds.
 #pragma once
 
 #include <atomic>
@@ -16,17 +17,17 @@
 
 namespace assay::detector {
 
-// Fewer things than that are not worth sharing out: some 10 us of work.
+// How many items make a piece: some 10 us of work. Fewer are not worth sharing out.
 inline constexpr std::size_t shared_piece = 4096;
-// Of rows of positions that are only read or copied.
+// The same for rows of positions that are only read or copied.
 inline constexpr std::size_t rows_of_piece = 32'768;
 
 inline bool has_workers(const PacedStop* pace) {
   return pace && pace->workers() && !pace->workers()->is_alone();
 }
 
-// run(begin, end, lane) for pieces of at most `most`; false when it was ended in between. Without a
-// pace it never is, and one thread does it all.
+// Calls run(begin, end, lane) for pieces of at most `most` items. False if the stop function ended
+// it. Without a pace it never ends early, and the calling thread does it all.
 template <class Run>
 bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_each,
                     PacedStop* pace, Run run) {
@@ -51,7 +52,7 @@ bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_e
   return !pace->stopped();
 }
 
-// body(i) for i = 0 .. count - 1, each so much work.
+// Calls body(i) for i = 0 .. count - 1, each of which costs work_of_each. False if it was ended.
 template <class Body>
 bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, Body body) {
   const auto run = [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -64,8 +65,9 @@ bool for_all_paced(std::size_t count, std::uint64_t work_of_each, PacedStop& pac
   return for_all_paced(count, work_of_each, &pace, body);
 }
 
-// What add(sum, i) makes of `zero` over all i, and join(sum, sum) of the sums of several lanes.
-// Where the order shows in a sum (of doubles, say) it may not be asked for.
+// Starts from `zero` in each lane, calls add(sum, i) for all i, and puts the sums of the lanes
+// together with join(sum, sum). REQUIRES a sum that does not depend on the order; one of doubles
+// does.
 template <class Sum, class Add, class Join>
 Sum sum_over_all(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, const Sum& zero,
                  Add add, Join join) {
@@ -77,7 +79,8 @@ Sum sum_over_all(std::size_t count, std::uint64_t work_of_each, PacedStop* pace,
   std::vector<Sum> of_lanes(pace->workers()->count(), zero);
   for_all_pieces(count, shared_piece, work_of_each, pace,
                  [&](std::size_t begin, std::size_t end, std::size_t lane) {
-                   Sum sum = of_lanes[lane];  // beside those of other lanes it would be slow
+                   // A copy, because adding in place, beside the sums of other lanes, is slow.
+                   Sum sum = of_lanes[lane];
                    for (; begin < end; ++begin) add(sum, begin);
                    of_lanes[lane] = sum;
                  });

@@ -1,5 +1,5 @@
-// A stop function of which several threads hear, and which is asked by the calling thread alone: a
-// user's function need not expect other threads.
+// A user's stop function made fit for several threads. Only the thread that makes this object ever
+// calls it, so it need not be prepared for other threads; they all hear of its answer.
 #pragma once
 
 #include <atomic>
@@ -11,11 +11,12 @@ namespace assay::detector {
 
 class SharedStop {
  public:
-  // The function given must outlive this object, and this object what function() returns.
+  // `stop` must outlive this object, and this object must outlive what function() returns.
   explicit SharedStop(const StopFunction& stop)
       : stop_(stop), caller_(std::this_thread::get_id()) {}
 
-  // True for all threads once the function has said so. Empty where that is.
+  // A stop function for all threads: true as soon as the user's function has returned true. Empty
+  // if the user's function is.
   StopFunction function() {
     if (!stop_) return {};
     return [this] {

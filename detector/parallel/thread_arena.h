@@ -1,4 +1,4 @@
-// The threads themselves: oneTBB's, and the only place that names it.
+// The threads themselves. They are those of oneTBB, which no other file names.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@ namespace assay::detector {
 
 class ThreadArena {
  public:
-  // Null where the library was built without oneTBB.
+  // Null if the library was built without oneTBB.
   static std::unique_ptr<ThreadArena> make(std::size_t threads);
   virtual ~ThreadArena() = default;
   class Work {
@@ -16,8 +16,8 @@ class ThreadArena {
     virtual ~Work() = default;
     virtual void run(std::size_t i, std::size_t lane) const = 0;
   };
-  // work.run(i, lane) for i = 0 .. count - 1, with lane < threads; returns when all have returned,
-  // and throws what the first one threw that threw.
+  // Calls work.run(i, lane) for i = 0 .. count - 1, with lane < threads, and returns when all
+  // calls have. If some throw, it throws what the first of these threw.
   virtual void run(std::size_t count, const Work& work) = 0;
 };
 

@@ -7,9 +7,9 @@
 namespace assay::detector {
 namespace {
 
-// oneTBB orders what happens before, in and after a piece, but is not compiled for ThreadSanitizer,
-// which therefore has to be told. Pieces are not ordered among each other, so it still finds what
-// two of them do to the same place.
+// oneTBB orders what happens before, in and after a piece. It is not compiled for ThreadSanitizer,
+// so that has to be told of this order. It is not told of any order among pieces, so it still
+// finds what two of them do to the same place.
 #ifdef __SANITIZE_THREAD__
 std::atomic<unsigned> loops_begun = 0, pieces_done = 0;
 void begins_loop() { loops_begun.fetch_add(1, std::memory_order_release); }
@@ -23,7 +23,7 @@ void ends_piece() {}
 void ends_loop() {}
 #endif
 
-// Calls it where a body throws, too.
+// Calls the function at the end of a scope, also if a body throws.
 class AtEnd {
  public:
   explicit AtEnd(void (*call)()) : call_(call) {}

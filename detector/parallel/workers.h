@@ -1,9 +1,10 @@
-// The threads of one detector: one thing at a time on the calling thread, or pieces of a loop on
-// several threads at once.
+// The threads of one detector. They work on the pieces of a loop at the same time; everything else
+// is done by the calling thread.
 //
-// What a piece writes belongs to it alone, or to its lane (below), and what lanes have gathered is
-// put together so that the order does not show. So a result does not depend on how many threads
-// there are, nor on which of them did what. Loops return when all of their pieces are done.
+// A piece writes only to places of its own or of its lane, and what lanes have gathered is put
+// together in a way that does not depend on their order. So a result does not depend on how many
+// threads there are, nor on which of them did what. A loop returns when all of its pieces are
+// done.
 #pragma once
 
 #include <cstddef>
@@ -15,29 +16,31 @@
 
 namespace assay::detector {
 
-// Of a loop: the items begin, ..., end - 1. No two threads work in one lane at once.
+// A piece of a loop: the items begin, ..., end - 1. Lanes are numbered from 0, and no two threads
+// work in one lane at the same time, so what is kept by lane needs no lock.
 struct LoopPiece {
   std::size_t begin, end, lane;
 };
 
 class Workers {
  public:
-  // 0: as many threads as the machine has. Where the library was built without oneTBB, one does
+  // 0 means as many threads as the machine has. In a library built without oneTBB one thread does
   // everything.
   explicit Workers(std::uint32_t threads = 1);
 
-  // How many pieces may be worked on at once.
+  // How many pieces may be worked on at once, which is also the number of lanes.
   std::size_t count() const { return count_; }
   bool is_alone() const { return count_ == 1; }
 
-  // Calls the body for pieces that cover [0, count), each of at most `most` items and in a lane
-  // below count(), in any order. What a body throws is thrown again here. A body does not call it.
+  // Calls the body for pieces that cover [0, count), each of at most `most` items, in any order
+  // and in lanes below count(). What a body throws is thrown again here. REQUIRES that no body
+  // calls share_out.
   void share_out(std::size_t count, std::size_t most,
                  const std::function<void(const LoopPiece&)>& body) const;
 
  private:
   std::size_t count_ = 1;
-  std::unique_ptr<ThreadArena> arena_;  // null: alone
+  std::unique_ptr<ThreadArena> arena_;  // null if the calling thread works alone
 };
 
 }  // namespace assay::detector

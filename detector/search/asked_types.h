@@ -1,4 +1,5 @@
-// The pair rule by types: which pairs of types the search at hand asks for, which were asked for.
+// The pair rule in terms of triangle types: which pairs of types the present search asks for, and
+// which were asked for by searches before it.
 #pragma once
 
 #include "detector/search/triangle_type.h"
@@ -8,6 +9,7 @@ namespace assay::detector {
 // A symmetric relation between types.
 class TypeRelation {
  public:
+  // Adds the pairs of types whose flags, by this table of flags, the pair table asks for.
   void add(const PairTable& table, const type_flags::Table& flags) {
     for (std::size_t a = 0; a < triangle_types; ++a) {
       for (std::size_t b = 0; b < triangle_types; ++b) {
@@ -24,8 +26,8 @@ class TypeRelation {
     }
     return false;
   }
-  // Whether (a, b) is the first pair of `in_a` x `in_b` that is in the relation, by a, then by b;
-  // it is in the relation.
+  // REQUIRES that (a, b) is in the relation. Whether no pair of `in_a` x `in_b` that is in the
+  // relation comes before it, in the order by a, then by b.
   bool is_first(TriangleType a, TypeSet in_a, TriangleType b, TypeSet in_b) const {
     const auto below_a = static_cast<TypeSet>(in_a & (set_of(a) - 1));
     const auto below_b = static_cast<TypeSet>(in_b & (set_of(b) - 1));
@@ -37,10 +39,11 @@ class TypeRelation {
   std::array<TypeSet, triangle_types> rows_{};
 };
 
-// For pairs of one component, and of two.
+// `within` is for pairs of triangles of one component, `across` for pairs of two components. There
+// is no across_before, because only the first search asks for pairs of two components.
 struct AskedTypes {
   TypeRelation within_now, across_now;
-  TypeRelation within_before;  // pairs of two components are asked for in the first search alone
+  TypeRelation within_before;
 
   static AskedTypes in_first_search(const PairTables& candidates) {
     AskedTypes asked;

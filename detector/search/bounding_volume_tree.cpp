@@ -28,7 +28,7 @@ struct BoundingVolumeTree::Builder {
     if (!for_each_paced(mesh.triangles.size(), work_of_centre, pace, add)) return;
     for (const auto& component : mesh.components) {
       if (has_to_end(component.triangles.size())) return;
-      // Of the box: any place that tells components apart will do.
+      // The middle of the box; any place that tells components apart would do.
       Point lo = triangle_centres[at(component.triangles.front())], hi = lo;
       for (const auto t : component.triangles) widen(lo, hi, triangle_centres[at(t)]);
       component_centres.push_back(
@@ -143,7 +143,7 @@ void BoundingVolumeTree::make_blocks() {
       continue;
     }
     above_blocks_.push_back(block.top);
-    // After the two children all below the first one, then all below the second.
+    // After the two children come all nodes below the first one, then all below the second.
     const auto child = block.first, below = child + 2;
     const auto middle = is_leaf(child + 1) ? block.last : this->child(child + 1);
     open.push_back({child, below, middle});

@@ -1,9 +1,11 @@
-// The one BVH over triangles: built once for a topology, refitted to every step that searches.
+// The bounding volume tree over the triangles of a mesh. It is built once for a topology, and its
+// boxes are refitted to every step that searches.
 //
-// Nodes are numbered so that the two children of a node follow each other (2k+1, 2k+2) and come
-// after it, and that all nodes below a node follow each other too: a search reads both children
-// from neighbouring cache lines, and a refit is a backward pass over one subtree after the other.
-// Components are split first: below the first few nodes a node holds one component only.
+// Nodes are numbered so that the two children of a node come after it and are neighbours (2k+1 and
+// 2k+2 for some k), and so that all nodes below a node have consecutive numbers. A search
+// therefore reads both children from neighbouring cache lines, and a refit is a backward pass over
+// one subtree after the other. Components are split from each other before their triangles are, so
+// only the topmost nodes hold triangles of several components.
 // Memory: 158 bytes a triangle, 128 of them boxes.
 #pragma once
 
@@ -17,13 +19,14 @@
 
 namespace assay::detector {
 
+// The component of a node that holds triangles of several.
 inline constexpr std::int32_t mixed_components = -1;
 
 class BoundingVolumeTree {
  public:
-  // Splits components, then triangles, at the median of their centres along the longest side of
-  // those. A leaf holds one triangle. O(M log M).
-  // Where `pace` is stopped the tree is of no use.
+  // Splits the components, then the triangles of each, at the median of their centres along the
+  // longest side of the box of these centres. A leaf holds one triangle. O(M log M).
+  // If `pace` was stopped, the tree must not be used.
   BoundingVolumeTree(const Topology& mesh, const PositionsView& x, PacedStop* pace = nullptr);
 
   static constexpr std::int32_t root = 0;
@@ -34,13 +37,14 @@ class BoundingVolumeTree {
   // The first child; the second is the next node.
   std::int32_t child(std::int32_t node) const { return child_[at(node)]; }
   std::int32_t parent(std::int32_t node) const { return parent_[at((node - 1) / 2)]; }
-  // The component of all triangles below, or mixed_components.
+  // The component of all triangles below the node, or mixed_components.
   std::int32_t component(std::int32_t node) const { return component_[at(node)]; }
-  // The node above all triangles of a component, and no others.
+  // The node that holds all triangles of the component, and no others.
   std::int32_t root_of(std::int32_t component) const { return component_root_[at(component)]; }
 
-  // body(node), children before their parents and otherwise in any order, each so much work: the
-  // workers of the pace take a subtree each, what is above these comes last. False when stopped.
+  // Calls body(node) for each node, for children before their parents and otherwise in any order.
+  // The workers of the pace share subtrees out among them; one thread does the nodes above these
+  // last. `work_of_node` is what one call costs (paced_stop.h). False if it was stopped.
   template <class Body>
   bool for_each_upward(std::uint64_t work_of_node, PacedStop* pace, Body body) const {
     const auto below = [&](std::size_t block) {
@@ -58,15 +62,17 @@ class BoundingVolumeTree {
   }
 
   const FloatGrid& grid() const { return points_.grid(); }
-  // Of the step of the last refit.
+  // The box over the step of the last refit.
   const MovingBox& box(std::int32_t node) const { return boxes_[at(node)]; }
-  // A box to compare with these; corners are rows of the two views.
+  // The box of any triangle, a ghost for example, on the same grid as the boxes of the nodes and
+  // so comparable with them. Corners are rows of the two views.
   MovingBox box_of_triangle(const std::array<std::int32_t, 3>& corners, const PositionsView& x_t0,
                             const PositionsView& x_t1) const;
 
-  // Boxes of the triangles as they move. O(M): a pass over the nodes from the last to the first.
+  // Makes the boxes those of the triangles as they move over the step. O(M): one pass over the
+  // nodes from the last to the first.
   void refit(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1);
-  // The same; false where `pace` was stopped: then some boxes are those of another step.
+  // The same. False if `pace` was stopped; some boxes are then those of another step.
   bool refit(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
              PacedStop& pace);
 
@@ -79,7 +85,7 @@ class BoundingVolumeTree {
   static constexpr std::int32_t nodes_of_block = 2048;
   void make_blocks();
 
-  std::vector<std::int32_t> child_;   // of a leaf: ~triangle
+  std::vector<std::int32_t> child_;   // the first child of a node; for a leaf ~triangle
   std::vector<std::int32_t> parent_;  // by pair of siblings
   std::vector<std::int32_t> leaf_;    // by triangle
   std::vector<std::int32_t> component_;

@@ -132,7 +132,7 @@ bool CandidateSearch::close() {
       }
     }
     if (grown.empty()) return true;
-    // The counts of marking rest on the order, and that on which lane was the first.
+    // The counts of marking depend on the order, and the order found depends on the lanes.
     std::sort(grown.begin(), grown.end(),
               [](const auto& x, const auto& y) { return x.triangle < y.triangle; });
     if (!change_types(grown)) return false;

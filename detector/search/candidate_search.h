@@ -1,4 +1,5 @@
-// The candidate pairs of a step, their contacts, and the closure of these (L3, L7).
+// The search of one step: it finds the candidate pairs, tests them for contact, and then closes
+// the set of pairs in contact (L3, L7).
 #pragma once
 
 #include "detector/search/feature_contacts.h"
@@ -14,45 +15,50 @@ struct SearchStages {
   const ElementaryTest& elementary;
 };
 
-// What is kept from one search to the next: it depends on the types last marked alone, or on the
-// mesh.
+// What is kept from one search to the next. It depends on the mesh and on the types that were
+// marked last, on nothing else of the steps before.
 struct SearchMemory {
-  // Of no use where `pace` was stopped.
+  // If `pace` was stopped, it must not be used.
   SearchMemory(const Topology& mesh, const BoundingVolumeTree& tree, PacedStop* pace = nullptr)
       : marks(tree), representatives(mesh, pace) {}
   Marks marks;
   Representatives representatives;
-  bool is_whole = true;  // not stopped in between: marks and representatives are of the same types
-  std::unique_ptr<KeptBySearch> kept;  // of PairSearch::prepare
+  // Whether marks and representatives are of the same types; false after a stop between the two.
+  bool is_whole = true;
+  std::unique_ptr<KeptBySearch> kept;  // from PairSearch::prepare
 };
 
 class CandidateSearch {
  public:
-  // tree: refitted to the step. The references must outlive this object.
+  // REQUIRES a tree refitted to the step. The references must outlive this object.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
                   SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
                   const StopFunction& stop);
-  // The same by several workers; their stop function is one that they may share (SharedStop).
+  // The same with the workers of `pace`. REQUIRES a stop function that all of them may call, such
+  // as that of SharedStop.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
                   SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
                   const PacedStop& pace);
 
-  // Brings the marks to the step: the types of all triangles, without those of the closure. This,
-  // `collect` and `close` return false when `stop` ended it.
+  // A step calls mark, collect and, if it closes the set of pairs, close; each returns false if it
+  // was stopped.
+
+  // Sets the marks of the tree to these types, by triangle. REQUIRES none of those of the closure.
   bool mark(std::span<const TriangleType> types);
-  // Finds the candidates and tests their feature pairs; what the search can prove apart is left out
-  // where that is worth its cost.
+  // Finds the candidates and tests their feature pairs. With uses_proofs the search leaves out the
+  // pairs that it can prove apart (PatchProofs).
   bool collect(bool uses_proofs = true);
   // See PairSearch.
   ProvableShares provable_shares();
-  // Of the pairs of triangles at a few hundred edges that are spread over the mesh, the share that
-  // the rule asks for. REQUIRES that types are marked.
+  // An estimate, from a few hundred edges spread over the mesh: the share of pairs of triangles at
+  // an edge that the rule asks for. REQUIRES that types are marked.
   double asked_share() const;
-  // L7. H := the triangles found in contact with their own component (pairs of two components were
-  // all tested, and layers count the own component only: L10). Tests (U,H), adds what is found,
-  // until H is stable. V0 and Vv were looked at against everything already. A round costs what it
-  // looks at: marks, search and tests around the triangles that joined. Nothing is proved apart:
-  // that would cost more than a round.
+  // The closure of L7. H starts as the triangles found in contact with their own component. Each
+  // round tests (U,H) for the triangles that joined H last, and adds what is found, until H is
+  // stable. Contacts of two components add nothing to H, because their pairs were all tested, and
+  // layers count the own component only (L10). Triangles of V0 and Vv need no round, because they
+  // were tested against everything already. A round costs the marks, search and tests around the
+  // triangles that joined. It uses no proofs, because these would cost more than the round.
   bool close();
 
   // See FeatureContacts.
@@ -67,7 +73,7 @@ class CandidateSearch {
   bool search(const PairTables& tables, bool uses_proofs);
   SearchInput input(const PairTables& tables, bool uses_proofs);
   bool change_types(std::span<const Marking::Change> changes);
-  // The representatives, after the marks.
+  // Brings the representatives up to the marks.
   bool follow_marks();
   bool same_component(std::int32_t a, std::int32_t b) const;
 

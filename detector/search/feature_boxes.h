@@ -1,15 +1,16 @@
-// What a feature is bounded by before its elementary tests: a moving box along the axes, and one
-// along the four diagonals (1,1,1), (1,1,-1), (1,-1,1), (-1,1,1).
+// The bounds of a feature that are compared before any elementary test: a moving box along the
+// axes, and one along the four diagonals (1,1,1), (1,1,-1), (1,-1,1), (-1,1,1).
 //
-// Two features that are strictly ordered along any one direction, in the same sense at both ends of
-// the step, are in no contact. Along the axes floats tell by their order alone (moving_box.h). The
-// sum of a diagonal is rounded, so order along it counts only beyond a margin:
+// Two features that are strictly ordered along any one direction, in the same sense at both ends
+// of the step, are in no contact. Along the axes the order of the floats alone proves this
+// (moving_box.h). Along a diagonal the sum of coordinates is rounded, so an order counts only if
+// it holds by more than a margin:
 //   y_k = (x_k - centre_k) * scale, |y_k| <= 2 (FloatGrid::scaled), is off by 2^-52 at most; a sum
 //   of three, at most 6, takes two more roundings and is off by less than 2^-49. It is rounded to
-//   the nearest float g, off by at most 2^-22 (half a unit of floats in [4,8)). Where
+//   the nearest float g, off by at most 2^-22 (half a unit of floats in [4,8)). If
 //   g(a) + margin < g(b) in floats, with the sum's own rounding of at most 2^-22 and margin 2^-20,
-//   the true sums differ by more than 2^-20 - 3 * 2^-22 - 2 * 2^-49 > 0.
-// Lengths below a millionth of the mesh are thus not told apart by diagonals.
+//   then the true sums differ by more than 2^-20 - 3 * 2^-22 - 2 * 2^-49 > 0.
+// So diagonals do not tell apart what lies closer than about a millionth of the mesh's size.
 #pragma once
 
 #include <memory>
@@ -20,7 +21,7 @@ namespace assay::detector {
 
 inline constexpr float diagonal_margin = 0x1p-20f;
 
-// A vertex: one cache line.
+// A vertex over the step, in one cache line.
 struct alignas(64) FeaturePoint {
   RoundedPoint axes, diagonals;
 };
@@ -50,10 +51,10 @@ inline bool apart(const FeatureBox& a, const FeatureBox& b) {
   return apart(a.axes, b.axes) || apart_along_diagonals(a.diagonals, b.diagonals);
 }
 
-// All vertices of a step. 32 bytes a triangle.
+// All vertices of a step. Memory: 32 bytes a triangle.
 class FeaturePoints {
  public:
-  // Of no use where `pace` was stopped.
+  // If `pace` was stopped, they must not be used.
   FeaturePoints(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop* pace = nullptr);
   const FeaturePoint& operator[](std::int32_t vertex) const {
     return points_[static_cast<std::size_t>(vertex)];

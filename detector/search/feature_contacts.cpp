@@ -9,7 +9,7 @@
 namespace assay::detector {
 namespace {
 
-// As many tests come together as keep the code and the data of a phase at hand.
+// Tests are made so many at a time, because then each phase keeps its code and data in the caches.
 constexpr std::size_t tests_at_once = 2048;
 
 }  // namespace
@@ -125,7 +125,8 @@ void FeatureContacts::test(FeatureKey key, Lane& lane) const {
   }
 }
 
-// The order in which lanes come does not show: of the contacts of a pair the first one is kept.
+// Lanes may hand over in any order: PairContacts keeps the contact of a pair that is first in
+// time, not the one that came first.
 bool FeatureContacts::hand_over(Lane& lane, const StopFunction& stop) {
   if (lane.found.empty()) return true;
   const std::lock_guard guard(handing_over_);

@@ -1,10 +1,10 @@
-// Narrow phase: from candidate triangle pairs to the contacts of their feature pairs.
+// The narrow phase: from candidate triangle pairs to the contacts of their feature pairs.
 //
-// A feature pair is tested once, however many candidate triangle pairs share it (feature_pairs.h),
-// and its contact is then reported for ALL triangle pairs that hold it, candidates or not. A
-// triangle pair with 0, 1 or 2 common vertices has 6 VF + 9 EE, 4 VF + 5 EE or 2 VF + 2 EE feature
-// pairs without a common vertex, and (at t=0 only) 6, 2 or 0 edges that may pierce the other
-// triangle.
+// A feature pair is tested once, however many candidate triangle pairs share it (feature_pairs.h).
+// Its contact is then reported for ALL triangle pairs that hold it, candidates or not. A triangle
+// pair with 0, 1 or 2 common vertices has 6 VF + 9 EE, 4 VF + 5 EE or 2 VF + 2 EE feature pairs
+// without a common vertex, and 6, 2 or 0 edges that may pierce the other triangle (looked at only
+// at t=0).
 #pragma once
 
 #include <algorithm>
@@ -25,9 +25,10 @@ namespace assay::detector {
 
 class FeatureContacts {
  public:
-  // The references and views must outlive this object. With these types (feature_pairs.h) or, where
-  // all triangles are of one type and all pairs are asked for, without. Of no use where `pace` was
-  // stopped.
+  // The first constructor is for searches that ask by `types` (by triangle, those of
+  // `representatives`). Without types and representatives all triangles count as one type, and
+  // every candidate is asked for. The references and views must outlive this object. If `pace` was
+  // stopped, the object must not be used.
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
                   const ElementaryTest& elementary, Want want,
                   const Representatives& representatives, const std::vector<TriangleType>& types,
@@ -38,41 +39,42 @@ class FeatureContacts {
   FeatureContacts(const FeatureContacts&) = delete;
   FeatureContacts& operator=(const FeatureContacts&) = delete;
 
-  // The candidates to come are those of a search that asks for these types.
+  // Says which types the search asks for whose candidates come next.
   void ask(const AskedTypes& asked) { pairs_.ask(asked); }
 
-  // Candidates come in lanes (parallel/workers.h): as many as this says, at first one.
+  // How many lanes candidates come in (parallel/workers.h): one until this is called.
   void make_lanes(std::size_t count);
 
-  // Takes the feature pairs of a candidate pair; `may_pierce`: also those of piercing at t=0. Tests
-  // what has come together now and then. Returns false when `stop` asked for an end. Calls for
-  // several lanes may run at the same time.
+  // Takes the feature pairs of a candidate pair, and tests those of its lane whenever enough have
+  // come together. With `may_pierce` the edges that may pierce the other triangle at t=0 are taken
+  // too. Returns false if `stop` asked for an end. Calls for different lanes may run at the same
+  // time.
   bool add_candidate(std::int32_t a, std::int32_t b, bool may_pierce, const StopFunction& stop = {},
                      std::size_t lane = 0);
 
-  // Tests what is left, by the workers of `pace` where it has some. Returns false when `stop` asked
-  // for an end; contacts found until then are kept.
+  // Tests the feature pairs that are left, with the workers of `pace` if it has some. Returns
+  // false if `stop` asked for an end; the contacts found until then are kept.
   bool run(const StopFunction& stop, const PacedStop* pace = nullptr);
 
-  // Triangle pairs in contact that were found since this was last asked, each once.
+  // The triangle pairs in contact that were found since the last call, each once.
   std::deque<TrianglePair> take_new_pairs() { return contacts_.take_new_pairs(); }
   NarrowCounts counts() const;
-  // Of the tests, in milliseconds: of several lanes the mean.
+  // What the tests have taken, in milliseconds; with several lanes their mean.
   double test_time() const;
 
-  // The first contact of each triangle pair, ascending by pair; {0, 0} is its time when only yes or
-  // no was wanted. Nothing is left behind.
+  // Hands out the first contact of each triangle pair, ascending by pair, and keeps none. With
+  // Want::yes_no every time is {0, 0}.
   std::vector<PairContact> take() { return contacts_.take(); }
 
  private:
-  struct OneType;  // what the short constructor makes for itself
+  struct OneType;  // the types and representatives that the short constructor makes for itself
   FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
                   const ElementaryTest& elementary, Want want, std::unique_ptr<OneType> own,
                   PacedStop* pace);
   // What one lane has taken and found.
   struct Lane {
     std::vector<FeatureKey> untested;
-    std::vector<PairContact> found;  // and not yet among the contacts
+    std::vector<PairContact> found;  // not yet handed over to contacts_
     NarrowCounts counts;
     double test_time = 0;
   };

@@ -1,4 +1,5 @@
-// A feature pair as one number: kind, first index (vertex or edge), second (face or edge).
+// A feature pair as one number: its kind, the index of its first feature (a vertex or an edge) and
+// that of its second (a face or an edge).
 #pragma once
 
 #include <cstdint>

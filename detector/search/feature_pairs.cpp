@@ -112,7 +112,7 @@ void FeaturePairs::edges_on_edges(const Pair& pair, bool may_pierce,
       Holder second{b.type, representatives_.types_of_edge(b.edges[j])};
       auto e = a.edges[i], f = b.edges[j];
       if (e > f) {
-        // In one order, whichever way the triangles come.
+        // The key is the same, whichever of the two triangles comes first.
         std::swap(e, f);
         std::swap(first, second);
       }
@@ -127,7 +127,7 @@ void FeaturePairs::edge_through_face(const Pair& pair, std::int32_t edge, const 
   const auto& ends = mesh_.edges[at(edge)];
   if (apart_at_start(box.axes, face.box.axes)) return;
   if (contains(face.corners, ends[0]) || contains(face.corners, ends[1])) return;
-  // Inside a component both are dirty: one pair of types.
+  // Inside a component only dirty triangles are asked for piercing, so there is one pair of types.
   if (!pair.within && !takes(pair, {edge_of.type, representatives_.types_of_edge(edge)},
                              {face.type, set_of(face.type)})) {
     return;

@@ -1,10 +1,13 @@
-// From a candidate pair of triangles to the feature pairs that it stands for.
+// From a candidate pair of triangles to the feature pairs that are tested for it.
 //
-// Taken are pairs of features that the two triangles represent (representatives.h), that share no
-// vertex, whose boxes are not apart (feature_boxes.h), at the first pair of types that the
-// search asks for, and only if no earlier search has asked for them. Over all candidates that a
-// search finds, these are the feature pairs of all its candidates, each once: a feature pair whose
-// boxes meet lies in triangles whose boxes meet, so all that rests on types is known from types.
+// A pair of features, one of each triangle, is taken if
+//   each triangle represents its feature (representatives.h);
+//   the two share no vertex, and their boxes are not apart (feature_boxes.h);
+//   no earlier search has asked for them;
+//   among all triangles that hold the two, these have the first types that the search asks for.
+// Over the candidates of all searches this takes each feature pair once. Types are enough to
+// decide it: triangles that hold features whose boxes meet have boxes that meet too, so every pair
+// of them whose types are asked for is a candidate (or was proved apart, L14).
 #pragma once
 
 #include <vector>
@@ -18,18 +21,19 @@ namespace assay::detector {
 
 class FeaturePairs {
  public:
-  // The references must outlive this object. types: by triangle, those of `representatives`. Of no
-  // use where `pace` was stopped.
+  // types: by triangle, those of `representatives`. The references must outlive this object. If
+  // `pace` was stopped, it must not be used.
   FeaturePairs(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
                const Representatives& representatives, const std::vector<TriangleType>& types,
                PacedStop* pace = nullptr)
       : mesh_(mesh), representatives_(representatives), types_(types), points_(x_t0, x_t1, pace) {}
 
-  // The searches to come ask for these. At first: for everything, nothing was asked before.
+  // Says what the searches to come ask for. Until it is called they ask for everything, and
+  // nothing was asked for before.
   void ask(const AskedTypes& asked);
 
-  // Appends at most max_keys. may_pierce: also edges that may pierce the other triangle at t=0.
-  // 20 to 40 ns.
+  // Appends the feature pairs that (a, b) stands for, at most max_keys. With may_pierce it also
+  // appends edges that may pierce the other triangle at t=0. 20 to 40 ns.
   static constexpr std::size_t max_keys = 15 + 6;
   void append(std::int32_t a, std::int32_t b, bool may_pierce, std::vector<FeatureKey>& keys) const;
 

@@ -1,13 +1,15 @@
-// The vBVHs: which nodes of the one tree hold triangles of V+, V-, V0, Vv.
+// The vBVHs of the thesis, as flags on the one tree: which nodes hold triangles of V+, V-, V0, Vv.
 //
-// A node has the flags P, N, Z, V (and `grown` in the closure) of all triangles below it; the nodes
-// with one flag are the partial tree of that set. Flags are kept from step to step. A marking is
-// given the types of all triangles, compares them with those of the LAST MARKING (free steps do not
-// mark, so that may be several steps ago) and works upward from the leaves that changed:
+// A node has the flags P, N, Z, V (and `grown` in the closure) of all triangles below it. The
+// nodes with one flag are the partial tree of that set. Flags are kept from step to step. A
+// marking is given the types of all triangles and compares them with those of the LAST MARKING,
+// which may be several steps ago, because a step that ends as free by L5 does not mark. From each
+// leaf that changed it works upward:
 //   a new flag is set on each ancestor until one has it already;
-//   a flag gone is cleared on each ancestor until one has it from its other child.
-// All that is new is set before anything is cleared, so no flag is taken away and given back. The
-// order of the sets changes no flag. Work: nodes whose flags change, at most the depth a triangle.
+//   a lost flag is cleared on each ancestor until one has it from its other child.
+// All new flags are set before any is cleared, so no flag is taken away and given back. The flags
+// do not depend on the order in which triangles change. The work is the number of nodes whose
+// flags change, for each changed triangle at most the depth of the tree.
 #pragma once
 
 #include <span>
@@ -20,12 +22,13 @@
 namespace assay::detector {
 
 struct Marks {
-  // At first all triangles are V+: P is true everywhere, the others nowhere.
+  // At first all triangles are V+: every node has the flag P and no other.
   explicit Marks(const BoundingVolumeTree& tree);
 
   std::vector<TriangleType> types;       // of the last marking, by triangle
   std::vector<std::uint8_t> node_flags;  // by node
-  // Triangles whose type the last marking changed, ascending. Has room for all from the start.
+  // Triangles whose type the last marking changed, ascending. Its capacity is all triangles from
+  // the start, so that marking allocates nothing.
   std::vector<std::int32_t> changed;
 
   std::uint8_t flags(std::int32_t triangle) const {
@@ -38,10 +41,10 @@ class Marking {
  public:
   virtual ~Marking() = default;
 
-  // Brings the flags to new types, one for each triangle. Allocates nothing.
+  // Sets the types of all triangles, and the flags to match. Allocates nothing.
   void bring_to(std::span<const TriangleType> types, const BoundingVolumeTree& tree, Marks& marks,
                 MarkingCounts& counts) const;
-  // The same for some triangles, each with its new type.
+  // The same where only some triangles may change, each with its new type.
   struct Change {
     std::int32_t triangle;
     TriangleType type;
@@ -50,14 +53,14 @@ class Marking {
               MarkingCounts& counts) const;
 
  protected:
-  // Sets flags on a leaf and upward; clears them.
+  // Set flags on a leaf and upward, and clear them.
   virtual void mark(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree,
                     Marks& marks, MarkingCounts& counts) const;
   virtual void clear(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree,
                      Marks& marks, MarkingCounts& counts) const;
 
  private:
-  // Makes the flags those of the types of marks.changed.
+  // Makes the flags agree with the types of the triangles in marks.changed.
   void update(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts& counts) const;
 };
 

@@ -1,14 +1,13 @@
 // Boxes that move with a step, in floats, and the one test that a search makes of them.
 //
-// Coordinates are rounded to floats by functions f_x, f_y, f_z, one an axis, that never turn an
-// order around (RoundedPositions below): x <= y gives f(x) <= f(y). So f(x) < f(y) proves x < y,
-// and what touches or meets in doubles is never told apart in floats; no outward rounding is
-// needed.
+// Coordinates are rounded to floats by functions f_x, f_y, f_z, one for each axis, that keep order
+// (FloatGrid below): x <= y gives f(x) <= f(y). So f(x) < f(y) proves x < y. What touches or meets
+// in doubles is never told apart in floats, and no outward rounding is needed.
 //
 // A box keeps its bounds at t=0 and at t=1. Two boxes are `apart` when they are strictly ordered
-// along an axis, in the same sense at both ends: every point moves linearly, so nothing inside the
-// one meets anything inside the other at any time. That is finer than boxes swept over the step,
-// which tell nothing apart once a motion is longer than the things that move.
+// along an axis, in the same sense at both ends. Every point moves linearly, so nothing inside the
+// one then meets anything inside the other at any time. This tells more apart than boxes swept
+// over the step, which fail as soon as a motion is longer than the things that move.
 #pragma once
 
 #include <vector>
@@ -21,7 +20,7 @@
 
 namespace assay::detector {
 
-// Three coordinates and a place that holds 0.
+// Three coordinates and a 0, or sums along four diagonals (feature_boxes.h).
 using FloatLanes = float __attribute__((vector_size(16)));
 using LaneTruth = int __attribute__((vector_size(16)));
 
@@ -41,7 +40,7 @@ struct RoundedPoint {
   FloatLanes t0, t1;
 };
 
-// One cache line.
+// A box's bounds at both ends of the step, in one cache line.
 struct alignas(64) MovingBox {
   FloatLanes lo_t0, hi_t0, lo_t1, hi_t1;
 };
@@ -70,16 +69,17 @@ inline bool apart_at_start(const MovingBox& a, const MovingBox& b) {
   return any((a.hi_t0 < b.lo_t0) | (b.hi_t0 < a.lo_t0));
 }
 
-// f of an axis: (x - centre) * scale, rounded to double twice and to float once; each of the three
-// roundings keeps order. Finite doubles give floats or infinities, never NaN: the centre lies
-// between positions of the step, so their differences from it do not overflow, and those of other
-// points may (to infinities, in order still).
+// The functions f, by axis: f(x) = (x - centre) * scale, rounded to double twice and to float
+// once. Each of the three roundings keeps order. Finite doubles give floats or infinities, never
+// NaN. The centre lies between positions of the step, so the differences of these from it do not
+// overflow. Those of other points may, to infinities that are still in order.
 class FloatGrid {
  public:
   FloatGrid() = default;
-  // For a step: the middle of all positions, and the power of two that brings them near 1. Where a
-  // mesh lies and how large it is then costs no accuracy. O(N).
-  // Of no use where `pace` was stopped.
+  // The grid of a step: its centre is the middle of all positions, and its scale, by axis, a power
+  // of two that brings them near 1. So no accuracy is lost by where a mesh lies or how large it
+  // is. O(N).
+  // If `pace` was stopped, it must not be used.
   FloatGrid(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop* pace = nullptr);
 
   FloatLanes operator()(const PositionsView& x, std::int32_t vertex) const {
@@ -93,7 +93,8 @@ class FloatGrid {
     return {(*this)(x_t0, vertex), (*this)(x_t1, vertex)};
   }
 
-  // (x - centre) times one power of two for all axes: at most 2 for positions of the step.
+  // (x - centre), multiplied by one power of two for all axes. Each coordinate is at most 2 in
+  // size for positions of the step.
   Point scaled(const PositionsView& x, std::int32_t vertex) const {
     const auto y = [&](int k) { return (x(vertex, k) - centre_[k]) * common_scale_; };
     return {y(0), y(1), y(2)};
@@ -113,7 +114,7 @@ class RoundedPositions {
     PacedStop pace(never_stops);
     assign(x_t0, x_t1, pace);
   }
-  // False where `pace` was stopped: not all of them are those of the step.
+  // False if `pace` was stopped; some points are then not those of this step.
   bool assign(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop& pace);
 
   const FloatGrid& grid() const { return grid_; }

@@ -16,7 +16,7 @@ PairTable& PairTable::remove(std::uint8_t a, std::uint8_t b) {
   return *this;
 }
 
-// The rows of several flags from those of one.
+// Makes the rows of unions of flags from the rows of single flags.
 void PairTable::update() {
   for (std::size_t flags = 0; flags < unions; ++flags) {
     const std::size_t lowest = flags & (~flags + 1);

@@ -12,7 +12,7 @@ struct NodePair {
   std::int32_t a, b;
 };
 
-// What the lanes of a search have in common.
+// What the lanes of a search share.
 struct Hunt {
   Hunt(const SearchInput& input, bool skips_nodes, const PairSink& taker)
       : tree(input.tree),
@@ -45,8 +45,8 @@ class Descent {
     found_.reserve(found_at_once);
   }
 
-  // The root against itself, cut into as many pairs as wanted or a few more, the highest first; all
-  // of them, where it is not to be cut.
+  // Cuts the descent of the root against itself into as many pairs of nodes as wanted or a few
+  // more, splitting the highest first. There may be fewer if the descent ends before that.
   std::vector<NodePair> cut(std::size_t wanted) {
     arrive(BoundingVolumeTree::root, BoundingVolumeTree::root);
     std::vector<NodePair> left;
@@ -61,7 +61,7 @@ class Descent {
     }
   }
 
-  // All that lies below.
+  // Searches all that lies below the pair.
   void run(const NodePair& pair) {
     above_.push_back(pair);
     while (!above_.empty() && !is_ended()) {
@@ -78,7 +78,7 @@ class Descent {
     above_.clear();
   }
 
-  // Hands over what was found last. False where the search has ended early.
+  // Hands over what was found last. False if the search has ended early.
   bool finish() {
     hand_over();
     return !is_ended();
@@ -122,7 +122,7 @@ class Descent {
     }
   }
 
-  // Nodes above the components, and pairs of which one is such a node.
+  // For nodes that hold several components, and for pairs of which one is such a node.
   void split_mixed(const NodePair& p) {
     if (p.a == p.b) {
       const auto child = tree_.child(p.a);
@@ -140,7 +140,7 @@ class Descent {
     }
   }
 
-  // Two nodes of any components, onto the stack if a pair may lie below.
+  // Puts two nodes, of whatever components, onto the stack if a pair may lie below.
   void arrive(std::int32_t a, std::int32_t b) {
     if (is_mixed({a, b})) {
       if (!hunt_.either.asks(flags(a), flags(b))) return;
@@ -177,14 +177,15 @@ class Descent {
     }
   }
 
-  // A node that may hold a pair: onto the stack, unless no two triangles below it meet.
+  // Puts a node that may hold a pair onto the stack, unless no two triangles below it meet.
   void enter_alone(std::int32_t node, const PairTable& table) {
     if (tree_.is_leaf(node) || !table.asks(flags(node), flags(node))) return;
     if (proofs_ && proofs_->is_free(node)) return;
     stack_.push_back({node, node});
   }
 
-  // Two nodes that may hold a pair: to the sink, or onto the stack, unless their boxes are apart.
+  // Gives two nodes that may hold a pair to the sink (two leaves) or puts them onto the stack,
+  // unless they are shown to be apart.
   void enter(std::int32_t a, std::int32_t b, const PairTable& table) {
     if (skips_) {
       while (skip(a, b, table) || skip(b, a, table)) {
@@ -205,7 +206,7 @@ class Descent {
   // Goes on to the only child of `node` that may hold a partner of `other`, if there is only one.
   bool skip(std::int32_t& node, std::int32_t other, const PairTable& table) {
     const auto partners = table.partners(flags(other));
-    // Where every flag of the node is asked for, each child may hold a partner: it has some flag.
+    // If all flags of the node are asked for, both children may hold a partner: each has a flag.
     if ((flags(node) & ~partners) == 0 || tree_.is_leaf(node)) return false;
     ++counts_.child_counts;
     const auto child = tree_.child(node);
@@ -229,10 +230,10 @@ class Descent {
   const std::size_t lane_;
   SearchCounts& counts_;
   std::vector<NodePair> above_, stack_;
-  std::vector<CandidatePair> found_;  // and not handed over
+  std::vector<CandidatePair> found_;  // not yet handed over
 };
 
-// One of several lanes that look at pairs of nodes, whichever lane has time for the next one.
+// One of several lanes; each takes the next pair of nodes when it is done with the last one.
 struct Lane {
   Lane(Hunt& hunt, const PatchProofs* all_proofs, const StopFunction& stop, std::size_t index)
       : pace(stop),
@@ -269,7 +270,7 @@ bool TreeSearch::search(const SearchInput& input, SearchCounts& counts,
 
 bool TreeSearch::descend(const SearchInput& input, PatchProofs* proofs, SearchCounts& counts,
                          const PairSink& sink) const {
-  // Below so many pairs of nodes a lane finds enough to do, and they come out alike.
+  // With so many pairs of nodes for each lane, all lanes get about the same amount of work.
   constexpr std::size_t pairs_of_lane = 64;
   Hunt hunt(input, skipping_ == Skipping::on, sink);
   Descent descent(hunt, proofs, 0, counts);

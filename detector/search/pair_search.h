@@ -1,4 +1,5 @@
-// Broad phase: triangle pairs whose moving boxes are not apart and that the pair rule asks for.
+// The broad phase: it finds the triangle pairs that the pair rule asks for and whose moving boxes
+// are not apart.
 #pragma once
 
 #include <algorithm>
@@ -13,28 +14,31 @@
 
 namespace assay::detector {
 
-// What a search makes once for a mesh and works in later; each detector has its own.
+// Data that a search makes once for a mesh and later works in. Each detector has its own.
 struct KeptBySearch {
   virtual ~KeptBySearch() = default;
 };
 
-// What is proved apart over the whole step besides by boxes (N of L14). Asked of nodes of one
-// component alone.
+// Proofs, other than by boxes, that pairs stay apart over the whole step (the pairs N of L14).
+// They are asked for only if all triangles below the nodes are of one component.
 class PatchProofs {
  public:
   virtual ~PatchProofs() = default;
-  // Whether no two triangles below the node are in contact during the step.
+  // True only if no two triangles below the node are in contact during the step.
   virtual bool is_free(std::int32_t node) = 0;
-  // Whether no two triangles below the two nodes together are, where the boxes meet.
+  // True only if no two triangles of all those below a and b are in contact during the step.
+  // Asked if the boxes of a and b meet.
   virtual bool are_free(std::int32_t a, std::int32_t b) = 0;
-  // Whether the search has to end; the two above say false then.
+  // Whether the search has to end; the two functions above are then false.
   virtual bool is_stopped() const { return false; }
-  // The same proofs for one lane of several (parallel/workers.h), which counts and asks for itself.
+  // The same proofs for one lane of several (parallel/workers.h). A lane has counts and a pace of
+  // its own.
   virtual std::unique_ptr<PatchProofs> in_lane(std::size_t lane, SearchCounts& counts,
                                                PacedStop& pace) const = 0;
 };
 
-// Of patches of a dozen triangles and of a hundred, the share that is proved free over the step.
+// Of small patches (a dozen triangles) and of large ones (a hundred), the share that is proved
+// free over the step.
 struct ProvableShares {
   double of_small = 0, of_large = 0;
 };
@@ -44,14 +48,14 @@ struct CandidatePair {
   std::int32_t a, b;
 };
 
-// Takes candidate pairs; false: stop the search.
+// Takes the candidate pairs of a search. If it returns false the search stops.
 class PairSink {
  public:
-  // Several at once, in lanes (parallel/workers.h) that may run at the same time.
+  // Takes several pairs at once, in lanes (parallel/workers.h) that may run at the same time.
   using Take = std::function<bool(std::span<const CandidatePair>, std::size_t lane)>;
   static PairSink in_lanes(Take take) { return PairSink(std::move(take), true); }
 
-  // One pair after the other, take(a, b): the search then runs in one lane.
+  // Takes one pair after the other with take(a, b). The search then runs in one lane.
   template <class TakeOne>
   requires std::invocable<TakeOne&, std::int32_t, std::int32_t> PairSink(TakeOne take)
       : take_([take = std::move(take)](std::span<const CandidatePair> pairs, std::size_t) mutable {
@@ -77,50 +81,52 @@ class PairSink {
 struct SearchInput {
   const Topology& mesh;
   const BoundingVolumeTree& tree;  // fitted to the step
-  const Marks& marks;              // brought to its types
+  const Marks& marks;              // of the step's types
   const PairTables& tables;
-  KeptBySearch* kept = nullptr;  // of PairSearch::prepare
+  KeptBySearch* kept = nullptr;  // from PairSearch::prepare
   const PositionsView *x_t0 = nullptr, *x_t1 = nullptr;
-  // Asked for what is done before and between the pairs, and it says who searches; null: never, and
-  // the calling thread.
+  // Its stop function is asked during work that gives the sink no pairs, and its workers do the
+  // search. Null: nothing is asked, and the calling thread searches alone.
   PacedStop* pace = nullptr;
-  bool uses_proofs = true;  // where the search has any: whether they are worth their cost
+  bool uses_proofs = true;  // whether proofs, if the search has any, are worth their cost
 };
 
-// A stage of the detector; returns false when it was stopped, by the sink or by `pace`.
+// How candidates are found; a stage of the detector. `fit` and `search` return false if they were
+// stopped, by the sink or by `pace`.
 class PairSearch {
  public:
   virtual ~PairSearch() = default;
-  // In preprocessing; null where the tree is all that a search needs. Of no use where `pace` was
-  // stopped.
+  // Called once, when the detector is created. Null if the search needs nothing but the tree. If
+  // `pace` was stopped, the result must not be used.
   virtual std::unique_ptr<KeptBySearch> prepare(const Topology&, const BoundingVolumeTree&,
                                                 PacedStop&) const {
     return nullptr;
   }
-  // Brings the tree to a step, before the searches of that step.
+  // Fits the tree to a step, before the searches of that step.
   virtual bool fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
                    const PositionsView& x_t1, PacedStop& pace) const {
     return tree.refit(mesh, x_t0, x_t1, pace);
   }
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;
-  // An estimate from a few patches, the same for every tree. None where it has no proofs.
+  // An estimate from a few patches, the same for every tree. Zero if the search has no proofs.
   virtual ProvableShares provable_shares(const SearchInput&) const { return {}; }
 };
 
-// Descends the tree against itself, along the partial trees that hold partners: (V+,V-), (U,V0),
-// (U,Vv) in one pass, as a table says for the flags of two nodes whether they may hold a pair.
+// Descends the tree against itself, along the partial trees that hold partners: (V+,V-), (U,V0)
+// and (U,Vv) in one pass, because a table says for the flags of two nodes whether they may hold a
+// pair.
 //
-// Where only one child of a node may hold a partner of the other node, the search goes on with that
-// child before any box is tested: its box lies inside, so the test would have told less. With a
-// marking that is one child with the flag, the compact vBVH of the thesis.
+// If only one child of a node may hold a partner of the other node, the search goes on with that
+// child before it tests any box. The child's box lies inside the node's, so a test of the node's
+// would have told less. This passes over the nodes that the compact vBVH of the thesis leaves out.
 //
-// What patch proofs tell apart is left out (L14). They are asked where a pair may lie below, for
-// they cost more than a look at flags and boxes.
+// What patch proofs show to be apart is left out (L14). They are asked only after flags and boxes
+// have left a pair possible, because they cost more.
 //
-// Where the pace has workers, the descent is cut into pairs of nodes near the root, and each worker
-// takes one of these after the other. What is looked at for a pair of nodes does not depend on
-// others, so candidates and counts are the same for any number of workers.
+// If the pace has workers, the descent is cut into pairs of nodes near the root, and each worker
+// takes one of these after the other. The work for a pair of nodes does not depend on other pairs,
+// so candidates and counts are the same for any number of workers.
 class TreeSearch : public PairSearch {
  public:
   enum class Skipping : std::uint8_t { on, off };
@@ -135,7 +141,7 @@ class TreeSearch : public PairSearch {
   Skipping skipping_;
 };
 
-// Looks at every pair, without boxes. O(M^2).
+// Takes every pair that the tables ask for, without boxes. O(M^2).
 class ExhaustiveSearch : public PairSearch {
  public:
   bool fit(BoundingVolumeTree&, const Topology&, const PositionsView&, const PositionsView&,
@@ -145,8 +151,8 @@ class ExhaustiveSearch : public PairSearch {
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
 };
 
-// Triangles whose box is not apart from `box` (of tree.box_of_triangle), a single descent; false
-// when the sink stopped it.
+// Gives the sink each triangle whose box is not apart from `box`, in a single descent. REQUIRES a
+// box of tree.box_of_triangle. False if the sink stopped it by returning false.
 bool search_box(const BoundingVolumeTree& tree, const MovingBox& box, SearchCounts& counts,
                 const std::function<bool(std::int32_t)>& sink);
 

@@ -3,7 +3,8 @@
 namespace assay::detector {
 namespace {
 
-// Of a corner or an edge of a triangle, in box tests: around it lie some six triangles, or two.
+// The work, in box tests, of choosing for a vertex (some six triangles lie around it), for an edge
+// (two do), and for all vertices and edges of a triangle.
 constexpr std::uint64_t work_of_triangle = 24, work_of_vertex = 6, work_of_edge = 3;
 
 }  // namespace
@@ -32,7 +33,8 @@ bool Representatives::choose_all(const Topology& mesh, const std::vector<Triangl
 
 bool Representatives::update(const Topology& mesh, const std::vector<TriangleType>& types,
                              std::span<const std::int32_t> changed, PacedStop* pace) {
-  // Around changed triangles, a vertex comes up once for each of them, and an edge too.
+  // A vertex or an edge is chosen for once for each changed triangle that holds it. If many have
+  // changed it is cheaper to choose everything anew, once.
   if (changed.size() > mesh.triangles.size() / 4) return choose_all(mesh, types, pace);
   return for_each_paced(changed.size(), work_of_triangle, pace, [&](std::size_t i) {
     const auto t = changed[i];

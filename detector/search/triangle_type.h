@@ -1,4 +1,5 @@
-// What a search knows of a triangle: its flags, and what tells apart triangles of the same flags.
+// What a search knows of a triangle. The type determines the triangle's flags, and it tells apart
+// triangles that have the same flags.
 #pragma once
 
 #include <array>
@@ -12,9 +13,9 @@ enum class TriangleType : std::uint8_t {
   positive,  // V+
   negative,  // V-
   zero,      // V0
-  violated,  // Vv: touched by a ghost
+  violated,  // Vv: touched by a ghost; in a step without views, every clean triangle
   dirty,     // Vv: it may be in contact with its own component already at t=0
-  // The closure (L7). V0 and Vv need no such types: they were looked at against everything.
+  // Types of the closure (L7). V0 and Vv need none, because they were tested against everything.
   positive_grown,  // V+, joined H in this round
   negative_grown,
   positive_joined,  // V+, joined H in an earlier round
@@ -32,11 +33,11 @@ namespace type_flags {
 using Table = std::array<std::uint8_t, triangle_types>;
 constexpr std::uint8_t p = flag::positive, n = flag::negative, z = flag::zero, v = flag::violated,
                        g = flag::grown;
-// In the search at hand.
+// The flags of each type in the present search.
 inline constexpr Table now = {p, n, z, v, v, p | g, n | g, p, n};
-// In the first search, before the closure.
+// The flags that a triangle of this type had in the first search, before the closure.
 inline constexpr Table first = {p, n, z, v, v, p, n, p, n};
-// In some earlier round of the closure.
+// Those that it had in some earlier round of the closure.
 inline constexpr Table earlier_round = {p, n, z, v, v, p, n, p | g, n | g};
 }  // namespace type_flags
 

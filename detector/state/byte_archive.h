@@ -1,5 +1,6 @@
-// Numbers, flags, kinds and lists of numbers as bytes and back. Writer and Reader take the same
-// calls, so one description of a form serves both ways: what is written is what is read.
+// Turns numbers, flags, values of enums (kinds) and lists into bytes and back. Writer and Reader
+// take the same calls, so one description of a form serves both, and what is written is what is
+// read.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace assay::detector {
 
 inline constexpr std::size_t word = 8;  // bytes of a number, little-endian
 
-// Puts numbers one behind the other; without a place to put them it counts their bytes.
+// Writes numbers one behind the other. With a null pointer it only counts their bytes.
 class Writer {
  public:
   static constexpr bool reads = false;
@@ -33,7 +34,7 @@ class Writer {
   std::size_t size_ = 0;
 };
 
-// Takes them back. Beyond the end it gives 0, and is not good any more.
+// Reads them back. Beyond the end of the bytes it gives 0, and is_good() is false from then on.
 class Reader {
  public:
   static constexpr bool reads = true;
@@ -82,7 +83,7 @@ inline void field(Reader& in, bool& value) {
   value = read != 0;
 }
 
-// A kind of a few, the first of number 0.
+// A value of an enum whose values are numbered from 0 to `last`.
 template <class Enum>
 void kind(Writer& out, Enum value, Enum) {
   out.byte(static_cast<std::uint8_t>(value));
@@ -94,7 +95,8 @@ void kind(Reader& in, Enum& value, Enum last) {
   value = static_cast<Enum>(std::min(read, static_cast<std::uint8_t>(last)));
 }
 
-// No length is believed that is beyond what is left: its members take `least` bytes each.
+// The length of a list whose members take at least `least` bytes each. A reader refuses a length
+// for which too few bytes are left, so that damaged bytes cannot make it allocate much memory.
 template <class List>
 void length(Writer& out, const List& list, std::size_t) {
   out.number(list.size());

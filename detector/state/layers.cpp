@@ -8,15 +8,15 @@
 namespace assay::detector {
 namespace {
 
-// Doubles may fail at one triangle and not at the next.
+// So many triangles of a piece are tried, because doubles may fail at one and not at the next.
 constexpr std::size_t most_attempts = 4;
 
 struct Piece {
-  std::vector<std::int32_t> triangles;  // ascending; those in doubt
-  bool holds_clean = false;             // and a clean one, with all that is linked to it
+  std::vector<std::int32_t> triangles;  // those in doubt, ascending
+  bool holds_clean = false;             // whether some are linked to a clean triangle
 };
 
-// Pieces of the untouched triangles in doubt, in the order of their lowest triangles.
+// Finds the pieces of the untouched triangles in doubt, in the order of their lowest triangles.
 class Flood {
  public:
   Flood(const TouchedSurface& instant, std::vector<std::uint8_t>& seen,
@@ -57,7 +57,8 @@ class Flood {
   const std::vector<std::uint8_t>& clean_;
 };
 
-// The first triangle from the place `next` on that a ray may leave; `next` is then behind it.
+// The first triangle, from place `next` of the piece on, from which a ray can start. Leaves `next`
+// behind it.
 std::optional<std::int32_t> representative(const TouchedSurface& instant,
                                            const std::vector<std::int32_t>& piece,
                                            std::size_t& next) {
@@ -72,8 +73,8 @@ std::optional<std::int32_t> representative(const TouchedSurface& instant,
   return std::nullopt;
 }
 
-// The winding number outside of each piece's triangles, which have it in common. Nothing where it
-// is not known: such a piece stays dirty.
+// By piece: the winding number outside of its triangles, which they have in common. Nothing if it
+// is not known; such a piece stays dirty.
 std::vector<std::optional<int>> windings_outside(
     const TouchedSurface& instant, std::size_t c,
     const std::vector<const std::vector<std::int32_t>*>& pieces) {
@@ -138,7 +139,7 @@ std::uint64_t release_pieces(const TouchedSurface& at_instant, std::size_t c,
   {
     Flood flood(at_instant, seen, clean);
     for (const auto seed : in_doubt) {
-      // What a flood has released is seen, and what is linked to it too.
+      // What a flood has released has been seen, and so has all that is linked to it.
       if (!flood.is_new(seed)) continue;
       Piece piece = flood.from(seed);
       if (piece.holds_clean) {

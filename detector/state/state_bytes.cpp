@@ -34,7 +34,7 @@ void rows(Archive& archive, Positions& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i) field(archive, x.data()[i]);
 }
 
-// Whether there is a value; makes room for it.
+// Whether there is a value, written or read as a flag before it. A reader makes room for it.
 template <class T>
 bool there_is(Writer& out, const T& value) {
   out.byte(value ? 1 : 0);
@@ -86,8 +86,9 @@ void policy_fields(Archive& archive, Policy& policy) {
   field(archive, policy.overhead);
 }
 
-// A flag for each component, in the form since the first build of version 1: it said that nothing
-// was known of the component. Its triangles are not clean then, which says the same by L15.
+// A flag for each component, written as 0 and skipped when read. It is in the form because the
+// first build of version 1 had it: it said that nothing was known of the component. Such a
+// component has no clean triangles, which says the same by L15.
 void component_flags(Writer& out, const StepState& state) {
   const std::vector<std::uint8_t> flags(state.inside.size(), 0);
   plain_list(out, flags);

@@ -50,7 +50,7 @@ bool fits(const StateFields& state, const Surface& surface, std::size_t anchors)
   return fits(*state.committed, surface) && (!chosen || fit(*chosen, anchors, n));
 }
 
-// FNV-1a, an index at a time.
+// FNV-1a, taken over indices instead of bytes.
 std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto add = [&](std::int32_t value) {

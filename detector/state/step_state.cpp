@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t row_bytes = 3 * sizeof(double);
 
-// Rows of x are bytes of one block where nothing lies between them.
+// Whether the rows of x follow each other without gaps, so that they can be handled as one block.
 bool is_packed(const PositionsView& x) { return x.outerStride() == 3; }
 
 }  // namespace

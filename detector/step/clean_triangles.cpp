@@ -5,7 +5,8 @@
 namespace assay::detector {
 namespace {
 
-constexpr std::uint64_t work_of_asking = 200;  // in box tests: of the least component
+// What L5 takes for the smallest component, in box tests.
+constexpr std::uint64_t work_of_asking = 200;
 
 }  // namespace
 

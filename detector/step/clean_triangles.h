@@ -1,28 +1,31 @@
-// Which triangles are clean where a step starts, and where it ends.
+// Which triangles are clean at the start of a step, and which at its end.
 #pragma once
 
 #include "detector/step/release_rule.h"
 
 namespace assay::detector {
 
-// Sets work.clean of all triangles at t=0, by component: free over the step (L5), else the state of
-// the last commit (L8), of which the dirty ones may be released (L9), else what `start` says: at a
-// verified one it is looked at from the view primitive (L5), then by layers (L9). False when
-// stopped.
+// Sets work.clean of all triangles at t=0, one component after the other. A component that is free
+// over the step is clean (L5). Otherwise the state of the last commit decides if it holds at t=0
+// (L8), and some of its dirty triangles may be released (L9). If there is no such state, `start`
+// decides; a verified start looks at the component from its view primitive (L5), then at its
+// layers (L9). False if stopped.
 //
-// Layers take about a step of culling bvh. With StartBy::view_alone they are left out: what is not
-// positive throughout stays dirty, and the pairs of the step tell the next one what is clean (L15).
+// Layers take about as long as a step of culling bvh. With StartBy::view_alone a verified start
+// leaves them out. The components that L5 does not show to be clean are then dirty, and the pairs
+// of this step tell the next one what is clean (L15).
 enum class StartBy : std::uint8_t { view_and_layers, view_alone };
 bool find_clean_at_start(StepWork& work, const ReleaseRule& release, Start start,
                          StartBy by = StartBy::view_and_layers);
 
-// find_clean_at_start where the step has no views: what is known already, and nothing is looked at.
-// Without a committed state, or the caller's word, all triangles are dirty. That is no loss: every
-// pair is tested, and with its pairs the next step releases what is clean (L15).
+// Does the same for a step without views. It takes what is known already and looks at nothing.
+// Without a committed state or the caller's word (Start::clean) all triangles are dirty. Nothing
+// is lost by that: the step tests every pair anyway, and from its pairs the next step releases
+// what is clean (L15).
 void take_clean_at_start(StepWork& work, Start start);
 
-// `complete`: the pairs are all that are in contact in the step (L8). With all components free it
-// costs the copy of the positions.
+// The state for the next step. `complete` says that `pairs` are all pairs in contact in the step
+// (L8). If all components are free it costs little more than a copy of the positions.
 StepState state_at_end(const StepWork& work, const ReleaseRule& release,
                        const std::vector<PairContact>& pairs, bool complete,
                        const PositionsView& mesh_x_t1);

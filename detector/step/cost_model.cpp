@@ -164,7 +164,7 @@ bool CostModel::worth_sweeping(StepWork& work) {
 }
 
 bool CostModel::worth_proving(const StepWork& work, CandidateSearch& candidates) {
-  // Proofs are about pairs of one component, and of a free one no pair is asked for.
+  // Proofs are about pairs of one component, and none of these are left to search.
   if (work.has_views() && work.all_free()) return false;
   const double asked = candidates.asked_share();
   const std::size_t triangles = surface_.mesh.triangles.size();

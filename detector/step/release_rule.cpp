@@ -13,10 +13,10 @@
 namespace assay::detector {
 namespace {
 
-// In box tests: marking, a triangle; what a component takes at least.
+// Work in box tests: of marking one triangle, and of one component at least.
 constexpr std::uint64_t work_of_mark = 4, work_of_component = 200;
 
-// Triangles of the components that meet another one of their own at t=0.
+// Sets touched[t] for triangles of the components that meet another one of their own at t=0.
 bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& components,
                           std::vector<std::uint8_t>& touched) {
   const Topology& mesh = work.surface.mesh;
@@ -99,7 +99,8 @@ bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& 
   return !work.pace.stopped();
 }
 
-// By L5 where it applies; else, and where it is not all that may be asked, by layers.
+// Releases each component by L5 if that applies. The others are looked at by layers, unless
+// Release::view allows L5 alone.
 bool ReleaseRule::release_without_history(StepWork& work,
                                           const std::vector<std::int32_t>& components) const {
   std::vector<std::int32_t> to_verify;

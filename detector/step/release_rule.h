@@ -1,12 +1,18 @@
-// What is clean, as a stage of the detector: by view (L5), by layers (L9), from step to step (L8).
+// Which triangles are clean, as a stage of the detector: by view (L5), by layers (L9), and from
+// step to step (L8).
 //
-// Dirty at the start of a step that goes on from a committed one is exactly what was dirty at the
-// start of that one, or touched by a ghost or in contact with its own component during it (after a
-// collision found by K alone: everything), less what is released at the instant between the two: of
-// each component the triangles that touch nothing of S there and have its common layer. The common
-// layer is that of the triangles that are not in doubt; where there are none, the layer that most
-// untouched triangles of the component have (tie: the one that holds the lowest). L5 is a quicker
-// way to the same: where all of S is positive with winding number 1, S is embedded with one layer.
+// Let a step go on from a committed one. A triangle is in doubt at the instant between the two if
+// it was dirty at the start of the committed step, or if a ghost touched it or it was in contact
+// with its own component during that step. After a collision found by K alone all triangles are in
+// doubt, and after a step without views all triangles of a component with ghosts are (L15). Of
+// those in doubt, the triangles that touch nothing of S at that instant and have the common layer
+// of their component are released. Exactly the rest is dirty at the start of the new step. A step
+// without views releases nothing.
+//
+// The common layer of a component is that of its triangles that are not in doubt. If there are
+// none, it is the layer that most untouched triangles of the component have (tie: the layer that
+// holds the lowest triangle). L5 is a quicker way to the same result: if all of S is positive with
+// winding number 1, S is embedded with one layer.
 #pragma once
 
 #include "detector/step/step_work.h"
@@ -15,50 +21,53 @@ namespace assay::detector {
 
 class ReleaseRule {
  public:
-  // bounded: what doubles cannot tell is not released.
+  // In bounded arithmetic a triangle of which doubles cannot tell is not released.
   explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact, Release release = Release::pieces)
       : arithmetic_(arithmetic), release_(release) {}
   virtual ~ReleaseRule() = default;
 
-  // L8: whether the state of the last commit serves a step that starts at x_t0.
+  // L8: whether the state of the last commit is valid for a step that starts at x_t0.
   virtual bool still_holds(const StepState& state, const PositionsView& x_t0,
                            const PacedStop& pace) const {
     return state.holds_at(x_t0, pace);
   }
 
-  // L5 over the step: every triangle of the component and every ghost of it positive, and winding
-  // number 1 at the primitive at t=0. Then it is free and all of it is clean.
+  // L5 over the step: whether every triangle and every ghost of the component is positive, and the
+  // winding number is 1 at the primitive at t=0. The component is then free and all of it is
+  // clean.
   virtual bool is_free(StepWork& work, std::size_t component) const;
 
-  // L5 at t=0: the component is embedded there and clean, whatever came before.
+  // L5 at t=0: whether the component is embedded there. It is then clean, whatever came before.
   virtual bool released_at_start(const StepWork& work, std::size_t component) const;
 
-  // L9 at t=0, without history, for the components listed: static contacts of mesh and ghosts, then
-  // layers by piece; writes work.clean of their triangles. False when stopped.
+  // L9 at t=0 of a new start, for the components listed: looks for static contacts of mesh and
+  // ghosts, then at layers by piece, and sets work.clean of their triangles. False if stopped.
   virtual bool verify_start(StepWork& work, const std::vector<std::int32_t>& components) const;
 
-  // L9 at t=0 of a step that goes on from work.known, for the components listed: some of their
-  // triangles are dirty by L8, and work.clean says which are not; those released are added to it.
-  // False when stopped. Costs what is in doubt (static_touches.h, layers.h).
+  // L9 at t=0 of a step that goes on from work.known, for the components listed. Their triangles
+  // whose work.clean is 0 are in doubt by L8; it is set to 1 for those released. False if stopped.
+  // The cost is that of the triangles in doubt (static_touches.h, layers.h).
   virtual bool release(StepWork& work, const std::vector<std::int32_t>& components) const;
 
-  // L8: work.clean of the step's start becomes that of its end, with the contacts behind it.
-  // `pairs`: the contacts found; `complete`: all there are (else nothing is known after a
-  // collision).
+  // L8: sets which triangles are clean in the state at the end of the step, and the pairs met,
+  // from work.clean of its start and from `pairs`, the contacts found. `complete` says that these
+  // are all contacts. If they are not, no triangle is clean after a collision.
   virtual void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
                       StepState& state) const;
 
-  // The triangles that name the common layer of a component in `release`: clean at t=0 by L8.
+  // A few triangles of the component that are clean at t=0 by L8. `release` takes the common layer
+  // from them.
   virtual std::vector<std::int32_t> witnesses(const StepWork& work, std::size_t component) const;
 
-  // L15: whether what settle says is clean is so, after a step without views. It is in a component
-  // that has no ghosts. Where it has some, nobody swept them, and none of it is clean, whatever the
-  // pairs were.
+  // L15, after a step without views: whether the triangles of the component that settle called
+  // clean are known to be so. They are if the component has no ghosts. If it has some, nobody
+  // swept these, and none of its triangles is clean, whatever the pairs were.
   virtual bool knows_clean(const StepWork& work, const std::vector<PairContact>& pairs,
                            std::size_t component) const;
 
-  // Those in doubt that may touch a ghost of their component at t=0, of a step that goes on from
-  // work.known: all of them. One that is in no pair may hang outside, with a ghost through it.
+  // Which of the triangles in doubt may touch a ghost of their component at t=0 of a step that
+  // goes on from work.known: all of them. Being in no pair says nothing, because a triangle may
+  // hang out of a hole, with a ghost through it, and be in no pair.
   virtual std::vector<std::int32_t> may_touch_ghosts(
       const StepWork& work, const std::vector<std::int32_t>& in_doubt) const;
 

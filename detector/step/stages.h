@@ -1,7 +1,8 @@
-// The stages that a detector is assembled of, each replaceable.
+// The stages that a detector is assembled from, each replaceable.
 //
-// The standard ones make the production detector and its cullings. Another scheme, or a scheme that
-// is wrong on purpose, is another assembly of stages: it derives from the one that it changes.
+// The standard stages make the production detector and its cullings. Another scheme, or a scheme
+// that is wrong on purpose, is made by deriving from the stage that it changes and assembling that
+// with the others (assembly.h).
 #pragma once
 
 #include <memory>
@@ -23,7 +24,7 @@ struct Stages {
   std::shared_ptr<const ReleaseRule> release;
 };
 
-// Of the culling and the arithmetic asked for.
+// The stages that these options ask for.
 Stages standard_stages(const Options& options);
 
 }  // namespace assay::detector

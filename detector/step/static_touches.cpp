@@ -6,7 +6,8 @@ namespace assay::detector {
 namespace {
 
 constexpr std::size_t tests_between_stops = 256;
-// In box tests: a triangle's box, and the roots of the holes' trees.
+// In box tests, the work to make a triangle's box and compare it with the roots of the holes'
+// trees.
 constexpr std::uint64_t work_to_look = 40;
 
 }  // namespace

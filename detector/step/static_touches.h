@@ -1,12 +1,13 @@
-// What triangles in doubt touch at the start of a step that goes on from a committed one (L9).
+// What the triangles in doubt touch at the start of a step that goes on from a committed one (L9).
 //
-// Only these are looked at, and only against what the step before has left: that is enough.
-//   Mesh against mesh: a pair that meets at the end of a step was in contact during it, so it is in
-//   that step's complete pair set (L7). One that pierces there without any feature contact pierced
-//   at its start too, where both were dirty, and was tested for that.
+// Only triangles in doubt need to be looked at, because clean ones touch nothing (L8), and what
+// they may touch is known from the committed step:
+//   Mesh against mesh: a pair that meets at the end of a step was in contact during it, so it is
+//   in that step's complete pair set (L7). If one triangle pierces the other there without any
+//   contact of features, it did so at the start of that step too. Both were dirty then, and the
+//   pair was tested for that.
 //   Mesh against ghosts: a triangle that a ghost meets at the end was touched during the step, or
-//   is pierced since before it and was dirty then (L11). Either way it is in doubt.
-// What is clean touches nothing (L8).
+//   it was pierced since before the step and so was dirty (L11). Either way it is in doubt.
 #pragma once
 
 #include <span>
@@ -15,13 +16,14 @@
 
 namespace assay::detector {
 
-// Sets touched[t] for the triangles of the pairs in work.known->met that still meet at t=0. False
-// when stopped. 15 elementary tests a pair at most.
+// Sets touched[t] for the triangles of those pairs in work.known->met that still meet at t=0.
+// False if stopped. Costs at most 15 elementary tests a pair.
 bool add_lasting_contacts(StepWork& work, std::vector<std::uint8_t>& touched);
 
 // Sets touched[t] for those triangles in doubt of component c that a ghost of it meets or pierces
-// at t=0. False when stopped. A descent of the tree of each hole for a triangle. `grid`: of
-// work.x_t0, made once for all components, for it looks at each vertex of the mesh.
+// at t=0. False if stopped. For each triangle it descends the tree of each hole. REQUIRES the grid
+// of work.x_t0, which the caller makes once for all components, because that takes a pass over all
+// vertices.
 bool add_ghost_touches(StepWork& work, const FloatGrid& grid, std::size_t c,
                        std::span<const std::int32_t> in_doubt, std::vector<std::uint8_t>& touched);
 

@@ -1,8 +1,8 @@
-// Algorithm 3 of the thesis, self-collision detection with the view-based approach; without what it
-// does about holes it is Algorithm 1. The excerpts state most steps in words (3.6, 4.3, 4.4) and
-// print no listing: (r) marks a line reconstructed, + a line that the laws of detector/README.md
-// add or put in its place. On the right, who does it here; a step runs through these functions in
-// this order.
+// Algorithm 3 of the thesis, self-collision detection with the view-based approach; without what
+// it does about holes it is Algorithm 1. The excerpts state most steps in words (3.6, 4.3, 4.4)
+// and print no listing. So (r) marks a line that is reconstructed, and + one that the laws of
+// detector/README.md add or put in its place. On the right stands what does it here; a step runs
+// through these functions in this order.
 //
 //   in preprocessing                                             assemble
 //     (r) build a BVH of the mesh
@@ -73,7 +73,7 @@ class Step {
                                              : Answer::collision;
     if (completed)
       next = state_at_end(work_, *context_.stages.release, result_.pairs, is_complete(),
-                          mesh_x_t1);  // whole or not at all, should memory fail
+                          mesh_x_t1);  // set whole or, if memory fails, not at all
     if (next) next->policy = policy_.next(work_.counts, primitives.empty());
     result_.first = least_time(result_.pairs);
     if (completed) result_.views = policy_.use();
@@ -120,8 +120,9 @@ class Step {
     return search();
   }
 
-  // What is left of the step is that of culling bvh, and what is clean is what was known before it:
-  // who follows the account of a step without views has no view primitive to release from.
+  // The rest of the step is that of culling bvh. What is clean is set back to what was known
+  // before the step, because the result of a step without views shows no view primitive, and
+  // whoever keeps account of the state from results could not follow a release from one.
   void drop_views() {
     take_clean_at_start(work_, context_.options.start);
     work_.signs.clear();
@@ -134,7 +135,8 @@ class Step {
     Stopwatch watch(result_.times.view_test);
     work_.signs.assign(work_.surface.all().triangles.size(), ViewSign::zero);
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      constexpr std::uint64_t work_beside_signs = 200;  // these the classifier counts
+      // The classifier counts the work of signs itself; this is what the component takes besides.
+      constexpr std::uint64_t work_beside_signs = 200;
       if (!context_.stages.classifier->classify(work_.surface.all(), work_.component(c), work_.x_t0,
                                                 work_.x_t1, work_.primitives[c], work_.signs,
                                                 work_.counts.view, work_.pace)) {
@@ -200,7 +202,7 @@ class Step {
       completed =
           candidates.mark(types) && candidates.collect(policy_.worth_proving(work_, candidates));
     }
-    // The tests are made as candidates come up.
+    // Tests are made as candidates come up, so their time is part of the time measured above.
     times.narrow_phase = candidates.test_time();
     times.broad_phase -= times.narrow_phase;
     const auto candidates_of_k = candidates.search_counts().candidate_pairs;
@@ -217,7 +219,7 @@ class Step {
     return completed;
   }
 
-  // Whether the pairs found are all there are.
+  // Whether the pairs found are all that are in contact in the step.
   bool is_complete() const { return !work_.has_views() || context_.options.pairs == Pairs::all; }
 
   void hand_over() {

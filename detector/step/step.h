@@ -8,21 +8,22 @@
 
 namespace assay::detector {
 
-// What preprocessing made of a mesh.
+// What a detector keeps of its mesh: what preprocessing made, and what steps work in.
 struct StepContext {
   Options options;
   Stages stages;
   Surface surface;
   BoundingVolumeTree tree;           // of the mesh
-  SearchMemory search;               // the marks of that tree
-  std::vector<ViewAnchor> anchors;   // one for each component
-  std::vector<ApexRule> apex_rules;  // one for each loop
-  std::uint64_t adjacent_pairs = 0;  // of the mesh; the cost model's (cost_model.h)
+  SearchMemory search;               // with the marks of that tree
+  std::vector<ViewAnchor> anchors;   // one for each component; none with cullings without views
+  std::vector<ApexRule> apex_rules;  // one for each loop; likewise
+  std::uint64_t adjacent_pairs = 0;  // of the mesh; the cost model asks for it (cost_model.h)
   Workers workers;
 };
 
-// Answers the step from `known`, the state of the last commit if any. `next` is set to the state
-// at the end of the step when there is an answer (free or collision), else left empty.
+// Answers the step, going on from `known`, the state of the last commit if there is one. If the
+// answer is free or collision, `next` is set to the state at the end of the step. REQUIRES that
+// `next` is empty; without an answer it stays so.
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
                          const PositionsView& x_t0, const PositionsView& x_t1,
                          std::span<const ViewPrimitive> primitives, const StopFunction& stop,

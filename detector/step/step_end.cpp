@@ -8,7 +8,8 @@ namespace assay::detector {
 
 TriangleType type_of(const StepWork& work, std::size_t t) {
   if (!work.clean[t]) return TriangleType::dirty;
-  // Against everything; but what is clean pierces nothing of its own component.
+  // A type that is tested against everything, but, unlike `dirty`, not for piercing its own
+  // component at t=0: what is clean pierces nothing there.
   if (!work.has_views()) return TriangleType::violated;
   if (work.touched[t]) return TriangleType::violated;
   return work.signs[t] == ViewSign::positive   ? TriangleType::positive
@@ -19,7 +20,7 @@ TriangleType type_of(const StepWork& work, std::size_t t) {
 void count_sets(const StepWork& work, StepResult& result) {
   const std::size_t count = work.surface.mesh.triangles.size();
   result.doubts.assign(count, 0);
-  if (work.all_free()) {  // and so clean, and touched by no ghost
+  if (work.all_free()) {  // all is positive, clean and touched by no ghost
     result.view_positive = count;
     return;
   }
@@ -45,8 +46,8 @@ void count_sets(const StepWork& work, StepResult& result) {
   }
 }
 
-// Nothing is before the least lo, and each hi below 1 is one by which there is a contact. Of unique
-// enclosures this is the least.
+// The least lo and the least hi, each by itself. No contact is before the least lo, and by each hi
+// below 1 there is a contact. For unique enclosures the result is the least of them.
 TimeEnclosure least_time(std::span<const PairContact> pairs) {
   if (pairs.empty()) return {};
   TimeEnclosure least = pairs.front().time;

@@ -1,4 +1,4 @@
-// What the stages of a step found, brought into a result.
+// From what the stages of a step found to its result.
 #pragma once
 
 #include <span>
@@ -9,13 +9,15 @@
 
 namespace assay::detector {
 
-// Of signs, state and ghosts: doubt goes before the sign, for Vv is tested against everything.
+// The type follows from the sign, the state and the ghosts. A triangle that is dirty or touched by
+// a ghost gets that type whatever its sign is, because Vv is tested against everything. Without
+// views every clean triangle gets the type `violated`.
 TriangleType type_of(const StepWork& work, std::size_t triangle);
 
-// Sizes of V+, V-, V0 and Vv, and the doubts, by type.
+// Sets the sizes of V+, V-, V0 and Vv and the doubts in the result. REQUIRES a step with views.
 void count_sets(const StepWork& work, StepResult& result);
 
-// Of the first contact; {0, 0} without pairs.
+// The enclosure of the first contact time; {0, 0} without pairs.
 TimeEnclosure least_time(std::span<const PairContact> pairs);
 
 }  // namespace assay::detector

@@ -13,7 +13,8 @@ namespace assay::detector {
 
 namespace {
 
-// Whether check_positions finds nothing; by the workers, of rows that need not be named.
+// Whether check_positions would find nothing. The workers share the rows, because no row has to be
+// named here.
 bool is_whole(const PositionsView& x, Eigen::Index vertex_count, const PacedStop& pace) {
   if (x.rows() != vertex_count) return false;
   std::atomic<bool> found_nothing = true;

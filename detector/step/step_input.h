@@ -1,4 +1,4 @@
-// What a step is asked with: checks, and the answer to what fails them.
+// Checks of the input of a step, and the answer to input that fails them.
 #pragma once
 
 #include <span>
@@ -12,13 +12,13 @@
 
 namespace assay::detector {
 
-// wrong_frame_size, non_finite_coordinate, wrong_primitive_count (neither none, nor one, nor one
-// for each component). What `pace` has workers for is shared out to them; it is not asked to stop.
+// Errors: wrong_frame_size, non_finite_coordinate, wrong_primitive_count (neither none, nor one,
+// nor one for each component). Of `pace` only the workers are used; it is not asked to stop.
 std::optional<Problem> check_step_input(const Surface& surface, const PositionsView& x_t0,
                                         const PositionsView& x_t1,
                                         std::span<const ViewPrimitive> primitives, PacedStop& pace);
 
-// Answer::error with its reason.
+// The result of a step that is refused: Answer::error with this problem.
 StepResult refused(Problem problem);
 
 }  // namespace assay::detector

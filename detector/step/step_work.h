@@ -19,25 +19,28 @@ struct StepWork {
   const StopFunction& stop;  // all workers may ask it
   const Workers& workers;
   PositionsView x_t0, x_t1;  // rows: vertices of the mesh, then apexes
-  const StepState* known;    // the state of the last commit, where the step starts there; or null
+  const StepState* known;    // the state of the last commit if this step starts there, else null
 
   std::vector<ViewPrimitive> primitives = {};  // by component
   std::vector<ViewSign> signs = {};            // by triangle of the surface
-  std::vector<std::uint8_t> free = {};         // by component: by L5, over the whole step
-  std::vector<std::uint8_t> clean = {};        // by triangle of the mesh, at t=0
-  std::vector<std::uint8_t> touched = {};      // by triangle of the mesh: by a ghost, in the step
-  std::vector<std::uint8_t> near_ghosts = {};  // the same by moving boxes; for the counts
+  std::vector<std::uint8_t> free = {};         // by component: 1 if L5 shows it free over the step
+  std::vector<std::uint8_t> clean = {};        // by triangle of the mesh: 1 if clean at t=0
+  // By triangle of the mesh: 1 if a ghost touches it during the step.
+  std::vector<std::uint8_t> touched = {};
+  // The same for touches of moving boxes; it serves the counts alone.
+  std::vector<std::uint8_t> near_ghosts = {};
   StepCounts counts = {};
-  // Of what is done for one component after another: a component alone may be too small to ask.
+  // Asks the stop function while components are handled one after another, because the work on one
+  // component alone may be too little to ask after.
   mutable PacedStop pace = PacedStop(stop, workers);
 
-  // Whether nothing but K and its closure is tested. Else every pair is.
+  // True: the step tests K and its closure alone. False: it tests every pair.
   bool has_views() const { return !signs.empty(); }
 
   bool all_free() const {
     return std::all_of(free.begin(), free.end(), [](std::uint8_t is_free) { return is_free != 0; });
   }
-  // The component with its ghosts: a cycle.
+  // The component together with its ghosts, which is a cycle.
   const Component& component(std::size_t c) const { return surface.all().components[c]; }
   // Its own triangles, without its ghosts.
   std::span<const std::int32_t> own_triangles(std::size_t c) const {
