@@ -80,8 +80,8 @@ bool some_direction(const Piece<Number>& p, const Accept& accept) {
   return false;
 }
 
-// Signs of the Bernstein coefficients that are certain by comparison with `bound`.
-// 1: all surely positive, -1: one surely is not, 0: neither.
+// Whether the Bernstein coefficients are positive, as far as comparison with `bound` proves it. 1:
+// all surely are, -1: one surely is not, 0: neither is sure.
 int all_positive(const Piece<double>& p, const Vector<double>& n_s, const Vector<double>& n_e,
                  double bound) {
   int result = 1;
