@@ -29,7 +29,7 @@ Point from_unit(const Point& u, const Extent& e) {
   return x;
 }
 
-// 1 at 0, 0 with zero slope from |x| = 1 on.
+// 1 at x = 0, and 0 with zero slope from |x| = 1 on.
 double bump(double x_squared) {
   const double w = x_squared < 1 ? 1 - x_squared : 0;
   return w * w;
@@ -113,7 +113,7 @@ Point dent(const Point& x, double s, const Extent&) {
 }
 
 Point pinch(const Point& x, double s, const Extent&) {
-  // One side comes faster, so that the two do not meet vertex on vertex.
+  // One side moves faster, so that the two do not meet vertex on vertex.
   constexpr double width = 0.5, way_up = 0.75, way_down = 0.6;
   const double w = s * bump(x[0] * x[0] / (width * width));
   return {x[0], x[1] > 0 ? x[1] - way_up * w : x[1] + way_down * w, x[2]};
