@@ -23,9 +23,9 @@ Case near_coplanar(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
 }
 
-// The lower edge of one tetrahedron over the upper edge of another, at an angle of about gap /
-// usual_size. They cross over the origin. In kind 2 they would cross only beyond their ends,
-// because y is at most gap in the one and at least twice that in the other.
+// The lower edge of one tetrahedron over the upper edge of another. They cross over the origin, at
+// an angle of about gap / usual_size. In kind 2 they would cross only beyond their ends, because y
+// is at most gap in the one and at least twice that in the other.
 Case near_parallel(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   const auto some = [&](std::int64_t n) { return vary.between(n / 2, n); };

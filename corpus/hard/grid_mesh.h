@@ -3,7 +3,7 @@
 // Each family is built where its answer is plain to see: a face in the plane z = 0, a vertex that
 // comes down on it. There double arithmetic would be right for free, because most products are 0.
 // So an integer map of determinant 1 (three shears, a cyclic change of axes, a shift) is applied
-// at the end. An affine map changes neither contacts nor their times nor the view signs of a
+// at the end. As an affine map it changes neither contacts nor their times nor the view signs of a
 // point, and the coordinates stay integers below 2^53, that is exact doubles that fill the
 // mantissa. At last each axis is scaled by a power of two.
 #pragma once

@@ -25,7 +25,8 @@ Case at_the_start(Variation& vary, int exponent, int kind) {
                      kind == 0 ? known_free() : known_collision(0));
 }
 
-// The spike comes from 2^44 - gap and stops above, inside or on the block: t* = 1 - gap / 2^44.
+// The spike comes from 2^44 - gap and stops above, inside or on the block. If inside, t* = 1 - gap
+// / 2^44; if on it, t* = 1.
 Case at_the_end(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), end[] = {gap, -gap, 0};
   const double first = kind == 2 ? 1 : 1 - std::ldexp(1, exponent - 44);
