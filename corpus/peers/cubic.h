@@ -91,7 +91,7 @@ class CubicTests {
   // The first time at which the four points lie in one plane and `meets` holds.
   template <class Meets>
   static Time first_time(const FourPaths& paths, const Meets& meets) {
-    V x[4], v[4];  // from the first point
+    V x[4], v[4];  // place at t = 0 and motion, relative to the first point
     for (int i = 1; i < 4; ++i) {
       x[i] = vector_of(paths.at[0][i]) - vector_of(paths.at[0][0]);
       v[i] = vector_of(paths.at[1][i]) - vector_of(paths.at[1][0]) - x[i];

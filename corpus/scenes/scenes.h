@@ -30,7 +30,8 @@ struct SceneInfo {
 // All scenes, in the order in which they are listed.
 std::span<const SceneInfo> scenes();
 
-// Frames are equally spaced in the scene's own time; two is one step, one is the rest shape.
+// Frames are equally spaced in the scene's own time. Two frames are one step; one is the rest
+// shape.
 struct SceneOptions {
   int size = 0;    // triangles wanted: the nearest reachable number is used; 0: the default
   int frames = 0;  // 1 or more; 0: the default

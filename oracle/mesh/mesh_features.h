@@ -16,7 +16,7 @@ using Face = std::array<std::int32_t, 3>;  // vertices, in the order of the mesh
 // For each item (a vertex or an edge) the triangles that hold it, ascending. All lists lie in one
 // array: that of item i begins at first[i].
 struct Incidence {
-  std::vector<std::size_t> first;  // one more than there are items
+  std::vector<std::size_t> first;  // by item; one more at the end: the end of the last list
   std::vector<std::int32_t> triangle;
   std::span<const std::int32_t> of(std::size_t item) const {
     return {triangle.data() + first[item], triangle.data() + first[item + 1]};

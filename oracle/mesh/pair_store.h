@@ -23,7 +23,7 @@ class PairStore {
   void keep_least();
 
   std::vector<detector::PairContact> contacts_;
-  std::size_t tidy_at_ = 1 << 16;
+  std::size_t tidy_at_ = 1 << 16;  // when so many are held, only the least of each pair stay
 };
 
 }  // namespace assay::oracle

@@ -25,6 +25,7 @@ int sure_sign(const std::array<Interval, N>& coefficients) {
   return sign;
 }
 
+// Whether every coordinate of the moving points is less than `bound` in magnitude at both ends.
 template <class Points>
 bool all_coordinates_below(const Points& points, double bound) {
   for (const auto& p : points) {

@@ -1,4 +1,4 @@
-// The time of a zero that is known to be alone on its piece, without the algebraic kernel.
+// Finds the time of a zero that is known to be alone on its piece, without the algebraic kernel.
 #pragma once
 
 #include "detector/mesh/step_types.h"

@@ -35,9 +35,9 @@ enum class ContradictionKind : std::uint8_t {
 
 struct Contradiction {
   ContradictionKind kind = ContradictionKind::query;
-  detector::Feature feature;            // of query and missing_pair
-  detector::TrianglePair pair{-1, -1};  // of all kinds but query
-  StaticTime time;                      // of the static kinds
+  detector::Feature feature;            // set for query and missing_pair
+  detector::TrianglePair pair{-1, -1};  // set for all kinds but query
+  StaticTime time;                      // set for the static kinds
   bool judged = false, second = false;  // is there a contact: as judged; by the second method
 };
 
