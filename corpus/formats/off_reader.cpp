@@ -13,7 +13,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// The header word without OFF: which optional letters it has; nothing when it is not a header.
+// The optional letters that the header word has before OFF; nothing when it is not a header word.
 std::optional<std::string_view> header_letters(std::string_view word) {
   if (!word.ends_with("OFF")) return std::nullopt;
   const std::string_view letters = word.substr(0, word.size() - 3);

@@ -58,16 +58,16 @@ Case double_root(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind == 1 ? known_free() : known_collision(first));
 }
 
-// A vertex at the origin and a triangle. With tau = t - 1/2 its corners are the rows of M + tau I,
-// times 2^43 units, and F(tau) = tau^3 + c2 tau^2 - c1 tau + c0. M is the companion matrix of that
-// polynomial, rows (0,1,0) (0,0,1) (c0,c1,c2), seen in the basis (1,0,0) (0,1,0) (1,1,1): F stays,
-// and the origin is inside of the triangle near tau = 0 (with weights 1,1,1 where all c are small).
-// The vertex is the tip of a needle on the side that it comes from.
+// A vertex at the origin and a triangle. With tau = t - 1/2 the triangle's corners are the rows of
+// M + tau I, times 2^43 units, and F(tau) = tau^3 + c2 tau^2 - c1 tau + c0. M is the companion
+// matrix of that polynomial, rows (0,1,0) (0,0,1) (c0,c1,c2), seen in the basis (1,0,0) (0,1,0)
+// (1,1,1). That keeps F, and puts the origin inside of the triangle near tau = 0 (with weights
+// 1,1,1 if all c are small). The vertex is the tip of a needle on the side that it comes from.
 Case triple_root(Variation& vary, int exponent, int kind) {
   constexpr std::int64_t one = std::int64_t{1} << 43;
   const std::int64_t d2 = two_to(43 + 2 * exponent);  // the square of the distance of roots
-  // The roots of the kinds in turn: -d, 0 and d; 0 beside a complex pair; 2 beside a complex pair;
-  // three at one place.
+  // The roots by kind: -d, 0 and d; 0 beside a complex pair; 2 beside a complex pair; three at one
+  // place.
   const std::int64_t c0 = kind == 2 ? -2 * d2 : 0;
   const std::int64_t c1 = kind == 3 ? 0 : kind == 0 ? d2 : -d2;
   const std::int64_t c2 = kind == 2 ? -2 * one : 0;

@@ -10,7 +10,7 @@ namespace {
 
 using detector::Point;
 
-// Coordinates with the centre at 0, the half-length 1 and the long axis last.
+// Coordinates in which the centre is 0, the half-length 1, and the long axis the last one.
 Point to_unit(const Point& x, const Extent& e) {
   Point u{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -57,7 +57,7 @@ Extent extent_of(const detector::PositionsView& positions) {
 Point breathe(const Point& x, double s, const Extent& e) {
   if (s == 0) return x;
   Point u = to_unit(x, e);
-  // Three quarters of a period: out, back, and in, so that two frames already differ.
+  // s runs over three quarters of a period, out, back and in, so that two frames already differ.
   const double length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
   const double height = length > 0 ? u[2] / length : 0;
   const double factor = 1 + sin_turn(0.75 * s) * (0.25 + 0.05 * cos_turn(height));

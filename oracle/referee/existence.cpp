@@ -26,7 +26,7 @@ bool triangle_contains_origin(const Vector<mpz_class>& a, const Vector<mpz_class
 }
 
 // The corners that play P, P + U and P + V for a base. Those of a triangle may be turned, so that
-// u + v <= 1 holds with room to spare near a guess; a parallelogram stays as it is.
+// near a guess u + v <= 1 holds with room to spare; a parallelogram stays as it is.
 std::array<int, 3> roles(int base) { return {base, (base + 1) % 3, (base + 2) % 3}; }
 
 template <class Number>
