@@ -1,5 +1,5 @@
-// Hard numbers: tiny motion far from the origin, scales up to 2^500 and down to 2^-500, one for all
-// axes or another for each, and denormals.
+// Hard numbers: tiny motion far from the origin; scales up to 2^500 and down to 2^-500, one for
+// all axes or another for each; denormals.
 #include <algorithm>
 
 #include "corpus/hard/family_rows.h"

@@ -39,7 +39,7 @@ GridPoint under_the_face(Variation& vary, std::int64_t reach, std::int64_t z);
 GridVertex falling(const GridPoint& p, std::int64_t z_t0, std::int64_t z_t1);
 
 KnownFacts known_free();
-// A collision at this first time, which is a double.
+// A collision at this first time, which is a double; without it, the first time is not stated.
 KnownFacts known_collision(double first);
 KnownFacts known_collision();
 

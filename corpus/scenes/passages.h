@@ -14,13 +14,13 @@ namespace assay::corpus {
 // identity at s = 0.
 detector::Point turn_inside_out(const detector::Point& x, double s, const Extent& extent);
 
-// Bends the tube, tapered to the upper end and cut obliquely there, to an arc of 0.85 turns, and
-// of 1.1 turns at s = 1/2, when the narrow end is inside of the wide one. While it goes in, the
-// fans over the two ends cross.
+// Tapers the tube to the upper end, cuts it obliquely there, and bends it to an arc: of 0.85 turns
+// at s = 0, and of 1.1 turns at s = 1/2, when the narrow end is inside of the wide one. While it
+// goes in, the fans over the two ends cross.
 detector::Point bite_tail(const detector::Point& x, double s, const Extent& extent);
 
-// Winds ribbon_shape up to a spiral of 1.25 turns, and of 2.75 at s = 1/2; its own fan lies right
-// across it.
+// Winds ribbon_shape up to a spiral, of 1.25 turns at s = 0 and of 2.75 at s = 1/2. Its own fan
+// lies right across it.
 detector::Point wind(const detector::Point& x, double s, const Extent& extent);
 
 // The height of a ball over the tube's middle: it goes along the axis from -4.5 to 4.5 and back.
