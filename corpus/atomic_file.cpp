@@ -19,9 +19,9 @@ Problem refused(const std::filesystem::path& path, int error) {
                     fmt::format("cannot be written: {}", std::strerror(error)));
 }
 
-// The file that becomes `path`, as long as it is written: NAME.part, or NAME.1.part while another
-// writer is at that, and so on. Who writes one has it locked, by a lock that ends with its process:
-// what a killed writer left is taken by the next.
+// The file that is written and then becomes `path`: NAME.part, or NAME.1.part while another writer
+// has that, and so on. Its writer holds a lock on it that ends with the process, so the next
+// writer can take what a killed one left.
 class PartFile {
  public:
   explicit PartFile(const std::filesystem::path& path) {
@@ -36,14 +36,14 @@ class PartFile {
   }
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
-  // Removes it, unless it has become the file.
+  // Removes the part, unless it has become the file.
   ~PartFile() {
     if (file_ < 0) return;
     if (!has_become_) ::unlink(name_.c_str());
     ::close(file_);
   }
 
-  // Each: 0, or the error number of the first call that failed.
+  // Each of these gives 0, or the error number of the first call that failed.
   int error() const { return file_ < 0 ? error_ : 0; }
   int write(std::string_view bytes) const {
     while (!bytes.empty()) {
@@ -52,7 +52,8 @@ class PartFile {
       if (written < 0) return errno;
       bytes.remove_prefix(static_cast<std::size_t>(written));
     }
-    // A full disk may show only when a file is closed; this one stays open, for its lock.
+    // A full disk may show only when a file is closed. This one stays open for its lock, so a
+    // duplicate is closed.
     const int again = ::fcntl(file_, F_DUPFD_CLOEXEC, 0);
     return again < 0 || ::close(again) != 0 ? errno : 0;
   }
@@ -65,7 +66,7 @@ class PartFile {
  private:
   enum class Taken { yes, no, again };
 
-  // Opens and locks the file that the name stands for, empty.
+  // Opens the file that has the name, locks it and empties it.
   Taken take() {
     file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
     if (file_ < 0) return fail(errno);

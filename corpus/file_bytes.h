@@ -11,8 +11,9 @@
 
 namespace assay::corpus {
 
-// A file that grows beyond this (decompressed) is refused: a few hundred bytes of gzip can ask for
-// any amount of memory. Bytes; 2^32 holds a mesh of some 30 million vertices in text.
+// A file that is larger than this, or becomes larger when it is decompressed, is refused, because
+// a few hundred bytes of gzip can ask for any amount of memory. Bytes; 2^32 holds a mesh of some
+// 30 million vertices in text.
 inline constexpr std::size_t largest_file = std::size_t{1} << 32;
 
 struct CloseFile {
@@ -20,8 +21,8 @@ struct CloseFile {
 };
 using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
-// Problems: cannot_open, is_directory, permission_denied, empty_file, corrupt_gzip, too_large.
-// An empty gzip stream is an empty_file too.
+// Reads the whole file. Problems: cannot_open, is_directory, permission_denied, empty_file,
+// corrupt_gzip, too_large. A gzip stream of nothing is an empty_file too.
 Expected<std::string> read_bytes(const std::filesystem::path& path,
                                  std::size_t limit = largest_file);
 

@@ -1,4 +1,4 @@
-// Typed access to the fields of a JSON value, each error naming the file and the field.
+// Typed access to the fields of a JSON value; each error names the file and the field.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace assay::corpus {
 
-// A JSON value and where it stands (`expected.steps[0].pairs`). Refers to the value and to the file
-// path: both must outlive it.
+// A JSON value and where it stands (`expected.steps[0].pairs`). It refers to the value and to the
+// file path, which both must outlive it.
 class JsonField {
  public:
   JsonField(const Json& value, const std::filesystem::path& file, std::string place = "")
@@ -20,9 +20,9 @@ class JsonField {
 
   bool has(std::string_view key) const;
 
-  // missing_field, or wrong_type when this is no object.
+  // The field `key`. Problems: missing_field; wrong_type when this is no object.
   Expected<JsonField> at(std::string_view key) const;
-  // wrong_type when this is no array.
+  // The number of items. wrong_type when this is no array.
   Expected<std::size_t> size() const;
   // REQUIRES: an array with more than `i` items.
   JsonField item(std::size_t i) const;
@@ -31,7 +31,7 @@ class JsonField {
   Expected<double> number() const;                                             // finite
   Expected<std::int32_t> integer(std::int64_t least, std::int64_t end) const;  // in [least, end)
 
-  // wrong_type with this field's name, or the problem given.
+  // A problem whose message names this field.
   Problem problem(std::string_view detail, FileProblem what = FileProblem::wrong_type) const;
 
   const Json& json() const { return *value_; }

@@ -13,16 +13,17 @@ namespace assay::corpus {
 // Keeps the order of an object's keys.
 using Json = nlohmann::ordered_json;
 
-// malformed with the byte of the first error, or where it is nested more than 64 levels deep: what
-// prints or copies a value descends level by level, and a stack ends somewhere.
-// non_finite_coordinate for a number beyond the doubles. `file` stands for the text in messages.
+// Problems: truncated when the text ends too early, malformed at another error (both name the
+// byte), non_finite_coordinate for a number beyond the doubles. A value nested more than 64 levels
+// deep is malformed too, because what prints or copies it descends level by level, and a stack
+// ends somewhere. `file` stands for the text in messages.
 Expected<Json> parse_json(std::string_view text, const std::filesystem::path& file);
-// The same for values that hold their keys by name.
+// The same, for values that sort their keys by name.
 Expected<nlohmann::json> parse_sorted_json(std::string_view text,
                                            const std::filesystem::path& file);
 
-// In one line, or with each level indented by so many spaces. Never fails: bytes that are no UTF-8,
-// as file names and the words of a plug-in may hold, become U+FFFD.
+// The text of a value, in one line or with each level indented by so many spaces. Never fails:
+// bytes that are no UTF-8, as file names and the words of a plug-in may hold, become U+FFFD.
 std::string json_text(const Json& value, int indent = -1);
 std::string json_text(const nlohmann::json& value, int indent = -1);
 

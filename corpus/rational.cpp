@@ -33,7 +33,7 @@ std::int64_t take_twos(cpp_int& value) {
   return static_cast<std::int64_t>(twos);
 }
 
-// m * 2^exponent with m odd, where that is a double.
+// m * 2^exponent with m odd, if that is a double.
 std::optional<double> scaled(const cpp_int& m, std::int64_t exponent) {
   const auto bits = static_cast<std::int64_t>(boost::multiprecision::msb(m)) + 1;
   using Limits = std::numeric_limits<double>;

@@ -1,4 +1,4 @@
-// Exact rationals to doubles.
+// Turns exact rationals into doubles.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ struct RationalValue {
   double value;  // when exact
 };
 
-// numerator/denominator, two decimal integers of any sign and length, as the double that equals it.
-// not_a_number: letters, blanks inside, or more than 20,000 digits (no double needs them);
-// not_a_double: no double is equal, overflow included.
+// The double that equals numerator/denominator, two decimal integers of any sign and length.
+// not_a_number: one of them has letters, blanks inside, or more than 20,000 digits (no double
+// needs them). not_a_double: no double is equal, overflow included.
 RationalValue exact_double(std::string_view numerator, std::string_view denominator);
 
 }  // namespace assay::corpus

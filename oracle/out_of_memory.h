@@ -3,8 +3,9 @@
 
 namespace assay::oracle {
 
-// From now on `end` is called, which must not return, where GMP would abort the process. GMP's own
-// code cannot be left by an exception. To be called before the first exact number is made.
+// From now on `end` is called when GMP finds no memory, in place of GMP's abort. `end` must not
+// return, and it must not throw because an exception cannot leave GMP's code. REQUIRES that no
+// exact number has been made yet.
 void end_without_memory(void (*end)());
 
 }  // namespace assay::oracle

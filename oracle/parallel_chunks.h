@@ -1,4 +1,4 @@
-// Work on a range of items by chunks, in several threads, with a way to stop.
+// Shares the work on a range of items out to several threads, chunk by chunk, with a way to stop.
 #pragma once
 
 #include <atomic>
@@ -15,9 +15,10 @@ namespace assay::oracle {
 class StopGate {
  public:
   explicit StopGate(detector::StopFunction stop);
-  // True once the stop function has said so. Cheap enough for every query.
+  // True once the stop function has said so. Asks it if it is time to ask again; cheap enough to
+  // be called for every query.
   bool stopped();
-  // What it said last, without asking.
+  // Whether the stop function has said so until now; does not ask it.
   bool was_stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
  private:
@@ -28,10 +29,10 @@ class StopGate {
   std::atomic<Clock::rep> next_;
 };
 
-// Calls work(begin, end, worker) for consecutive chunks that cover [0, count), with worker in
-// [0, jobs) telling the calls of one thread apart; `jobs` below 1 counts as 1. Chunks are taken in
-// order by whichever thread is free. No further chunk is begun once the gate has stopped; work
-// asks the gate itself inside long chunks. The first exception of any thread is thrown again here.
+// Calls work(begin, end, worker) for consecutive chunks that cover [0, count); whichever thread is
+// free takes the next chunk. `worker`, in [0, jobs), is the number of the calling thread; `jobs`
+// below 1 counts as 1. Once the gate has stopped, no further chunk is begun; inside long chunks
+// `work` has to ask the gate itself. If calls throw, the first exception is thrown again here.
 using ChunkWork = std::function<void(std::size_t begin, std::size_t end, int worker)>;
 void for_each_chunk(std::size_t count, std::size_t chunk, int jobs, StopGate& gate,
                     const ChunkWork& work);

@@ -1,7 +1,7 @@
-// The arithmetic of the processor, as exact methods need it.
+// Whether the processor's arithmetic is what exact methods need.
 //
-// A library that was built for speed can change it for a whole thread or process (flush-to-zero
-// set by loading it is enough), and every bound and sign below would then be worth nothing.
+// A library that was built for speed can change it for a whole thread or process; loading one that
+// sets flush-to-zero is enough. Every bound and sign of this room would then be worth nothing.
 #pragma once
 
 namespace assay::oracle {
@@ -10,7 +10,7 @@ namespace assay::oracle {
 // about 10 ns.
 bool processor_state_is_exact();
 
-// Ends the process with a message, in every build type, when the above does not hold.
+// Ends the process with a message, in every build type, if the state is not exact.
 void require_exact_processor_state();
 
 }  // namespace assay::oracle

@@ -1,8 +1,8 @@
 // Case files, schema `assay-case/1`: a deforming mesh and the facts that are known of it.
 //
-// The schema is documented in corpus/README.md. Writing is canonical: equal cases give equal bytes,
-// one vertex, triangle or pair a line, numbers as the shortest decimals that read back to the same
-// double.
+// The schema is documented in corpus/README.md. Writing is canonical: equal cases give equal
+// bytes. Each vertex, triangle or pair has a line of its own, and numbers are the shortest
+// decimals that read back to the same double.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +18,20 @@
 
 namespace assay::corpus {
 
-// A view primitive, one place a frame, linear in between. q1 is empty for a point.
+// A view primitive: one place for each frame, linear in between. q1 is empty for a view-point.
 struct CaseView {
   std::vector<detector::Point> q0, q1;
 };
 
-// Ghost triangles that close the mesh: with N mesh vertices, index N + k names apex k.
+// Ghost triangles that close the mesh. With N mesh vertices, index N + k is apex k.
 struct CaseGhosts {
   std::vector<std::vector<detector::Point>> apexes;  // [frame][apex]
   detector::Triangles triangles;
 };
 
-// One evaluation of a detector: from frame `from` to frame `to`; with `commit` its state advances
-// to the end of it. A step that starts elsewhere than the last commit ended is a new start.
+// One evaluation of a detector, from frame `from` to frame `to`. With `commit` the detector's
+// state advances to the end of the step, else it stays as it is. A step that starts elsewhere than
+// the last commit ended is a new start.
 struct CaseStep {
   std::int32_t from = 0, to = 1;
   bool commit = true;
@@ -43,16 +44,16 @@ struct ExpectedPair {
   friend bool operator==(const ExpectedPair&, const ExpectedPair&) = default;
 };
 
-// Facts of one step. An absent optional is not stated; it is not a claim that there is nothing.
+// Facts of one step. An absent optional states nothing; it does not say that there is nothing.
 struct ExpectedStep {
   detector::Answer answer = detector::Answer::free;
-  std::optional<detector::TimeEnclosure> first_time;          // stated when answer is collision
+  std::optional<detector::TimeEnclosure> first_time;          // of a collision
   std::optional<std::vector<ExpectedPair>> pairs;             // the complete pair set, ascending
-  std::optional<std::vector<detector::ViewSign>> view_signs;  // one a mesh triangle
-  std::optional<std::vector<detector::ViewSign>> ghost_view_signs;  // one a ghost triangle
+  std::optional<std::vector<detector::ViewSign>> view_signs;  // one for each mesh triangle
+  std::optional<std::vector<detector::ViewSign>> ghost_view_signs;  // one for each ghost
 };
 
-// answer: collision when a step has a contact; error for a mesh that must be refused.
+// `answer` is collision when a step has a contact, and error for a mesh that must be refused.
 struct ExpectedFacts {
   detector::Answer answer = detector::Answer::free;
   std::vector<ExpectedStep> steps;  // one for each step of the case, or none
@@ -64,41 +65,43 @@ struct Case {
   std::string source;  // where it comes from
   detector::Triangles triangles;
   std::vector<detector::Positions> frames;  // at least one
-  // The steps in order (a response of the caller to a collision shows here); empty: consecutive
-  // frames, each committed.
+  // The steps in order; if the caller responds to a collision, it shows here. Empty: each two
+  // consecutive frames are a step, and all steps are committed.
   std::vector<CaseStep> script;
   std::optional<CaseView> view;
   std::optional<CaseGhosts> ghosts;
-  // culling, start, ...: as on the command line.
+  // Options such as culling and start, by name, in the words of the command line.
   std::map<std::string, std::string, std::less<>> options;
   ExpectedFacts expected;
-  // A JSON object in compact text, kept verbatim: facts that no code checks yet. "{}" when none.
+  // A JSON object in compact text, kept verbatim: further facts by name, which are explained in
+  // tests/properties/curated/curated_checks.h. "{}" when there are none.
   std::string pending = "{}";
 };
 
-// Consecutive frames, each committed.
+// A committed step for each two consecutive frames.
 std::vector<CaseStep> consecutive_steps(std::size_t frames);
 
-// The script, or what an empty one stands for.
+// The script of the case or, if it is empty, the consecutive steps.
 std::vector<CaseStep> steps_of(const Case& c);
 
 // Where the vertices are when the step starts and when it ends. REQUIRES a step of this case.
 const detector::Positions& start_of(const Case& c, const CaseStep& step);
 const detector::Positions& end_of(const Case& c, const CaseStep& step);
 
-// The primitive of step `step`; nothing when the case states none.
+// The view primitive during steps_of(c)[step]; nothing when the case states none.
 std::optional<detector::ViewPrimitive> view_of_step(const Case& c, std::size_t step);
 
 // The canonical text of a case.
 std::string case_text(const Case& c);
 
-// Checks shape, lengths and index ranges. A triangle that repeats an index is let through only
-// where the expected answer is `error`. `name` stands for the file in messages.
+// Reads a case from its text, and checks shape, lengths and index ranges. A mesh triangle may
+// repeat an index only if the expected answer is `error`. `name` stands for the file in messages.
 Expected<Case> parse_case(std::string_view text, std::string_view name);
 
 Expected<Case> read_case(const std::filesystem::path& path);
-// Refuses, with the same problem, what read_case would refuse (a coordinate that is not finite has
-// no JSON form: malformed), and cannot_write.
+// Refuses what read_case would refuse, with the same problem, because a file that was written has
+// to be readable. A coordinate that is not finite has no JSON form, so it is malformed.
+// cannot_write when the file system refuses.
 Expected<void> write_case(const std::filesystem::path& path, const Case& c);
 
 // The case files of a folder (*.json), sorted by name.

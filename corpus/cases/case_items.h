@@ -12,7 +12,7 @@
 
 namespace assay::corpus {
 
-// A JSON array, item by item.
+// Reads a JSON array, item by item.
 template <class T, class ReadItem>
 Expected<std::vector<T>> read_list(const JsonField& field, ReadItem read_item) {
   BOOST_OUTCOME_TRY(size, field.size());
@@ -30,14 +30,15 @@ Expected<void> expect_size(const JsonField& field, std::size_t wanted);
 Expected<std::vector<detector::Point>> read_points(const JsonField& field);
 Expected<detector::Positions> read_frame(const JsonField& field);
 
-// Indices below `vertices`; index_out_of_range, and repeated_index unless `may_repeat`.
+// Reads triples of indices below `vertices`. Problems: index_out_of_range; repeated_index unless
+// `may_repeat`.
 Expected<detector::Triangles> read_triangles(const JsonField& field, std::int64_t vertices,
                                              bool may_repeat);
 
-// Two numbers with 0 <= lo <= hi <= 1.
+// Reads two numbers, and demands 0 <= lo <= hi <= 1.
 Expected<detector::TimeEnclosure> read_time(const JsonField& lo, const JsonField& hi);
 
-// `count` signs, each -1, 0 or 1.
+// Reads `count` signs, each -1, 0 or 1.
 Expected<std::vector<detector::ViewSign>> read_signs(const JsonField& field, std::size_t count);
 
 Expected<detector::Answer> read_answer(const JsonField& field);

@@ -11,7 +11,7 @@ namespace assay::corpus {
 
 inline constexpr std::string_view case_schema = "assay-case/1";
 
-// In the order of detector::Answer.
+// The words for detector::Answer, in its order.
 inline constexpr std::array<const char*, 4> answer_names = {"free", "collision", "undecided",
                                                             "error"};
 

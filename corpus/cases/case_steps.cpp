@@ -1,4 +1,5 @@
-// The steps of a case. Apart from its reading and writing, so that who runs cases needs no files.
+// The steps of a case. They stand apart from reading and writing, so that who only runs cases
+// needs none of that.
 #include "corpus/cases/case_file.h"
 
 namespace assay::corpus {

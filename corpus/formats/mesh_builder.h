@@ -25,25 +25,27 @@ class MeshBuilder {
  public:
   explicit MeshBuilder(const std::filesystem::path& file) : file_(file) {}
 
-  // non_finite_coordinate, too_large.
+  // Problems: non_finite_coordinate, too_large.
   Expected<void> add_vertex(double x, double y, double z, const Place& place);
 
-  // Vertices counted from 0; fanned from the first one. They may still be to come: their range is
-  // checked by finish(). malformed (fewer than three), index_out_of_range, repeated_index.
+  // Adds a polygon as a fan of triangles from its first vertex. Vertices are counted from 0. They
+  // may be added later, because finish() checks their range. Problems: malformed (fewer than
+  // three), index_out_of_range, repeated_index.
   Expected<void> add_polygon(std::span<const std::int64_t> vertices, const Place& place);
 
   std::size_t vertex_count() const { return coordinates_.size() / 3; }
 
   Problem problem(FileProblem what, const Place& place, std::string_view detail) const;
 
-  // no_triangles, index_out_of_range.
+  // The mesh. Problems: no_triangles, index_out_of_range.
   Expected<Mesh> finish() const;
 
  private:
   std::filesystem::path file_;
   std::vector<double> coordinates_;
   std::vector<std::int32_t> corners_;
-  // The highest index so far and its place: all that is needed to name an index without a vertex.
+  // The highest index so far and its place: finish() needs no more to name an index without a
+  // vertex.
   std::int64_t highest_ = -1;
   Place highest_place_ = {"line", 0};
 };

@@ -1,11 +1,12 @@
 // Reads triangle meshes: OBJ, PLY (ascii and binary), OFF, each also compressed with gzip.
 //
 // Guarantee: a decimal number becomes the double nearest to it (ties to even); float32 and integer
-// values convert exactly; nothing is merged, moved or reordered: vertex i of the file is row i, and
-// triangles keep the file's order. A polygon is fanned from its first vertex.
-// Refused by name: what FileProblem lists for meshes, among it an index out of range, an index
-// repeated in a triangle, a coordinate that is not finite. NOT refused: two triangles with the same
-// three vertices, unused or duplicate vertices, zero-area triangles; the detector judges those.
+// values convert exactly; nothing is merged, moved or reordered: vertex i of the file is row i,
+// and triangles keep the file's order. A polygon is fanned from its first vertex.
+// Refused by name: what FileProblem lists for meshes, such as an index out of range, an index
+// repeated in a triangle, a coordinate that is not finite. NOT refused, because the detector
+// judges them: two triangles with the same three vertices, unused or duplicate vertices, zero-area
+// triangles.
 #pragma once
 
 #include <filesystem>
@@ -22,8 +23,8 @@ struct Mesh {
   detector::Triangles triangles;
 };
 
-// The format is told from the content where it has a signature (PLY, OFF, gzip), otherwise from
-// the extension (.obj, .obj.gz).
+// The content tells the format if it has a signature (PLY, OFF, gzip), otherwise the extension
+// does (.obj, .obj.gz).
 Expected<Mesh> read_mesh(const std::filesystem::path& path);
 
 // One mesh that deforms: consecutive frames are the ends of a step.
@@ -32,8 +33,8 @@ struct Sequence {
   std::vector<detector::Positions> frames;
 };
 
-// All files must hold the same triangles and the same number of vertices; otherwise the problem
-// names both files. At least one file (no_frames otherwise).
+// Reads one frame from each file. All files must hold the same triangles and the same number of
+// vertices; otherwise the problem names both files. no_frames when `paths` is empty.
 Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths);
 
 }  // namespace assay::corpus

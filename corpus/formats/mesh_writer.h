@@ -1,7 +1,7 @@
-// Writes meshes as binary little-endian PLY with double coordinates: read back bit by bit.
+// Writes meshes as binary little-endian PLY with double coordinates, which read back bit by bit.
 //
-// Every file is written beside its place and renamed, so a reader sees the old file or the whole
-// new one.
+// Every file is written beside its place and then renamed, so a reader sees the old file or the
+// whole new one.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@
 
 namespace assay::corpus {
 
-// cannot_write, with the reason, when the file system refuses.
+// Problems: cannot_write, with the reason, when the file system refuses; too_large.
 Expected<void> write_mesh(const std::filesystem::path& path,
                           const detector::PositionsView& positions,
                           const detector::TrianglesView& triangles);
 
-// frame_0000.ply, frame_0001.ply, ... in `folder`, which is made if it is missing; the paths
-// written, in frame order.
+// Writes frame_0000.ply, frame_0001.ply, ... into `folder`, which is made if it is missing.
+// Returns the paths, in frame order.
 Expected<std::vector<std::filesystem::path>> write_sequence(const std::filesystem::path& folder,
                                                             const Sequence& sequence);
 

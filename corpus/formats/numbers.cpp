@@ -15,7 +15,7 @@ std::string_view without_plus(std::string_view word) {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // from_chars does not say whether a number out of range is huge or tiny. Such a number is beyond
-// 1e308 or below 1e-323, so the place of its first non-zero digit decides.
+// 1e308 or below 1e-323, so the place of its first digit that is not zero decides.
 bool is_huge(std::string_view word) {
   std::int64_t place = 0;
   bool nonzero = false, fraction = false;
@@ -33,7 +33,7 @@ bool is_huge(std::string_view word) {
   std::int64_t exponent = 0;
   for (++i; i < word.size(); ++i) {
     if (word[i] == '-') negative = true;
-    // Saturates: more digits cannot change the outcome.
+    // It saturates, because more digits cannot change the outcome.
     if (is_digit(word[i]) && exponent < 1'000'000'000'000) exponent = 10 * exponent + word[i] - '0';
   }
   return nonzero && place + (negative ? -exponent : exponent) > 0;

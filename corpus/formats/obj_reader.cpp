@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// Statements of the format that do not bear on vertices and faces.
+// Statements of the format that have no bearing on vertices and faces.
 constexpr std::array<std::string_view, 38> passed_over = {
     "vt",        "vn",     "vp",     "g",    "o",     "s",        "mg",       "usemtl",
     "mtllib",    "usemap", "maplib", "l",    "p",     "cstype",   "deg",      "bmat",

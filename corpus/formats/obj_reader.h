@@ -1,4 +1,4 @@
-// Wavefront OBJ, its polygonal part.
+// Reads the polygonal part of Wavefront OBJ.
 #pragma once
 
 #include <filesystem>

@@ -13,7 +13,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// The header word without OFF: which optional letters it has; nothing when it is not a header.
+// The optional letters that the header word has before OFF; nothing when it is not a header word.
 std::optional<std::string_view> header_letters(std::string_view word) {
   if (!word.ends_with("OFF")) return std::nullopt;
   const std::string_view letters = word.substr(0, word.size() - 3);
@@ -82,7 +82,8 @@ class OffReader {
     }
     BOOST_OUTCOME_TRY(vertices, integer(0, "the number of vertices"));
     BOOST_OUTCOME_TRY(faces, integer(1, "the number of faces"));
-    // Each takes a line, so a count beyond the file's size is a lie; nothing is reserved for it.
+    // Each vertex and face takes a line, so a count beyond the file's size is a lie. Nothing is
+    // reserved for it.
     const auto most = static_cast<std::int64_t>(size_);
     if (vertices < 0 || faces < 0) return wrong("a negative count");
     if (vertices > most || faces > most) {

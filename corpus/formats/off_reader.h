@@ -1,4 +1,4 @@
-// OFF, text form.
+// Reads OFF files in text form.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,9 @@ namespace assay::corpus {
 // Whether the text begins as an OFF file: OFF after the optional letters ST, C, N, 4, n.
 bool looks_like_off(std::string_view text);
 
-// Header word (normals, colours and texture coordinates are passed over; 4-dimensional and binary
-// files are malformed), counts, one vertex a line, one polygon a line, `#` comments.
+// Reads a header word, the counts, one vertex a line and one polygon a line; `#` starts a comment.
+// Normals, colours and texture coordinates are passed over; 4-dimensional and binary files are
+// malformed.
 Expected<Mesh> read_off(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace assay::corpus

@@ -1,4 +1,4 @@
-// The values of a PLY body one after another, whatever their encoding.
+// Reads the values of a PLY body one after another, whatever their encoding.
 #pragma once
 
 #include <cstdint>
@@ -22,17 +22,18 @@ class PlyBody {
         offset_(header.size),
         line_(header.lines + 1) {}
 
-  // truncated at the end of the file, malformed when a word is no number of that kind.
+  // The next value. Problems: truncated at the end of the file, malformed when a word is no number
+  // of that kind.
   Expected<double> number(PlyType type);
   // REQUIRES: is_integer(type).
   Expected<std::int64_t> integer(PlyType type);
   Expected<void> skip(PlyType type, std::uint64_t count);
 
-  // Whether `count` items of `least_size` binary bytes (or as many words) may still follow. Asked
-  // before anything is sized by a number that the file claims.
+  // Whether `count` items may still follow, of `least_size` bytes each in a binary body, of a word
+  // each in an ascii one. Asked before anything is sized by a number that the file claims.
   bool has_room(std::uint64_t count, std::uint64_t least_size) const;
 
-  // Nothing but blanks (ascii) or nothing (binary) is left.
+  // True when nothing is left, in an ascii body nothing but blanks.
   bool at_end();
 
   Place place() const;

@@ -16,7 +16,7 @@ enum class PlyEncoding { ascii, little_endian, big_endian };
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-// Bytes in a binary file.
+// The size of a value in a binary file, in bytes.
 std::size_t size_of(PlyType type);
 bool is_integer(PlyType type);
 
@@ -41,7 +41,7 @@ struct PlyHeader {
 
 bool looks_like_ply(std::string_view bytes);
 
-// malformed (with the line) or truncated (no end_header).
+// Problems: malformed (with the line), truncated (no end_header).
 Expected<PlyHeader> read_ply_header(std::string_view bytes, const std::filesystem::path& file);
 
 }  // namespace assay::corpus

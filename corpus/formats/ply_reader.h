@@ -1,4 +1,4 @@
-// PLY: ascii, binary little-endian and big-endian.
+// Reads PLY: ascii, binary little-endian and big-endian.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace assay::corpus {
 
-// Element `vertex` with x, y, z of any type; element `face` with a list vertex_indices or
-// vertex_index of an integer type. All other elements and properties are skipped.
+// Reads x, y, z of any type from element `vertex`, and from element `face` a list vertex_indices
+// or vertex_index of an integer type. All other elements and properties are skipped.
 Expected<Mesh> read_ply(std::string_view bytes, const std::filesystem::path& file);
 
 }  // namespace assay::corpus

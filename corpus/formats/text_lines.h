@@ -13,15 +13,15 @@ namespace assay::corpus {
 // line are dropped.
 class Lines {
  public:
-  // A `comment` character starts a comment that runs to the end of its line; '\0': none. With
-  // `continued`, a backslash at the end of a line joins the next one to it.
+  // `comment` starts a comment that runs to the end of its line; '\0': there are no comments. With
+  // `continued`, a backslash at the end of a line joins the next line to it.
   Lines(std::string_view text, char comment, bool continued)
       : text_(text), comment_(comment), continued_(continued) {}
 
   // The next line that is not blank; nothing at the end. Valid until the next call.
   std::optional<std::string_view> next();
 
-  // Number of the line that next() gave, counted from 1 (of its first line, when joined).
+  // The number, counted from 1, of the line that next() gave; of its first line if it was joined.
   std::size_t number() const { return number_; }
 
  private:
@@ -38,7 +38,7 @@ class Lines {
 // Splits at blanks; `words` is cleared first (passed in to be used again without allocation).
 void split_words(std::string_view line, std::vector<std::string_view>& words);
 
-// A word as it may be shown in a message: short.
+// A word for a message: in quotes, and cut if it is long.
 std::string excerpt(std::string_view word);
 
 }  // namespace assay::corpus

@@ -1,12 +1,13 @@
-// Many at once: contacts at one time, copies of vertices and triangles, sheets in one plane.
+// Many things at once: contacts at one time, copies of vertices and triangles, sheets in one
+// plane.
 #include "corpus/hard/family_rows.h"
 #include "corpus/hard/solids.h"
 
 namespace assay::corpus {
 namespace {
 
-// Spikes side by side over one face: all through it at half time, all stopping well above, all
-// touching it at the end.
+// Spikes side by side over one face. By kind, all go through it at half time, all stop well above
+// it, or all touch it at the end.
 Case simultaneous(Variation& vary, int exponent, int kind) {
   const int spikes = 1 << exponent;
   constexpr int columns = 8;
@@ -24,8 +25,9 @@ Case simultaneous(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind == 1 ? known_free() : known_collision(first[kind]));
 }
 
-// A triangle that tilts, and a copy of it with vertices of its own, above it by z_t0 to z_t1: while
-// the height is not 0 the two do not meet, since neither ever stands upright.
+// A triangle that tilts, and a copy of it with vertices of its own, at a height above it that goes
+// from z_t0 to z_t1. While the height is not 0 the two do not meet, because neither ever stands
+// upright.
 Case copies(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFacts known) {
   GridMesh mesh;
   std::array<GridVertex, 3> corners, copy;
@@ -59,11 +61,11 @@ Case duplicates(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, known_collision(0));
 }
 
-// A sheet in one plane, its vertices up to an eighth of a cell off a grid. It moves within the
-// plane, all in one direction (kind 0), or one vertex goes to where its second neighbour is, over
-// the first one, which it reaches at half time (kind 1: its own place and that of the first are not
-// moved off). Until then it is inside the hexagon of its neighbours, which stays convex: nothing
-// overlaps.
+// A sheet in one plane, its vertices up to an eighth of a cell off a grid. In kind 0 it moves
+// within the plane, all in one direction. In kind 1 one vertex goes to where its second neighbour
+// is, over the first one, which it reaches at half time; here the vertices around are not moved
+// off the grid. Until then it is inside the hexagon of its neighbours, which stays convex, so
+// nothing overlaps.
 Case coplanar_sheet(Variation& vary, int exponent, int kind) {
   const int rows = 1 << ((exponent - 1) / 2), columns = 1 << (exponent - 1 - (exponent - 1) / 2);
   const std::int64_t cell = usual_size / columns;
@@ -90,7 +92,8 @@ Case coplanar_sheet(Variation& vary, int exponent, int kind) {
     }
   }
   Case c = sheared_case(mesh, vary, kind == 0 ? known_free() : known_collision(0.5));
-  // From a chosen primitive every ghost of a flat sheet is swept against every triangle: n^1.5.
+  // view-auto, because from a chosen primitive every ghost of a flat sheet is swept against every
+  // triangle: n^1.5.
   c.options["culling"] = "view-auto";
   return c;
 }

@@ -1,4 +1,4 @@
-// The families of each file, put together by hard_families.cpp.
+// The hard families that each file makes; hard_families.cpp puts them together.
 #pragma once
 
 #include <vector>

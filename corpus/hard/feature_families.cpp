@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::int64_t drop = usual_size / 4;
 
-// A flat spike over a flat block: all eight vertices within a few gaps of one plane, and the tip
-// within one gap of it all the time.
+// A flat spike over a flat block. All eight vertices are within a few gaps of one plane, and the
+// tip is within two gaps of it all the time.
 Case near_coplanar(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   GridMesh mesh;
@@ -23,9 +23,9 @@ Case near_coplanar(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
 }
 
-// The lower edge of one tetrahedron over the upper edge of another. They cross over the origin at
-// an angle of about gap / usual_size; kind 2: they would cross only beyond their ends, and y is at
-// most gap in the one and at least twice that in the other.
+// The lower edge of one tetrahedron over the upper edge of another. They cross over the origin, at
+// an angle of about gap / usual_size. In kind 2 they would cross only beyond their ends, because y
+// is at most gap in the one and at least twice that in the other.
 Case near_parallel(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
   const auto some = [&](std::int64_t n) { return vary.between(n / 2, n); };
@@ -49,8 +49,8 @@ Case near_parallel(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
 }
 
-// A face of this width and the usual length, and a spike that comes down through it, as far beside
-// its long edge, on that edge, or on its far corner.
+// A face of this width and the usual length. By kind, a spike comes down through it, as far beside
+// its long edge as the face is wide, on that edge, or on its far corner.
 Case slivers(Variation& vary, int exponent, int kind) {
   const std::int64_t width = two_to(exponent);
   const auto far = [&] { return vary.between(usual_size / 2, usual_size); };
@@ -66,8 +66,7 @@ Case slivers(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, misses ? known_free() : known_collision(0.5));
 }
 
-// A spike that passes the straight edge (y = 0) of a block in y <= 0: outside, inside by the gap,
-// or on it.
+// A spike passes the straight edge (y = 0) of a block in y <= 0: outside it, inside it or on it.
 Case vertex_passes(Variation& vary, std::int64_t y) {
   const auto far = [&] { return vary.between(usual_size / 2, usual_size); };
   GridMesh mesh;
@@ -80,7 +79,7 @@ Case vertex_passes(Variation& vary, std::int64_t y) {
   return sheared_case(mesh, vary, y > 0 ? known_free() : known_collision(0.5));
 }
 
-// An edge whose end lies at x beside the upper edge (x = 0) of a tetrahedron in x <= 0.
+// An edge whose end passes the upper edge (x = 0) of a tetrahedron in x <= 0, at this x.
 Case edge_passes(Variation& vary, std::int64_t x) {
   const auto far = [&] { return vary.between(usual_size / 2, usual_size); };
   GridMesh mesh;

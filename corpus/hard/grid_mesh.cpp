@@ -26,7 +26,7 @@ Wide volume(const std::array<GridVertex, 4>& corners) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-// Ends the process where the product is not exact or not finite.
+// Ends the process if the product is not exact or not finite.
 double scaled(std::int64_t units, int exponent) {
   constexpr std::int64_t limit = std::int64_t{1} << 53;
   const auto whole = static_cast<double>(units);
@@ -57,7 +57,7 @@ void GridMesh::add_triangle(const std::array<GridVertex, 3>& corners) {
 void GridMesh::add_tetrahedron(const std::array<GridVertex, 4>& corners) {
   const auto first = static_cast<std::int32_t>(vertices.size());
   for (const auto& corner : corners) add(corner);
-  // Opposite to corner i, outward where the volume is positive.
+  // Face i lies opposite to corner i, and faces outward if the volume is positive.
   constexpr std::int32_t faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   const bool turned = volume(corners) < 0;
   for (const auto& f : faces) {

@@ -1,11 +1,11 @@
 // Hard cases are made on a grid of integers and then bent out of the axes, without any rounding.
 //
 // Each family is built where its answer is plain to see: a face in the plane z = 0, a vertex that
-// comes down on it. There double arithmetic would be right for free, since most products are 0. So
-// an integer map of determinant 1 (three shears, a cyclic change of axes, a shift) is applied at
-// the end: contacts, their times and the view signs of a point are those of any affine map, and the
-// coordinates stay integers below 2^53, that is exact doubles that fill the mantissa. At last each
-// axis is scaled by a power of two.
+// comes down on it. There double arithmetic would be right for free, because most products are 0.
+// So an integer map of determinant 1 (three shears, a cyclic change of axes, a shift) is applied
+// at the end. As an affine map it changes neither contacts nor their times nor the view signs of a
+// point, and the coordinates stay integers below 2^53, that is exact doubles that fill the
+// mantissa. At last each axis is scaled by a power of two.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct GridVertex {
   GridPoint t0, t1;
 };
 inline GridVertex at_rest(const GridPoint& p) { return {p, p}; }
-// p carried along by the motion of `tip`, whose offset from it is constant.
+// The vertex at a constant offset from `tip`, which moves along with it.
 inline GridVertex carried(const GridVertex& tip, const GridPoint& offset) {
   return {tip.t0 + offset, tip.t1 + offset};
 }
@@ -41,40 +41,41 @@ struct GridMesh {
   std::vector<GridVertex> view;  // none, a point, or the two ends of a line
 
   std::int32_t add(const GridVertex& vertex);
-  // Of its own three vertices; anticlockwise as given.
+  // Adds a triangle with three vertices of its own, anticlockwise in the order given.
   void add_triangle(const std::array<GridVertex, 3>& corners);
-  // Of its own four vertices, outward at t=0; its i-th triangle lies opposite to corner i.
+  // Adds a tetrahedron with four vertices of its own, whose triangles face outward at t=0. Its
+  // i-th triangle lies opposite to corner i.
   void add_tetrahedron(const std::array<GridVertex, 4>& corners);
 };
 
-// x -> shift + C S3 S2 S1 x, with shears S and a cyclic change of axes C. No coordinate grows by
-// more than `growth` before the shift.
+// x -> shift + C S3 S2 S1 x, with shears S and a cyclic change of axes C. Before the shift no
+// coordinate grows by more than the factor `growth`.
 struct GridMap {
   static constexpr std::int64_t growth = 37;
 
   std::array<std::array<std::int64_t, 2>, 3> shears{};  // each in -2 .. 2
-  int turns = 0;                                        // of the axes
+  int turns = 0;                                        // how often C turns the axes by one
   GridPoint shift;
 
-  // Shears that leave no coefficient 0.
+  // A map whose shears have no coefficient 0.
   static GridMap any(Variation& vary);
-  // For view-lines, whose nearest points no shear keeps: a change of axes alone.
+  // A change of axes alone. It is for view-lines, because no shear keeps their nearest points.
   static GridMap of_axes(Variation& vary);
   GridPoint operator()(GridPoint p) const;
 };
 
-// What the family knows. first_time, view_signs: by construction, where stated.
+// What the construction tells of a case; first_time and view_signs only if it tells them.
 using KnownFacts = ExpectedStep;
 
-// One step of the mapped mesh; coordinate i is multiplied by 2^exponents[i]. The process ends where
-// that would not be exact (the tests make every case).
+// One step of the mapped mesh, with coordinate i multiplied by 2^exponents[i]. If that is not
+// exact the process ends; the tests make every case.
 Case grid_case(const GridMesh& mesh, const GridMap& map, const std::array<int, 3>& exponents,
                KnownFacts known);
 
-// Coordinates of solids.h's usual_size become about 1 by these exponents.
+// These exponents bring coordinates of solids.h's usual_size to about 1.
 inline constexpr std::array<int, 3> to_size_one = {-46, -46, -46};
 
-// grid_case under any map; its coordinates are about 1.
+// grid_case under some GridMap::any, with coordinates of about 1.
 Case sheared_case(const GridMesh& mesh, Variation& vary, KnownFacts known);
 
 }  // namespace assay::corpus

@@ -21,7 +21,7 @@ std::span<const HardFamily> hard_families() {
 Case hard_case(const HardFamily& family, int strength, int variant) {
   Variation vary(family.name, strength, variant);
   const int kind = variant % family.kinds_at(strength);
-  // What touches does so among features of every size.
+  // Exact touching happens among features of every size.
   Case c =
       family.touches(strength)
           ? family.make(vary, family.exponent(static_cast<int>(vary.between(0, family.strongest))),

@@ -1,11 +1,11 @@
 // Families of hard cases: small meshes and one step each, made from a strength and a variant, with
 // the exact answer known by construction.
 //
-// The strength turns one knob, and a greater strength is harder: at strength s the knob stands at
-// 2^(exponent_at_0 + slope * s), a gap in units of the grid, an offset over the size, a scale, a
-// number. One unit of the grid is an ulp of a coordinate of 2^52 units; coordinates are below 2^53
-// (grid_mesh.h). Where something can touch, the strength after the strongest is the end of the
-// scale: exact touching, a gap of 0.
+// The strength turns one knob, and a greater strength is harder. At strength s the knob stands at
+// 2^(exponent_at_0 + slope * s); what that measures depends on the family: a gap in units of the
+// grid, an offset over the size, a scale, a number. One unit of the grid is an ulp of a coordinate
+// of 2^52 units; coordinates are below 2^53 (grid_mesh.h). If things in a family can touch, one
+// strength after the strongest ends the scale: exact touching, a gap of 0.
 #pragma once
 
 #include <span>
@@ -25,8 +25,8 @@ struct HardFamily {
   int slope;
   int strongest;  // strengths with a knob are 0 .. strongest
   int kinds;      // variants v and v + kinds are of one kind and differ in numbers only
-  int touching;   // kinds of exact touching; 0: none
-  // The frames and what is known of them; no id. Kinds from `kinds` on are those of touching.
+  int touching;   // number of kinds of exact touching; 0: nothing can touch
+  // Makes a case, without its id. Kinds from `kinds` on are those of exact touching.
   Case (*make)(Variation& vary, int exponent, int kind);
 
   int exponent(int strength) const { return exponent_at_0 + slope * strength; }
@@ -37,9 +37,9 @@ struct HardFamily {
 
 std::span<const HardFamily> hard_families();
 
-// id ("grazing-s12-v3"), about, one step, its expected answer; first time and view signs where the
-// construction tells them. REQUIRES 0 <= strength <= last_strength(), variant >= 0. Small cases: at
-// most 4,100 triangles, mostly 8.
+// A case with id (such as "grazing-s12-v3"), about, one step and its expected answer; first time
+// and view signs are stated if the construction tells them. REQUIRES 0 <= strength <=
+// last_strength(), variant >= 0. Cases are small: at most 4,100 triangles, mostly 8.
 Case hard_case(const HardFamily& family, int strength, int variant);
 
 }  // namespace assay::corpus

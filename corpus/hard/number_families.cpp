@@ -1,5 +1,5 @@
-// Hard numbers: tiny motion far from the origin, scales up to 2^500 and down to 2^-500, one for all
-// axes or another for each, and denormals.
+// Hard numbers: tiny motion far from the origin; scales up to 2^500 and down to 2^-500, one for
+// all axes or another for each; denormals.
 #include <algorithm>
 
 #include "corpus/hard/family_rows.h"
@@ -8,8 +8,8 @@
 namespace assay::corpus {
 namespace {
 
-// A mesh that is not hard by itself: a spike that goes through a face (at half time), stops in it,
-// stops well above it, or passes beside it.
+// A mesh that is not hard by itself. By kind, a spike goes through a face (at half time), stops in
+// it, stops well above it, or passes beside it.
 GridMesh easy(Variation& vary, int kind, std::int64_t reach, std::int64_t way) {
   GridMesh mesh;
   const bool beside = kind == 3;
@@ -32,8 +32,8 @@ KnownFacts known_of(int kind) {
   return kind < 2 ? known_collision(first[kind]) : known_free();
 }
 
-// Solids of 2^(45 - exponent) units, 2^51 units and more away from the origin; one or two units of
-// motion, or three.
+// Solids of 2^(45 - exponent) units, 2^51 units and more away from the origin. On the grid the
+// spike moves by one, two or four units.
 Case far_offset(Variation& vary, int exponent, int kind) {
   const GridMesh mesh = easy(vary, kind, two_to(usual_exponent - exponent), 1);
   GridMap map = GridMap::any(vary);
@@ -55,13 +55,13 @@ Case scaled(Variation& vary, int kind, const std::array<int, 3>& exponents) {
   return grid_case(mesh, GridMap::any(vary), of_units, known_of(kind));
 }
 
-// Kinds 0 to 3 larger, 4 to 7 smaller.
+// Kinds 0 to 3 are larger, kinds 4 to 7 smaller.
 Case scales(Variation& vary, int exponent, int kind) {
   const int e = kind < 4 ? exponent : -exponent;
   return scaled(vary, kind % 4, {e, e, e});
 }
 
-// One axis stretched, one shrunk.
+// One axis is stretched, another shrunk.
 Case mixed_scales(Variation& vary, int exponent, int kind) {
   std::array<int, 3> exponents = {exponent, 0, -exponent};
   std::rotate(exponents.begin(), exponents.begin() + vary.between(0, 2), exponents.end());

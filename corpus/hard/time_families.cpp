@@ -17,14 +17,16 @@ Case spike_falls(Variation& vary, std::int64_t z_t0, std::int64_t z_t1, KnownFac
   return sheared_case(mesh, vary, std::move(known));
 }
 
-// It starts above, on or inside the block and leaves. What is inside is pierced at t=0.
+// The spike starts above, inside or on the block and leaves it. If it starts inside, it is pierced
+// at t=0.
 Case at_the_start(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), start[] = {gap, -gap, 0};
   return spike_falls(vary, start[kind], start[kind] + usual_size / 4,
                      kind == 0 ? known_free() : known_collision(0));
 }
 
-// It comes from 2^44 - gap and stops above, on or inside the block: t* = 1 - gap / 2^44.
+// The spike comes from 2^44 - gap and stops above, inside or on the block. If inside, t* = 1 - gap
+// / 2^44; if on it, t* = 1.
 Case at_the_end(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent), end[] = {gap, -gap, 0};
   const double first = kind == 2 ? 1 : 1 - std::ldexp(1, exponent - 44);
@@ -32,11 +34,12 @@ Case at_the_end(Variation& vary, int exponent, int kind) {
                      kind == 0 ? known_free() : known_collision(first));
 }
 
-// The face turns about the y axis, from z = x to z = -x, while the tip goes along x from -W to W at
-// height -dip. With tau = 2t - 1 the face is z = -tau x and the tip is tau^2 W - dip above it:
-// twice zero at tau = -+sqrt(dip / W), touching where dip is 0. W = 2^44, dip = 2^(2m): t* is
-// (1 - 2^(m - 22)) / 2. The rest of the spike, within W / 2 of the tip along x and W or more above
-// it, is at least W / 2 above the face; the block's fourth corner is below it on the axis.
+// The face turns about the y axis, from z = x to z = -x, while the tip goes along x from -W to W
+// at height -dip. With tau = 2t - 1 the face is z = -tau x, and the tip is tau^2 W - dip above it.
+// That is zero twice, at tau = -+sqrt(dip / W), and only touches zero if dip is 0. With W = 2^44
+// and dip = 2^(2m), t* is (1 - 2^(m - 22)) / 2. The rest of the spike, within W / 2 of the tip
+// along x and W or more above it, is at least W / 2 above the face; the block's fourth corner is
+// below it on the axis.
 Case double_root(Variation& vary, int exponent, int kind) {
   constexpr std::int64_t path = std::int64_t{1} << 44;
   const std::int64_t gap = two_to(exponent), dips[] = {gap, -gap, 0};
@@ -55,16 +58,16 @@ Case double_root(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind == 1 ? known_free() : known_collision(first));
 }
 
-// A vertex at the origin and a triangle. With tau = t - 1/2 its corners are the rows of M + tau I,
-// times 2^43 units, and F(tau) = tau^3 + c2 tau^2 - c1 tau + c0. M is the companion matrix of that
-// polynomial, rows (0,1,0) (0,0,1) (c0,c1,c2), seen in the basis (1,0,0) (0,1,0) (1,1,1): F stays,
-// and the origin is inside of the triangle near tau = 0 (with weights 1,1,1 where all c are small).
-// The vertex is the tip of a needle on the side that it comes from.
+// A vertex at the origin and a triangle. With tau = t - 1/2 the triangle's corners are the rows of
+// M + tau I, times 2^43 units, and F(tau) = tau^3 + c2 tau^2 - c1 tau + c0. M is the companion
+// matrix of that polynomial, rows (0,1,0) (0,0,1) (c0,c1,c2), seen in the basis (1,0,0) (0,1,0)
+// (1,1,1). That keeps F, and puts the origin inside of the triangle near tau = 0 (with weights
+// 1,1,1 if all c are small). The vertex is the tip of a needle on the side that it comes from.
 Case triple_root(Variation& vary, int exponent, int kind) {
   constexpr std::int64_t one = std::int64_t{1} << 43;
   const std::int64_t d2 = two_to(43 + 2 * exponent);  // the square of the distance of roots
-  // The roots of the kinds in turn: -d, 0 and d; 0 beside a complex pair; 2 beside a complex pair;
-  // three at one place.
+  // The roots by kind: -d, 0 and d; 0 beside a complex pair; 2 beside a complex pair; three at one
+  // place.
   const std::int64_t c0 = kind == 2 ? -2 * d2 : 0;
   const std::int64_t c1 = kind == 3 ? 0 : kind == 0 ? d2 : -d2;
   const std::int64_t c2 = kind == 2 ? -2 * one : 0;
@@ -86,14 +89,15 @@ Case triple_root(Variation& vary, int exponent, int kind) {
   return sheared_case(mesh, vary, kind == 2 ? known_free() : known_collision(first));
 }
 
-// Solids far smaller than the way that the spike goes: through the face, past it, or onto it.
+// Solids far smaller than the way that the spike goes. By kind, it goes through the face, past it,
+// or onto it.
 Case long_step(Variation& vary, int exponent, int kind) {
   const std::int64_t reach = two_to(usual_exponent - exponent), way = usual_size;
   const bool misses = kind == 1;
   GridMesh mesh;
   std::array<GridVertex, 4> block;
   const auto face = wide_face(vary, reach);
-  // For a miss all of it lies in y <= 0.
+  // For a miss all of the block lies in y <= 0.
   for (std::size_t i = 0; i < 3; ++i)
     block[i] = at_rest(misses ? face[i] + GridPoint{0, -reach} : face[i]);
   block[3] = at_rest({0, misses ? -reach / 2 : 0, -reach});

@@ -1,6 +1,6 @@
-// The free choices of a hard case, from its family, strength and variant alone: integers only, the
-// same on every platform as long as no two draws are arguments or operands of one expression, which
-// have no order (items of a braced list have).
+// The free choices of a hard case: integers that depend on its family, strength and variant alone.
+// They are the same on every platform as long as no two draws are arguments or operands of one
+// expression, because these have no order (items of a braced list have one).
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ class Variation {
     for (const char c : family) {
       state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     }
-    // Far apart for neighbouring strengths and variants.
+    // States of neighbouring strengths and variants are far apart.
     constexpr std::uint64_t strength_stride = 0xd1342543de82ef95u,
                             variant_stride = 0x2545f4914f6cdd1d;
     state_ ^= static_cast<std::uint64_t>(strength + 1) * strength_stride;
     state_ ^= static_cast<std::uint64_t>(variant + 1) * variant_stride;
     next();
   }
-  // lo .. hi; the bias of the remainder does no harm here.
+  // A number in lo .. hi; the bias of the remainder does no harm here.
   std::int64_t between(std::int64_t lo, std::int64_t hi) {
     const auto n = static_cast<std::uint64_t>(hi - lo) + 1;
     return lo + static_cast<std::int64_t>(next() % n);

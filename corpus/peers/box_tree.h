@@ -1,5 +1,6 @@
-// Which triangles come near each other in a step: a tree of boxes, made once and fitted to each
-// step, as any detector has one. What a peer takes is then what its elementary tests take.
+// Finds which triangles come near each other in a step, by a tree of boxes that is made once and
+// fitted to each step, as any detector has one. Peers share it, so the time by which they differ
+// is that of their elementary tests.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +45,7 @@ class BoxTree {
     grow(boxes, items.data(), items.data() + items.size());
   }
 
-  // The same tree around other boxes of the same items.
+  // Fits the same tree to other boxes of the same items.
   void fit(const std::vector<Box>& boxes) {
     for (std::size_t i = nodes_.size(); i-- > 0;) {  // children stand behind their parents
       Node& node = nodes_[i];

@@ -6,11 +6,11 @@
 // differences of the positions, and normals and end positions as
 // btDeformableMultiBodyDynamicsWorld::performGeometricCollisions sets them. Contract: float32,
 // vertex-face alone, no contact at the start (roots at 0 are skipped), coordinates of usual sizes,
-// and no time, for the function tells none. Claims: free-sound from the change that brought it in
-// ("Add continuous collision detection for triangle vertex vs. face", pull request 2612 of
-// bulletphysics/bullet3); total and deterministic, for it is a function of its arguments that
-// returns a bool. Nothing in it says how near a float has to come: what it misses by rounding is
-// held against that sentence.
+// and no time, because the function tells none. Claims: free-sound from the change that brought it
+// in ("Add continuous collision detection for triangle vertex vs. face", pull request 2612 of
+// bulletphysics/bullet3); total and deterministic, because it is a function of its arguments that
+// returns a bool. Nothing in it says how near a float has to come, so what it misses by rounding
+// is held against that sentence.
 #include <BulletSoftBody/btSoftBody.h>
 #include <BulletSoftBody/btSoftBodyInternals.h>
 
@@ -39,7 +39,7 @@ struct BulletTests {
     if (!bernsteinCCD(&face, &nodes[0], dt, margin, barycentric)) return std::nullopt;
     return plugin::Interval{{0, 1}};
   }
-  // It has no such test.
+  // Bullet has no such test.
   static Time edge_edge(const FourPaths&) { return std::nullopt; }
 
  private:

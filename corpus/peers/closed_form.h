@@ -5,8 +5,8 @@
 
 namespace assay::peers {
 
-// `Settings` has `using Number`, `tolerance` (cubic.h) and `small`: a coefficient that is less than
-// this share of the greatest one is taken for zero.
+// `Settings` has `using Number`, `tolerance` (cubic.h) and `small`: a coefficient that is less
+// than this share of the greatest one counts as zero.
 template <class Settings>
 struct ClosedForm : Settings {
   using Number = typename Settings::Number;

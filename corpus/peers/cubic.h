@@ -1,6 +1,6 @@
-// The textbook method, as many simulators have it: the times at which four points lie in one plane
-// are the roots of a cubic (Provot 1997), and at each root the point has to lie in the triangle, or
-// the edges have to cross, up to a tolerance. In numbers of one kind throughout.
+// The textbook method, as many simulators have it. The times at which four points lie in one plane
+// are the roots of a cubic (Provot 1997). At each root the point has to lie in the triangle, or
+// the edges have to cross, up to a tolerance. All is computed in numbers of one kind.
 #pragma once
 
 #include <cmath>
@@ -41,9 +41,9 @@ struct Roots {
   }
 };
 
-// `Solver` has `using Number`, `static constexpr Number tolerance`, of barycentric numbers and of
-// times, and `static Roots<Number> roots_of(a, b, c, d)`: of a t^3 + b t^2 + c t + d; none of a
-// polynomial that is zero.
+// `Solver` has `using Number`; `static constexpr Number tolerance`, for barycentric numbers and
+// for times; and `static Roots<Number> roots_of(a, b, c, d)`, the roots of a t^3 + b t^2 + c t +
+// d, or none if that polynomial is zero.
 template <class Solver>
 class CubicTests {
   using Number = typename Solver::Number;
@@ -91,7 +91,7 @@ class CubicTests {
   // The first time at which the four points lie in one plane and `meets` holds.
   template <class Meets>
   static Time first_time(const FourPaths& paths, const Meets& meets) {
-    V x[4], v[4];  // from the first point
+    V x[4], v[4];  // place at t = 0 and motion, relative to the first point
     for (int i = 1; i < 4; ++i) {
       x[i] = vector_of(paths.at[0][i]) - vector_of(paths.at[0][0]);
       v[i] = vector_of(paths.at[1][i]) - vector_of(paths.at[1][0]) - x[i];
@@ -111,7 +111,7 @@ class CubicTests {
   }
 };
 
-// What all of them describe but their names.
+// The description that all peers of this method share, but for their names.
 inline plugin::Description cubic_description() {
   plugin::Description d;
   d.version = "1";

@@ -2,11 +2,11 @@
 //
 // Version: 1, of this file. Settings: one tolerance of 1e-6, of barycentric numbers and of times.
 // Contract: no contact at the start, coordinates of usual sizes, times within the tolerance.
-// Claims: free-sound and not-late, since Bridson, Fedkiw and Anderson, Robust treatment of
+// Claims: free-sound and not-late, because Bridson, Fedkiw and Anderson, Robust treatment of
 // collisions, contact and friction for cloth animation (2002), section 6.1, offer the same test
 // ("we check for interference at the roots") as one that finds all collisions of a step; total and
-// deterministic, for it is a function of its arguments. All of it is a promise of the book's, made
-// without a word on rounding.
+// deterministic, because it is a function of its arguments. The book promises all of this without
+// a word on rounding.
 #include "corpus/peers/closed_form.h"
 
 namespace assay::peers {

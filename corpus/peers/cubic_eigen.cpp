@@ -1,13 +1,13 @@
 // The textbook method (cubic.h) in doubles, the roots by Eigen's PolynomialSolver.
 //
 // Version: that of the Eigen it is compiled with. Functions: Eigen::PolynomialSolver of the
-// unsupported module Polynomials, compute and realRoots. Settings: the defaults (a root is real
-// where its imaginary part is below the dummy precision of doubles, 1e-12), and the tolerance of
+// unsupported module Polynomials, compute and realRoots. Settings: the defaults (a root is real if
+// its imaginary part is below the dummy precision of doubles, 1e-12), and the tolerance of
 // cubic_double.cpp. The solver divides by the leading coefficient, so leading coefficients that
-// are 0 are left away, as its users do. Contract and claims: those of cubic_double.cpp, the
-// method's, from the same place. Eigen promises less: its solver is "guaranteed to provide a
-// correct result only when the complex roots have distinct moduli", and what is missed where two
-// have the same is no fault of Eigen's.
+// are 0 are left away, as its users do. Contract and claims: those of cubic_double.cpp, from the
+// same place, because they are the method's. Eigen promises less: its solver is "guaranteed to
+// provide a correct result only when the complex roots have distinct moduli", so what is missed
+// when two have the same is no fault of Eigen's.
 #include <Eigen/Core>
 #include <unsupported/Eigen/Polynomials>
 
@@ -33,7 +33,7 @@ struct EigenSolver {
   }
 
  private:
-  // Coefficients from the constant one on.
+  // REQUIRES the constant coefficient first.
   template <int degree>
   static void keep(const double (&coefficients)[degree + 1], Roots<double>& roots) {
     const Eigen::Map<const Eigen::Matrix<double, degree + 1, 1>> polynomial(coefficients);

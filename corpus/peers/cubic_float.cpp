@@ -1,8 +1,8 @@
 // The textbook method (cubic.h) in floats, the roots in closed form, as it runs on graphics cards.
 //
 // Version: 1, of this file. Settings: one tolerance of 1e-5, of barycentric numbers and of times,
-// which is some 80 steps of a float below 1; coefficients below 1e-7 of the greatest are zero.
-// Contract: float32, no contact at the start, coordinates of usual sizes, times within the
+// which is some 80 steps of a float below 1; coefficients below 1e-7 of the greatest count as
+// zero. Contract: float32, no contact at the start, coordinates of usual sizes, times within the
 // tolerance. Claims: those of cubic_double.cpp, from the same place, which speaks of no
 // arithmetic.
 #include "corpus/peers/closed_form.h"

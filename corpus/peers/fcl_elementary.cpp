@@ -3,13 +3,13 @@
 // Version: 0.7.0, Debian libfcl-dev. Functions: fcl::detail::Intersect<double>::intersect_VF and
 // intersect_EE, called as MeshContinuousCollisionTraversalNode::leafTesting calls them. Settings:
 // the defaults (useNewton; a resolution in time of 1e-7 and epsilons of 1e-5 and 1e-7 are fixed in
-// the library). Contract: no contact at the start and coordinates of usual sizes, for its epsilons
-// are lengths; times within ten times its resolution. Claims: free-sound and not-late from its
-// README ("continuous collision detection: detecting whether the two moving models overlap during
-// the movement, and optionally, the time of contact"); total and deterministic, for they are
-// functions of their arguments that return a bool. Its public function for meshes takes rigid
-// motions alone, so the two are called directly; that neighbours share vertices is the adapter's
-// care.
+// the library). Contract: no contact at the start; coordinates of usual sizes, because its
+// epsilons are lengths; times within ten times its resolution. Claims: free-sound and not-late
+// from its README ("continuous collision detection: detecting whether the two moving models
+// overlap during the movement, and optionally, the time of contact"); total and deterministic,
+// because they are functions of their arguments that return a bool. Its public function for meshes
+// takes rigid motions alone, so the two are called directly; that neighbours share vertices is the
+// adapter's care.
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 
 #include "corpus/peers/feature_pairs.h"

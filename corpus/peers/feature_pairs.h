@@ -1,7 +1,8 @@
-// What the peers that test features have in common: their elementary tests, put to the six pairs of
-// a vertex and a face and the nine of two edges that two triangles have, as FCL's own traversal of
-// meshes does. Features that share a vertex are not tested. A pair's first time is the least of its
-// tests; a pair of features is tested again with every two triangles that have it.
+// What the peers that test features have in common. Two triangles have six pairs of a vertex and a
+// face and nine of two edges. The peer's elementary tests are put to all of these that share no
+// vertex, as FCL's own traversal of meshes does, and the first time of the two triangles is the
+// least of the tests. Features that several pairs of triangles have are tested again for each
+// pair.
 #pragma once
 
 #include "corpus/peers/triangle_pairs.h"
@@ -13,8 +14,8 @@ struct FourPaths {
   const double* at[2][4];  // at t = 0 and at t = 1
 };
 
-// `Tests` has `Time vertex_face(const FourPaths&)` and `edge_edge`: when the two meet first, or
-// nothing when they do not.
+// `Tests` has `Time vertex_face(const FourPaths&)` and `edge_edge`: when the two features meet
+// first, or nothing when they do not.
 template <class Tests>
 struct FeatureTests {
   static Time first_time(const TrianglePath& s, const TrianglePath& t) {

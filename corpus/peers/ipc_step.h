@@ -4,8 +4,8 @@
 // Version: 1.5.0, from its public sources. Functions: ipc::CollisionMesh and
 // ipc::compute_collision_free_stepsize of ipc/ipc.hpp, with min_distance 0, as its tutorial
 // "Getting started" calls them. Settings: the defaults of each. Contract of both narrow phases: no
-// contact at the start ("Assumes vertices_t0 is intersection free") and coordinates of usual
-// sizes, for its tolerances are lengths; it tells a time and no pairs.
+// contact at the start ("Assumes vertices_t0 is intersection free"), and coordinates of usual
+// sizes, because its tolerances are lengths. It tells a time and no pairs.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -26,7 +26,7 @@ class IpcStep {
  public:
   explicit IpcStep(const plugin::Mesh& mesh) : mesh_(made(mesh)) {}
 
-  // Its work runs in TBB.
+  // The toolkit works in threads of TBB, so their number is limited there.
   static void use_threads(std::uint32_t count) {
     static std::unique_ptr<tbb::global_control> limit;
     limit =

@@ -3,9 +3,9 @@
 //
 // Claims: free-sound and not-late, from its documentation ("provably conservative (i.e., never
 // misses collisions)", Getting started, section "Narrow phase"; "Computes a maximal step size that
-// is collision free", ipc.hpp); deterministic and total, for it is a function of its arguments
-// that returns a number. The step it gives stays clear of the contact on purpose, so how early it
-// is is shown and not held against it.
+// is collision free", ipc.hpp); deterministic and total, because it is a function of its arguments
+// that returns a number. The step it gives stays clear of the contact on purpose. How early it is
+// is shown, and not held against it.
 #include <ipc/ccd/tight_inclusion_ccd.hpp>
 
 #include "corpus/peers/ipc_step.h"

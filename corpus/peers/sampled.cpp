@@ -4,11 +4,11 @@
 // Version: that of the CGAL it is compiled with. Function: CGAL::do_intersect of two Triangle_3 of
 // a kernel with exact predicates (oracle/referee/static_check.cpp), put to triangles that share no
 // vertex and whose boxes meet at that time; positions at a time are rounded to doubles. Settings:
-// none but the number of samples. Contract: no contact at the start, no neighbours (of triangles
-// that share a vertex the function says nothing), coordinates as the others have them. A triangle
-// without area is not tested, as the function demands. Claims: deterministic and total alone;
-// nobody promises that samples see everything. The time told is that between a sample with a
-// contact and the one before.
+// none but the number of samples. Contract: no contact at the start; no neighbours, because the
+// function says nothing of triangles that share a vertex; coordinates as the others have them. A
+// triangle without area is not tested, as the function demands. Claims: deterministic and total
+// alone, because nobody promises that samples see everything. The time told is that between a
+// sample with a contact and the one before.
 #include "corpus/peers/triangle_pairs.h"
 
 extern "C" int assay_triangles_meet_now(const double* a, const double* b);

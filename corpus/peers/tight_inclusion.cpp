@@ -5,12 +5,12 @@
 // ticcd::vertexFaceCCD and ticcd::edgeEdgeCCD of tight_inclusion/ccd.hpp. Settings, those that its
 // README suggests for a single query: err {-1, -1, -1} (it computes the bound of the query), ms 0,
 // tolerance 1e-6, t_max 1, max_itr 1e6, no_zero_toi false, breadth-first. Contract: no contact at
-// the start and coordinates of usual sizes, for its tolerance is a length; its time is a lower
-// bound. Claims: free-sound and not-late from its README ("Because our method is conservative, we
-// guarantee a result of false implies no collision occurs"; "toi: ... it will return the earliest
-// collision time"); total and deterministic, for they are functions of their arguments that return
-// a bool. A collision where features only come nearer to each other than tolerance is what it
-// announces, so no-spurious is not claimed.
+// the start, and coordinates of usual sizes, because its tolerance is a length; its time is a
+// lower bound. Claims: free-sound and not-late from its README ("Because our method is
+// conservative, we guarantee a result of false implies no collision occurs"; "toi: ... it will
+// return the earliest collision time"); total and deterministic, because they are functions of
+// their arguments that return a bool. It announces a collision when features only come nearer to
+// each other than tolerance, so no-spurious is not claimed.
 #include <tight_inclusion/ccd.hpp>
 
 #include "corpus/peers/feature_pairs.h"

@@ -1,5 +1,5 @@
-// What the peers that test triangles two at a time have in common: their test, put to every pair
-// of triangles whose swept boxes meet. The step's first time is the least of the pairs'.
+// What the peers that test two triangles at a time have in common. Their test is put to every pair
+// of triangles whose swept boxes meet, and the step's first time is the least of the pairs'.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace assay::peers {
 
 using Time = std::optional<plugin::Interval>;
 
-// A triangle of the step: its vertices' numbers and places.
+// A triangle of the step: the numbers of its vertices, and their places.
 struct TrianglePath {
   const std::int32_t* vertex;
   const double* at[2][3];  // at t = 0 and at t = 1
@@ -22,8 +22,8 @@ struct TrianglePath {
   }
 };
 
-// `Test` has `static Time first_time(const TrianglePath&, const TrianglePath&)`: when the two meet
-// first, or nothing when they do not.
+// `Test` has `static Time first_time(const TrianglePath&, const TrianglePath&)`: when the two
+// triangles meet first, or nothing when they do not.
 template <class Test>
 class TrianglePairs {
  public:

@@ -25,7 +25,7 @@ std::optional<Kind> kind_of(const std::filesystem::path& path) {
   const std::string stem = name.stem().string();
   if (stem.ends_with("vf")) return Kind::vertex_face;
   if (stem.ends_with("ee")) return Kind::edge_edge;
-  // The nearest folder rules, were both names in the path.
+  // If both names are in the path, the nearest folder rules.
   for (auto folder = path.parent_path(); folder.has_filename(); folder = folder.parent_path()) {
     if (folder.filename() == "vertex-face") return Kind::vertex_face;
     if (folder.filename() == "edge-edge") return Kind::edge_edge;

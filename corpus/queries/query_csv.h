@@ -1,7 +1,7 @@
 // Reads query sets: vertex-face or edge-edge queries in exact rational coordinates, eight rows a
 // query, plain or gzip.
 //
-// A row is numerator,denominator for x, y, z; a seventh column, where there is one, is the query's
+// A row is numerator,denominator for x, y and z. If it has a seventh column, that is the query's
 // truth (1: contact, 0: none). Rows of an edge-edge query: ea0 ea1 eb0 eb1 at t0, the same at t1;
 // of a vertex-face query: v f0 f1 f2 at t0, the same at t1. Every value must equal a double.
 #pragma once
@@ -18,13 +18,13 @@ namespace assay::corpus {
 
 struct LabelledQuery {
   std::variant<detector::VertexFace, detector::EdgeEdge> query;
-  std::optional<bool> truth;  // whether there is a contact in [0,1]; absent where no label is given
+  std::optional<bool> truth;  // whether there is a contact in [0,1]; absent without a label
 };
 
-// Whether a file holds vertex-face or edge-edge queries is told by its path: a folder named
+// The path tells whether a file holds vertex-face or edge-edge queries: it has a folder named
 // `vertex-face` or `edge-edge`, or a name that ends in vf or ee (3036vf.csv, 3036ee.csv.gz);
 // unknown_query_kind otherwise.
-// `truth_json`: an array of booleans, one a query; it takes the place of labels in the rows.
+// `truth_json` is a file with an array of booleans, one a query, which replace labels in the rows.
 Expected<std::vector<LabelledQuery>> read_queries(
     const std::filesystem::path& csv,
     const std::optional<std::filesystem::path>& truth_json = std::nullopt);

@@ -8,7 +8,7 @@
 
 namespace assay::corpus {
 
-// Those of read_bytes and parse_json; wrong_type when it is not an array of booleans.
+// Problems: those of read_bytes and parse_json; wrong_type when it is not an array of booleans.
 Expected<std::vector<bool>> read_truths(const std::filesystem::path& path);
 
 }  // namespace assay::corpus

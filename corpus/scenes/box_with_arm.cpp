@@ -21,13 +21,14 @@ constexpr double arc = bend_radius * pi / 2;
 constexpr double fixed_length = out + up + over + 3 * arc;
 constexpr double shoulder = 1.7;  // height from which the arm goes straight down
 
-// A place on the arm's middle line in the plane y = 0: its point, its direction, and the direction
-// that continues the wall's +z, all as (x, z).
+// A place on the arm's middle line, which lies in the plane y = 0: its point, its direction, and
+// the direction that continues the wall's +z. All are (x, z).
 struct Station {
   double x, z, direction_x, direction_z, side_x, side_z;
 };
 
-// s in [0, fixed_length]: out of the wall at (-1, 0), up, over the lid, down to the shoulder.
+// The station at a length s in [0, fixed_length] along the line: out of the wall at (-1, 0), up,
+// over the lid, down to the shoulder.
 Station station_at(double s) {
   double x = -1, z = 0, turn = 0;  // turn: how far the direction has gone from -x over +z to +x
   const std::array<double, 3> straight = {out, up, over};
@@ -52,7 +53,7 @@ Station station_at(double s) {
 
 constexpr int edges_across_arm(int b) { return b < 3 ? 1 : b / 3; }
 
-// The perimeter of a square of k x k edges in 4 k steps, clockwise from its first corner:
+// The perimeter of a square of k x k edges in 4 k steps, clockwise from its first corner, which is
 // right-handed about the arm's direction.
 std::vector<std::array<int, 2>> perimeter(int k) {
   std::vector<std::array<int, 2>> points;
@@ -63,10 +64,10 @@ std::vector<std::array<int, 2>> perimeter(int k) {
   return points;
 }
 
-// A block of k edges in the middle of the 3 b edges of a side.
+// The first edge of a block of k in the middle of the 3 b edges of a side.
 constexpr int first_of_block(int b, int k) { return (3 * b - k) / 2; }
 
-// Vertices of the box by lattice place, 0 ... 3 b on each axis.
+// The vertices of the box by their lattice place, 0 ... 3 b on each axis.
 class BoxSurface {
  public:
   BoxSurface(MeshMaker& maker, int b) : maker_(maker), b_(b) {}
@@ -81,7 +82,7 @@ class BoxSurface {
     return known->second;
   }
 
-  // One side, without the block in its middle that is `open` edges wide.
+  // Adds one side, without the block in its middle that is `open` edges wide.
   void side(std::size_t axis, bool high, int open) {
     const int first = first_of_block(b_, open);
     const auto in_block = [&](int i) { return i >= first && i < first + open; };
@@ -110,7 +111,7 @@ class BoxSurface {
   std::map<std::array<int, 3>, std::int32_t> known_;
 };
 
-// A ring of the arm around a station.
+// Adds a ring of the arm around a station.
 std::vector<std::int32_t> add_ring(MeshMaker& maker, const Station& at, int k) {
   std::vector<std::int32_t> ring;
   for (const auto& [i, j] : perimeter(k)) {
@@ -136,7 +137,7 @@ constexpr int triangle_count(int b) {
   return 106 * b * b + 80 * b * k - 2 * k * k + 12 * k;
 }
 
-// Height of sliding ring i = 1 ... n; the tip is a point, half a width below the last ring.
+// The height of sliding ring i = 1 ... n. The tip is a point, half a width below the last ring.
 double ring_height(int i, int n, double tip) {
   return shoulder + (tip + half_width - shoulder) * i / n;
 }

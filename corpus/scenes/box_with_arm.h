@@ -7,16 +7,17 @@
 namespace assay::corpus {
 
 // The box is [-1,1]^3, the hole |x|, |y| < 1/3 at z = 1; the arm is 0.2 wide. Edges are of about
-// one length all over, 2 / (3 b) for a resolution b >= 1: the arm has k = max(1, b / 3) of them on
-// each of its four sides. 106 b^2 + 80 b k - 2 k^2 + 12 k triangles. When the arm is deepest at
-// most 16 b k + 12 k of them are inside: below 5 % where b is 3 or more (1,204 triangles).
+// one length all over, 2 / (3 b) for a resolution b >= 1, and the arm has k = max(1, b / 3) of
+// them on each of its four sides. There are 106 b^2 + 80 b k - 2 k^2 + 12 k triangles. When the
+// arm is deepest at most 16 b k + 12 k of them are inside: below 5 % if b is 3 or more (1,204
+// triangles).
 struct BoxWithArm {
   explicit BoxWithArm(int size);
 
   Mesh mesh;  // with the arm at `tip_outside`
 
-  // Positions with the tip of the arm at height z over the hole's middle. The arm touches nothing
-  // for deepest_tip <= z <= tip_outside.
+  // The positions when the tip of the arm is at height z over the hole's middle. The arm touches
+  // nothing for deepest_tip <= z <= tip_outside.
   detector::Positions with_tip(double z) const;
 
   static constexpr double tip_outside = 1.25;

@@ -10,7 +10,7 @@ namespace {
 
 using detector::Point;
 
-// Coordinates with the centre at 0, the half-length 1 and the long axis last.
+// Coordinates in which the centre is 0, the half-length 1, and the long axis the last one.
 Point to_unit(const Point& x, const Extent& e) {
   Point u{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -29,7 +29,7 @@ Point from_unit(const Point& u, const Extent& e) {
   return x;
 }
 
-// 1 at 0, 0 with zero slope from |x| = 1 on.
+// 1 at x = 0, and 0 with zero slope from |x| = 1 on.
 double bump(double x_squared) {
   const double w = x_squared < 1 ? 1 - x_squared : 0;
   return w * w;
@@ -57,7 +57,7 @@ Extent extent_of(const detector::PositionsView& positions) {
 Point breathe(const Point& x, double s, const Extent& e) {
   if (s == 0) return x;
   Point u = to_unit(x, e);
-  // Three quarters of a period: out, back, and in, so that two frames already differ.
+  // s runs over three quarters of a period, out, back and in, so that two frames already differ.
   const double length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
   const double height = length > 0 ? u[2] / length : 0;
   const double factor = 1 + sin_turn(0.75 * s) * (0.25 + 0.05 * cos_turn(height));
@@ -113,7 +113,7 @@ Point dent(const Point& x, double s, const Extent&) {
 }
 
 Point pinch(const Point& x, double s, const Extent&) {
-  // One side comes faster, so that the two do not meet vertex on vertex.
+  // One side moves faster, so that the two do not meet vertex on vertex.
   constexpr double width = 0.5, way_up = 0.75, way_down = 0.6;
   const double w = s * bump(x[0] * x[0] / (width * width));
   return {x[0], x[1] > 0 ? x[1] - way_up * w : x[1] + way_down * w, x[2]};

@@ -18,11 +18,12 @@ Extent extent_of(const detector::PositionsView& positions);
 
 using Field = detector::Point (*)(const detector::Point& x, double s, const Extent& extent);
 
-// Away from the centre and back to it along rays, by 25 % and unevenly: a mesh that is positive
-// from the centre stays so, between the frames too.
+// Moves each vertex along its ray from the centre, by about 25 % and unevenly: out, back, and
+// inward. A mesh that is positive from the centre stays so, between the frames too.
 detector::Point breathe(const detector::Point& x, double s, const Extent& extent);
 
-// The long axis becomes an arc, at the end 1.02 turns of a circle: a tube's ends meet.
+// Bends the long axis into an arc, at the end of 1.02 turns of a circle, so that a tube's ends
+// meet.
 detector::Point bend(const detector::Point& x, double s, const Extent& extent);
 
 // Turns each place about the long axis in proportion to its height, one turn from end to end.
@@ -31,14 +32,15 @@ detector::Point twist(const detector::Point& x, double s, const Extent& extent);
 // Shrinks and adds waves that fold the surface over itself.
 detector::Point crumple(const detector::Point& x, double s, const Extent& extent);
 
-// For shapes of this room, in their own coordinates; `extent` is not used.
-// The cap around +z goes down through the sphere and out at the other side.
+// The fields below are for shapes of this room, in their own coordinates; they do not use
+// `extent`.
+// Pushes the cap around +z down through the sphere and out at the other side.
 detector::Point dent(const detector::Point& x, double s, const Extent& extent);
-// The torus's hole is pressed shut at x = 0.
+// Presses the torus's hole shut at x = 0.
 detector::Point pinch(const detector::Point& x, double s, const Extent& extent);
-// The sheet rolls up about a line x = 0.15 until its free edge comes down on it.
+// Rolls the sheet up about a line x = 0.15 until its free edge comes down on it.
 detector::Point fold(const detector::Point& x, double s, const Extent& extent);
-// A waist around z = 0, at the end 40 % as wide.
+// Narrows the tube to a waist around z = 0, at the end 40 % as wide.
 detector::Point narrow(const detector::Point& x, double s, const Extent& extent);
 
 }  // namespace assay::corpus

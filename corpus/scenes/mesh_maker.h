@@ -20,7 +20,7 @@ class MeshMaker {
     corners_.insert(corners_.end(), {a, b, c});
   }
 
-  // Corners counter-clockwise; split along ac.
+  // Takes corners counter-clockwise, and splits the quad along ac.
   void quad(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     triangle(a, b, c);
     triangle(a, c, d);

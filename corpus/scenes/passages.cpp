@@ -9,7 +9,7 @@ using detector::Point;
 
 constexpr double tube_radius = 0.5, tube_half_length = 3;
 
-// 0 at both ends of the period, exactly, and 1 in its middle.
+// Exactly 0 at both ends of the period, and 1 in its middle.
 double there_and_back(double s) { return sin_turn(s / 2); }
 
 }  // namespace
@@ -17,7 +17,8 @@ double there_and_back(double s) { return sin_turn(s / 2); }
 Point turn_inside_out(const Point& x, double s, const Extent&) {
   constexpr double roll = 0.3;  // radius of the rolled rim
   constexpr double rim = pi * roll, length = 2 * tube_half_length;
-  // The rim is at this height of the rest shape; from the upper end to beyond the lower one.
+  // The rim is at this height of the rest shape, which goes from the upper end to beyond the lower
+  // one.
   const double fold = tube_half_length - (length + rim) * there_and_back(s);
   const double beyond = x[2] - fold;
   if (beyond <= 0) return x;

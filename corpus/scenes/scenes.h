@@ -1,8 +1,9 @@
 // Kinematic scenes: deforming meshes of any size and number of frames. No physics.
 //
-// Deterministic: the same name and options give the same doubles on every platform; sines and
-// cosines are the room's own (see trigonometry.h), all else is + - * / and sqrt. Closed scenes are
-// cycles with outward normals, and frame 0 of every scene is free of contact.
+// They are deterministic: the same name and options give the same doubles on every platform,
+// because sines and cosines are the room's own (see trigonometry.h) and all else is + - * / and
+// sqrt. Closed scenes are cycles with outward normals, and frame 0 of every scene is free of
+// contact.
 #pragma once
 
 #include <optional>
@@ -21,21 +22,23 @@ struct SceneInfo {
   int default_frames;
   bool closed;      // of its own shape: every edge is matched
   bool takes_mesh;  // may be applied to a user's mesh
-  // From here on what is said of contacts holds: with fewer, steps cut corners of the motion.
+  // With at least so many frames, what is said of contacts holds; with fewer, steps cut corners of
+  // the motion.
   int least_frames = 5;
 };
 
 // All scenes, in the order in which they are listed.
 std::span<const SceneInfo> scenes();
 
-// Frames are equally spaced in the scene's own time; two is one step, one is the rest shape.
+// Frames are equally spaced in the scene's own time. Two frames are one step; one is the rest
+// shape.
 struct SceneOptions {
   int size = 0;    // triangles wanted: the nearest reachable number is used; 0: the default
   int frames = 0;  // 1 or more; 0: the default
   std::optional<Mesh> mesh;  // deform this one in place of the scene's own shape; size is ignored
 };
 
-// unknown_scene (the message lists the names) or wrong_scene_option.
+// Problems: unknown_scene (the message lists the names), wrong_scene_option, too_large.
 Expected<Sequence> make_scene(std::string_view name, const SceneOptions& options);
 
 }  // namespace assay::corpus

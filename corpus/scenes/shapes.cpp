@@ -31,8 +31,8 @@ constexpr std::array<std::array<int, 3>, 20> ico_faces = {
      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 
-// A vertex of a split face: weights of icosahedron corners, by rising corner, zero weights left
-// out. Neighbouring faces make the same key for a vertex on their common edge.
+// A vertex of a split face, as weights of icosahedron corners in the order of the corners, without
+// those that are zero. Neighbouring faces make the same key for a vertex on their common edge.
 using Weights = std::map<int, int>;
 
 Point on_sphere(const Weights& weights) {

@@ -1,19 +1,19 @@
-// Rest shapes of the scenes. `size` is the wanted number of triangles: each shape takes the nearest
-// number that it can have. Closed shapes are cycles with outward normals.
+// Rest shapes of the scenes. `size` is the wanted number of triangles, and each shape takes the
+// nearest number that it can have. Closed shapes are cycles with outward normals.
 #pragma once
 
 #include "corpus/formats/mesh_reader.h"
 
 namespace assay::corpus {
 
-// Unit sphere: an icosahedron with each face split into f x f triangles, 20 f^2.
+// The unit sphere: an icosahedron with each face split into f^2 triangles, 20 f^2 in all.
 Mesh sphere_shape(int size);
 
-// Along z, radius 0.5, length 6, centre at the origin; with m vertices around: 4 m^2 triangles and,
-// with flat caps, 2 m more.
+// A tube along z, radius 0.5, length 6, centre at the origin. With m vertices around it has 4 m^2
+// triangles and, with flat caps, 2 m more.
 Mesh tube_shape(int size, bool capped);
 
-// Around the z axis, radii 1 and 0.4: 4 m^2 triangles with m vertices around the thin way.
+// A torus around the z axis, radii 1 and 0.4: 4 m^2 triangles with m vertices around the thin way.
 Mesh torus_shape(int size);
 
 // The square [-1,1]^2 in the plane z = 0, normal +z: 2 k^2 triangles.
@@ -25,7 +25,7 @@ Mesh ribbon_shape(int size);
 // Both meshes as one; b is moved by `offset` along x. Triangles of a come first.
 Mesh side_by_side(const Mesh& a, const Mesh& b, double offset);
 
-// The n >= least whose count(n) is nearest to size; count rises with n.
+// The n >= least whose count(n) is nearest to size. REQUIRES that count rises with n.
 template <class Count>
 int nearest_resolution(int size, int least, Count count) {
   int n = least;

@@ -1,5 +1,5 @@
-// Sine and cosine of a part of a turn, from + - * and floor only: libraries differ in the last bit
-// of std::sin, and a scene must be the same mesh everywhere.
+// Sine and cosine of a part of a turn, from + - * / and floor only. Libraries differ in the last
+// bit of std::sin, and a scene must be the same mesh everywhere.
 #pragma once
 
 namespace assay::corpus {

@@ -24,7 +24,7 @@ bool embedded_at(const PositionsView& x_t0, const PositionsView& x_t1,
   return !any_contact_at(Instant(x_t0, x_t1, t), triangles, jobs);
 }
 
-// No tree: the axis rung of contact.h ends a query as fast as a tree would find it.
+// Uses no tree, because the axis rung of contact.h ends a query as fast as a tree would find it.
 bool meets_primitive(const PositionsView& x_t0, const PositionsView& x_t1,
                      const TrianglesView& triangles, const detector::ViewPrimitive& primitive) {
   require_exact_processor_state();

@@ -6,20 +6,21 @@
 
 namespace assay::oracle {
 
-// No two triangles in contact (detector/README.md, The laws): pairs that share a vertex or an edge
-// meet nowhere beyond it, and no two triangles have the same three vertices. REQUIRES indices in
-// range, finite positions. 0.1 to 0.4 s for 20,000 triangles.
+// True when no two triangles are in contact, as detector/README.md, The laws, defines it: pairs
+// that share a vertex or an edge meet nowhere beyond it, and no two triangles have the same three
+// vertices. REQUIRES indices in range, finite positions. 0.1 to 0.4 s for 20,000 triangles.
 bool embedded(const detector::PositionsView& x, const detector::TrianglesView& triangles,
               int jobs = 1);
 
-// At any rational time of a step.
+// The same question at time t of the step from x_t0 to x_t1.
 bool embedded_at(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
                  const detector::TrianglesView& triangles, const RationalTime& t, int jobs = 1);
 
-// Whether some triangle meets the primitive at some t in [0,1]; touching counts. A point is tested
-// against the triangles; a segment by its ends against the triangles, by itself against the edges,
-// and for piercing at t=0: a segment that is in the inside of a triangle at some time was there at
-// the start, or came in through one of these.
+// True when some triangle meets the view primitive at some t in [0,1]; touching counts. A
+// view-point is tested against the triangles. Of a segment the two ends are tested against the
+// triangles, the segment itself against the edges, and at t=0 also whether it pierces a triangle.
+// That is enough, because a segment that passes through the inside of a triangle at some time did
+// so at t=0 already or came in by one of the other contacts.
 bool meets_primitive(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
                      const detector::TrianglesView& triangles,
                      const detector::ViewPrimitive& primitive);

@@ -20,8 +20,9 @@ mpq_class times_power_of_two(mpq_class x, int exponent) {
   return x;
 }
 
-// The double nearest to x towards zero, and its neighbour away from zero when they differ. GMP
-// truncates, and what is too small for a double becomes 0 or a smallest double.
+// lo = hi = x if x is a double. Otherwise lo and hi are the two neighbours of the double to which
+// GMP truncates x (what is too small for a double becomes 0 or a smallest double), so they enclose
+// x.
 void enclose(const mpq_class& x, double& lo, double& hi) {
   lo = hi = x.get_d();
   if (mpq_class(lo) == x) return;
@@ -42,7 +43,7 @@ Instant::Instant(const detector::PositionsView& x_t0, const detector::PositionsV
   const auto count = static_cast<std::int32_t>(x_t0.rows());
   std::vector<detector::MovingPoint> paths;
   paths.reserve(count);
-  // At an end only that end counts: the other must not make the integers longer.
+  // At t=0 and t=1 the other end is not used: it must not make the integers longer.
   const bool at_start = t.numerator == 0, at_end = t.numerator == t.denominator;
   for (std::int32_t v = 0; v < count; ++v) {
     paths.push_back(detector::moving_point(at_end ? x_t1 : x_t0, at_start ? x_t0 : x_t1, v));

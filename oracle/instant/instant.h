@@ -12,23 +12,25 @@ namespace assay::oracle {
 
 using IntegerPoint = std::array<Integer, 3>;
 
-// Vertex v is at points()[v] * unit, with one unit for all: 2^exponent() / denominator of the time.
-// Signs of homogeneous polynomials of differences are those of the true places.
+// Vertex v is at points()[v] * unit. The unit, 2^exponent_ / denominator_, is the same for all
+// vertices, so a homogeneous polynomial of differences of points() has the sign that it has at the
+// true places.
 class Instant {
  public:
-  // Vertices at rest at x. REQUIRES finite coordinates.
+  // The vertices at rest at x. REQUIRES finite coordinates.
   explicit Instant(const detector::PositionsView& x);
-  // Vertices on their way from x_t0 to x_t1. REQUIRES a time in [0,1] with denominator < 2^31.
+  // The vertices at time t of the step from x_t0 to x_t1. REQUIRES finite coordinates, and t in
+  // [0,1] with a denominator below 2^31.
   Instant(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
           const RationalTime& t);
 
   const std::vector<IntegerPoint>& points() const { return points_; }
-  // A double in the units of points(): a rational.
+  // A coordinate, given as a double or a rational, in the units of points().
   mpq_class in_units(double coordinate) const;
   mpq_class in_units(const mpq_class& coordinate) const;
 
-  // Doubles that enclose the place of a vertex; both bounds are the coordinate where it is a
-  // double.
+  // A box of doubles that holds the place of a vertex. If a coordinate of the place is a double,
+  // both bounds are that double.
   const Box& box(std::int32_t vertex) const { return boxes_[vertex]; }
   template <class Vertices>
   Box box_of(const Vertices& vertices) const {

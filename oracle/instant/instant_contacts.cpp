@@ -61,7 +61,7 @@ std::vector<std::uint8_t> touched_at(const Instant& instant,
   const MeshFeatures mesh_parts = mesh_features(triangles), fan_parts = mesh_features(ghosts);
   const FeatureIndex mesh(mesh_parts, boxes_at(instant)), fans(fan_parts, boxes_at(instant));
   const FeatureTests tests = tests_at(instant);
-  // Only ever set, so that the order of threads does not matter.
+  // Elements are only ever set to 1, so the order of threads does not matter.
   std::vector<std::atomic<std::uint8_t>> touched(count);
   for_each_contact(mesh, mesh, tests, {jobs},
                    {[&](std::int32_t s, std::int32_t t) {

@@ -83,12 +83,12 @@ std::vector<std::int32_t> pieces(const MeshFeatures& all,
   return number;
 }
 
-// Layers of the untouched triangles: one winding number for each piece, in the field of its
-// component.
+// The layers of the untouched triangles. They are found once for each piece, in the winding
+// numbers of its component.
 std::vector<std::optional<Layer>> layers(const Instant& instant, const detector::Triangles& all,
                                          const LayerState& state) {
   std::vector<std::vector<Eigen::Index>> members;
-  std::vector<std::int32_t> place;  // in its component
+  std::vector<std::int32_t> place;  // of each triangle in its component
   for (std::size_t t = 0; t < state.component.size(); ++t) {
     const auto c = static_cast<std::size_t>(state.component[t]);
     if (c >= members.size()) members.resize(c + 1);

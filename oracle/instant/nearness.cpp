@@ -40,8 +40,8 @@ mpq_class squared_distance_to(const Place& p, const Place& a, const Place& b) {
   return squared(minus(to, along({}, edge, share)));
 }
 
-// The squared distance is a convex function of the two places on the edges: it is least at an end
-// of one of them, or where both derivatives are 0.
+// The squared distance is a convex function of the two places on the edges, so it is least at an
+// end of one of them, or where both derivatives are 0.
 mpq_class squared_distance_of_edges(const Place& a, const Place& b, const Place& c,
                                     const Place& d) {
   mpq_class least = std::min({squared_distance_to(a, c, d), squared_distance_to(b, c, d),
@@ -56,7 +56,8 @@ mpq_class squared_distance_of_edges(const Place& a, const Place& b, const Place&
   return std::min(least, squared(minus(along(a, u, s), along(c, v, t))));
 }
 
-// Above the inside of the face it is the distance to the plane, else that to an edge.
+// If the point is above the inside of the face, this is its distance to the plane, else that to an
+// edge.
 mpq_class squared_distance_to_face(const Place& p, const Place& a, const Place& b, const Place& c) {
   mpq_class least = std::min(
       {squared_distance_to(p, a, b), squared_distance_to(p, b, c), squared_distance_to(p, c, a)});
@@ -71,7 +72,7 @@ mpq_class squared_distance_to_face(const Place& p, const Place& a, const Place& 
   return std::min(least, mpq_class(height * height / length));
 }
 
-// The box, wider by the distance: the boxes of two features that are nearer meet.
+// The box, widened by the distance, so that the boxes of two features that are nearer meet.
 Box widened(Box box, double distance) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {

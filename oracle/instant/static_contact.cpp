@@ -4,7 +4,7 @@ namespace assay::oracle {
 
 namespace {
 
-// The four points of a query; notation and rule of four_points.h, at one time.
+// The four points of a query at one time, with the notation and the rule of four_points.h.
 struct Rest {
   std::array<const IntegerPoint*, 4> x;
   int first_group;
@@ -14,8 +14,8 @@ int sign_for(const Rest& q, int i, const Integer& lam) {
   return i < q.first_group ? sgn(lam) : -sgn(lam);
 }
 
-// Points of one line: the groups miss each other when they are strictly ordered along an axis along
-// which the points differ.
+// Whether the groups meet if all points lie on one line. They miss each other when they are
+// strictly ordered along an axis along which the points differ.
 bool meet_on_a_line(const Rest& q) {
   for (int k = 0; k < 3; ++k) {
     bool some = false, before = true, after = true;

@@ -1,7 +1,8 @@
-// Features at rest: whether they meet, by signs of integer determinants alone.
+// Whether features at rest meet, decided by signs of integer determinants alone.
 //
-// Complete like contact.h (degenerate, coplanar, collinear, coinciding features), and faster on
-// what is degenerate: 1 to 5 us, as no time has to be found.
+// The tests are as complete as those of contact.h: they decide degenerate, coplanar, collinear and
+// coinciding features too. On degenerate ones they are faster, 1 to 5 us, because no time has to
+// be found.
 #pragma once
 
 #include <span>
@@ -14,17 +15,18 @@ IntegerPoint operator-(const IntegerPoint& a, const IntegerPoint& b);
 IntegerPoint cross(const IntegerPoint& a, const IntegerPoint& b);
 Integer dot(const IntegerPoint& a, const IntegerPoint& b);
 
-// Vertices named by index into the points.
+// Features name their vertices by index into the points.
 using StaticPoints = std::span<const IntegerPoint>;
 using StaticEdge = std::array<std::int32_t, 2>;
 using StaticFace = std::array<std::int32_t, 3>;
 
-// Closed features; a zero-area triangle is the segment or point that it has become.
+// Whether two closed features have a point in common. A zero-area triangle is the segment or point
+// that it has become.
 bool vertex_meets_face(StaticPoints x, std::int32_t vertex, const StaticFace& face);
 bool edges_meet(StaticPoints x, const StaticEdge& a, const StaticEdge& b);
 
-// As segment_pierces_triangle of contact.h: ends strictly on opposite sides of the plane, line
-// strictly inside all three edges.
+// The condition of segment_pierces_triangle of contact.h: the ends lie strictly on opposite sides
+// of the plane of the face, and the line passes strictly inside all three of its edges.
 bool edge_pierces_face(StaticPoints x, const StaticEdge& edge, const StaticFace& face);
 
 }  // namespace assay::oracle

@@ -11,8 +11,8 @@ namespace {
 
 using detector::Point;
 
-// Directions (2^20, k, k^2), k = 1, 2, ...: no plane through the origin holds three of them, so
-// each edge of the cycle spoils at most two, and some direction meets no edge.
+// Directions of rays are (2^20, k, k^2), k = 1, 2, ... No plane through the origin holds three of
+// them, so each edge of the cycle spoils at most two, and some direction meets no edge.
 constexpr int kRun = 20;
 
 IntegerPoint direction_vector(int k) { return {Integer(1) << kRun, Integer(k), Integer(k) * k}; }
@@ -31,7 +31,8 @@ double rise(double run, double s) {
 
 }  // namespace
 
-// A start at point / weight in the units of the instant, inside a box of doubles.
+// A ray starts at point / weight in the units of the instant; the box of doubles `start` holds
+// that place.
 struct WindingField::Ray {
   IntegerPoint point;
   Integer weight;
@@ -74,7 +75,7 @@ std::optional<int> WindingField::at(const RationalPoint& point) const {
   for (int k = 0; k < 3; ++k) {
     scaled[k] = instant_.in_units(point[k]);
     ray.weight *= scaled[k].get_den();
-    // Truncated, so the place is at this double or beyond it, before the next.
+    // get_d truncates, so the place is at this double or beyond it, before the next one.
     const double d = point[k].get_d();
     ray.start.min[k] = std::nextafter(d, -std::numeric_limits<double>::infinity());
     ray.start.max[k] = up(d);
@@ -110,7 +111,8 @@ Layer WindingField::layer_of(std::int32_t triangle) const {
   }
 }
 
-// Nothing when the line of the ray meets an edge, or lies in the plane of a triangle.
+// The sum of the crossings ahead, without those of triangle `skipped`. Nothing when the line of
+// the ray meets an edge, or lies in the plane of a triangle.
 std::optional<int> WindingField::crossings(const Ray& ray, int direction,
                                            std::int32_t skipped) const {
   const IntegerPoint d = direction_vector(direction);
@@ -132,7 +134,8 @@ std::optional<int> WindingField::crossings(const Ray& ray, int direction,
               ca = sgn(determinant(d, c, a));
     if (std::min({ab, bc, ca}) < 0 && std::max({ab, bc, ca}) > 0) continue;
     if (ab != 0 && ab == bc && bc == ca) {
-      // The line crosses the inside; d.N has the sign ab. Ahead when a.N has it too.
+      // The line crosses the inside, and d.N has the sign ab. The crossing is ahead when a.N has
+      // it too.
       if (sgn(determinant(a, b, c)) == ab) w += ab;
       continue;
     }

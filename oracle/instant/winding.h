@@ -1,4 +1,4 @@
-// Exact winding numbers of a cycle: by counting how often a ray crosses it.
+// Exact winding numbers of a cycle, found by counting how often a ray crosses it.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,8 @@
 
 namespace assay::oracle {
 
-// (w just inside, w just outside) of a triangle: always (w, w - 1).
+// The winding numbers beside a triangle: `inside` just behind it, `outside` just in front, where
+// the normal points. Always (w, w - 1).
 struct Layer {
   int inside = 0, outside = 0;
   friend auto operator<=>(const Layer&, const Layer&) = default;
@@ -17,22 +18,23 @@ struct Layer {
 
 using RationalPoint = std::array<mpq_class, 3>;
 
-// The winding number w of a cycle at one instant: 0 far away, and less by 1 behind each triangle
-// that is crossed in the direction of its normal. Zero-area triangles bound nothing and add
-// nothing. A ray runs nearly along the x axis, so a query costs a few determinants (10 to 100 us)
-// besides one box tree for all.
+// The winding number w of a cycle at one instant: w is 0 far away, and drops by 1 across each
+// triangle in the direction of its normal. Zero-area triangles bound nothing and add nothing. A
+// query follows a ray that runs nearly along the x axis, so it costs a few determinants (10 to 100
+// us); one box tree serves all queries.
 class WindingField {
  public:
-  // REQUIRES a cycle (every directed edge as often as its reverse), indices in range; the instant
-  // outlives the field.
+  // REQUIRES a cycle (every directed edge as often as its reverse), indices in range. The instant
+  // has to outlive the field.
   WindingField(const Instant& instant, detector::Triangles cycle);
 
-  // Nothing when the point is on a triangle. Exact for every finite double and every rational.
+  // The winding number at the point; nothing when the point is on a triangle. Exact for every
+  // finite double and every rational.
   std::optional<int> at(const detector::Point& point) const;
   std::optional<int> at(const RationalPoint& point) const;
 
-  // Layer of a triangle of the cycle. REQUIRES that its area is not zero and that no other triangle
-  // contains its centroid, as is so for one that is in no contact.
+  // The layer of a triangle of the cycle. REQUIRES that its area is not zero and that no other
+  // triangle contains its centroid; none does when the triangle is in no contact.
   Layer layer_of(std::int32_t triangle) const;
 
  private:

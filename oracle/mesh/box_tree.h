@@ -1,4 +1,4 @@
-// Exact box cull: which of many closed boxes meet a given one.
+// Exact box cull: finds which of many closed boxes meet a given one.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@ struct Box {
   detector::Point min, max;
 };
 
-// The box of points over the whole step: their paths are segments between the two ends.
+// The box that holds some vertices over the whole step. Their places at the two ends suffice,
+// because each path is the segment between these.
 template <class Vertices>
 Box swept_box(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
               const Vertices& vertices) {
@@ -29,8 +30,8 @@ Box swept_box(const detector::PositionsView& x_t0, const detector::PositionsView
   return box;
 }
 
-// A packed R-tree (Boost.Geometry). Its only verdicts are comparisons of doubles; sums decide the
-// layout, never an answer. Many threads may ask at once.
+// A packed R-tree (Boost.Geometry). Its answers rest on comparisons of doubles alone; rounded sums
+// decide its layout, never an answer. Many threads may ask at once.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box>& boxes);

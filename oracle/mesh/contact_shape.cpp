@@ -12,7 +12,7 @@ namespace {
 using detector::MovingPoint;
 using detector::TimeEnclosure;
 
-// Zero exactly where the polynomial, of degree at most 3, has a root of multiplicity 2 or more.
+// Zero exactly when the polynomial, of degree at most 3, has a root of multiplicity 2 or more.
 Integer discriminant(const IntegerPolynomial& f) {
   if (f.degree() < 2) return 1;
   const Integer &d = f.c[0], &c = f.c[1], &b = f.c[2];
@@ -28,8 +28,8 @@ IntegerPolynomial derivative(const IntegerPolynomial& f) {
   return d;
 }
 
-// F has a root of multiplicity 2 or more, which is a rational number for a cubic with rational
-// coefficients, and its derivative a zero in the enclosure.
+// True when F has a root of multiplicity 2 or more and its derivative a zero in the enclosure.
+// Such a root is a rational number, because F is a cubic with rational coefficients.
 bool has_double_root_at(const IntegerPolynomial& f, const TimeEnclosure& first) {
   if (discriminant(f) != 0) return false;
   const IntegerPolynomial slope = derivative(f);
@@ -42,7 +42,8 @@ bool meets_edge_at(const MovingPoint& p, const MovingPoint& a, const MovingPoint
   return answer.contact && answer.first == first;
 }
 
-// Of what is not parallel; at_end: whether the contact is at the end of a feature.
+// The shape of a contact whose edges are not parallel. at_end() says whether the contact is at the
+// end of a feature.
 template <class AtEnd>
 ContactShape shape_by(const FourPoints& points, const TimeEnclosure& first, const AtEnd& at_end) {
   ContactPolynomials polynomials(points);

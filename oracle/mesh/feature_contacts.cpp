@@ -25,7 +25,7 @@ void judge(const Holders& of_a, const Holders& of_b, const PairVisitor& visitor,
   }
 }
 
-// Vertices and edges of a against faces of b.
+// Tests vertices and edges of a against faces of b.
 void against_faces(const FeatureIndex& a, const FeatureIndex& b, const FeatureTests& tests,
                    const Workers& workers, const PairVisitor& visitor) {
   const MeshFeatures &fa = a.features(), &fb = b.features();

@@ -7,7 +7,7 @@
 
 namespace assay::oracle {
 
-// Exact tests of features given by their vertices.
+// Exact tests of two features, each given by its vertices: whether they meet.
 struct FeatureTests {
   std::function<bool(std::int32_t, const Face&)> vertex_face;
   std::function<bool(const Edge&, const Edge&)> edge_edge;
@@ -15,16 +15,17 @@ struct FeatureTests {
 };
 
 struct PairVisitor {
-  // Features are tested only where some pair of their triangles is wanted. Both are called from
-  // several threads when there are several jobs.
+  // Says whether a contact of these two triangles matters. Two features are tested only if it does
+  // for some pair of triangles that hold them. With several jobs both functions are called from
+  // several threads.
   std::function<bool(std::int32_t of_a, std::int32_t of_b)> wanted;
-  // A pair may be met many times, by different features.
+  // Called for each wanted pair in contact; often several times, because different features meet.
   std::function<void(std::int32_t of_a, std::int32_t of_b, int worker)> meet;
 };
 
-// Contact as detector/README.md, The laws, defines it: closed faces of the two triangles that share
-// no vertex meet. With a and b the same object, triangles with the same three vertices are in
-// contact too.
+// Finds the pairs in contact, a triangle of a with one of b, as detector/README.md, The laws,
+// defines contact: closed faces of the two triangles that share no vertex meet. If a and b are the
+// same object, triangles with the same three vertices are in contact too.
 void for_each_contact(const FeatureIndex& a, const FeatureIndex& b, const FeatureTests& tests,
                       const Workers& workers, const PairVisitor& visitor);
 

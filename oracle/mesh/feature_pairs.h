@@ -1,6 +1,6 @@
-// Candidate feature pairs of two meshes (or of one with itself): those whose boxes meet and that
-// share no vertex. They are found in several threads and handed to a visitor one after the other,
-// never stored. The exact test of each is the caller's.
+// Candidate feature pairs of two meshes, or of one mesh with itself: pairs whose boxes meet and
+// that share no vertex. Several threads find them and hand each to a visitor as it is found; none
+// is stored. The exact test of a pair is the caller's.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,11 @@
 
 namespace assay::oracle {
 
-// The box of a feature: of one, two or three vertices.
+// Gives the box of a feature from its one, two or three vertices.
 using BoxOfVertices = std::function<Box(std::span<const std::int32_t>)>;
 
-// Boxes over the whole step. With the same positions twice: boxes at rest. REQUIRES that the
-// positions outlive it.
+// Boxes over the whole step, or boxes at rest if the same positions are given twice. REQUIRES that
+// the positions outlive the result.
 BoxOfVertices swept_boxes(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1);
 
 // The features of one mesh, found by their boxes. The trees are built when first asked for. One
@@ -40,26 +40,27 @@ class FeatureIndex {
   mutable std::unique_ptr<BoxTree> faces_, edges_;
 };
 
-// The place of each feature in its list of the MeshFeatures; worker as in parallel_chunks.h.
+// Takes the place of each of the two features in its list of the MeshFeatures; `worker` is as in
+// parallel_chunks.h.
 using VisitFeatures = std::function<void(std::size_t item, std::size_t other, int worker)>;
 
 struct Workers {
   int jobs = 1;
-  StopGate* gate = nullptr;  // no further pair once it has stopped
+  StopGate* gate = nullptr;  // once it has stopped, no further pair is visited; null: no stop
 };
 
-// Vertices of a with faces of b.
+// Visits vertices of a with faces of b.
 void for_each_vertex_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
                           const VisitFeatures& visit);
-// Edges of a with edges of b; each pair once, the lower edge first, when a and b are the same
-// object.
+// Visits edges of a with edges of b. If a and b are the same object, each pair comes once, the
+// lower edge first.
 void for_each_edge_edge(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
                         const VisitFeatures& visit);
-// Edges of a with faces of b.
+// Visits edges of a with faces of b.
 void for_each_edge_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
                         const VisitFeatures& visit);
-// Faces of a with faces of b, shared vertices or not; each pair once, the lower face first, when a
-// and b are the same object.
+// Visits faces of a with faces of b, also faces that share vertices. If a and b are the same
+// object, each pair comes once, the lower face first.
 void for_each_face_face(const FeatureIndex& a, const FeatureIndex& b, const Workers& workers,
                         const VisitFeatures& visit);
 

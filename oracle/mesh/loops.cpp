@@ -24,7 +24,7 @@ std::vector<DirectedEdge> unmatched(std::vector<DirectedEdge> edges) {
   std::sort(edges.begin(), edges.end());
   std::sort(reversed.begin(), reversed.end());
   std::vector<DirectedEdge> rest;
-  // Of multisets: an edge used k times more one way is kept k times.
+  // This is a difference of multisets: an edge used k times more one way is kept k times.
   std::set_difference(edges.begin(), edges.end(), reversed.begin(), reversed.end(),
                       std::back_inserter(rest));
   return rest;
@@ -41,14 +41,15 @@ std::vector<DirectedEdge> unmatched_edges(const detector::TrianglesView& triangl
 std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles) {
   const std::vector<DirectedEdge> edges = unmatched_edges(triangles);
   std::vector<std::uint8_t> used(edges.size(), 0);
-  // The edges that leave a vertex are one range, and the used ones its front part, as the lowest is
-  // always taken; taken[i] is their number where i is the first place of the range.
+  // The edges that leave a vertex are one range of `edges`. The used ones are its front part,
+  // because the lowest is always taken. If i is the first place of the range, taken[i] is their
+  // number.
   std::vector<std::size_t> taken(edges.size() + 1, 0);
   auto first_from = [&](std::int32_t vertex) {
     const auto at = std::lower_bound(edges.begin(), edges.end(), DirectedEdge{vertex, -1});
     return static_cast<std::size_t>(at - edges.begin());
   };
-  // edges.size() when no unused edge leaves the vertex.
+  // The place of the lowest unused edge that leaves the vertex; edges.size() when there is none.
   auto lowest_from = [&](std::int32_t vertex) {
     const std::size_t first = first_from(vertex), i = first + taken[first];
     return i < edges.size() && edges[i][0] == vertex ? i : edges.size();

@@ -1,7 +1,7 @@
-// What keeps a mesh from being a cycle: its unmatched edges, and the ghosts that close it.
+// What keeps a mesh from being a cycle, its unmatched edges; and the ghosts that close it.
 //
-// A directed edge (u,v) that is used k times more than (v,u) is unmatched k times. Every vertex has
-// as many unmatched edges that enter it as leave it (the boundary of any set of triangles is a
+// A directed edge (u,v) that is used k times more than (v,u) is unmatched k times. Every vertex
+// has as many unmatched edges that enter it as leave it (the boundary of any set of triangles is a
 // cycle), so the unmatched edges split into closed walks, whatever the triangles are.
 // An edge from a vertex to itself (a repeated index) matches itself.
 #pragma once
@@ -14,23 +14,25 @@
 namespace assay::oracle {
 
 using DirectedEdge = std::array<std::int32_t, 2>;  // from, to
-using Loop = std::vector<std::int32_t>;            // vertices in order; the last leads to the first
+using Loop = std::vector<std::int32_t>;            // in order; the last vertex leads to the first
 
-// Each as often as it is unmatched; ascending. n log n.
+// Each unmatched edge, as often as it is unmatched; ascending. n log n.
 std::vector<DirectedEdge> unmatched_edges(const detector::TrianglesView& triangles);
 
-// Closed walks that use each unmatched edge once. A walk starts with the lowest unused edge and
-// goes on with the lowest unused one at its end, also through repeated vertices, and also through
-// its start as long as an unused edge leaves it. Empty for a cycle. n log n.
+// Splits the unmatched edges into closed walks that use each once. A walk starts with the lowest
+// unused edge and goes on with the lowest unused edge that leaves its end. It goes on through
+// repeated vertices, and through its own start as long as an unused edge leaves that. Empty for a
+// cycle. n log n.
 std::vector<Loop> boundary_loops(const detector::TrianglesView& triangles);
 
-// One ghost for each edge (u,v) of each loop: (v, u, first_apex + number of the loop). With the
-// triangles that the loops are of they make a cycle.
+// One ghost for each edge (u,v) of each loop: (v, u, first_apex + number of the loop). Together
+// with the triangles whose loops these are, the ghosts make a cycle.
 detector::Triangles ghost_triangles(const std::vector<Loop>& loops, std::int32_t first_apex);
 
-// True when triangles and ghosts together are a cycle, and each ghost holds one unmatched edge of
-// the triangles, reversed, and one apex that no triangle holds: the given fans close the mesh, with
-// one ghost for each unmatched edge. Which walks the fans follow is not asked: any split is valid.
+// True when the given fans close the mesh with one ghost for each unmatched edge: triangles and
+// ghosts together are a cycle, and each ghost holds one unmatched edge of the triangles, reversed,
+// and one apex that no triangle holds. Any split of the edges into fans is valid, so it is not
+// asked which walks the fans follow.
 bool closes(const detector::TrianglesView& triangles, const detector::TrianglesView& ghosts);
 
 }  // namespace assay::oracle

@@ -13,9 +13,10 @@ namespace assay::oracle {
 using Edge = std::array<std::int32_t, 2>;  // vertices, lower first
 using Face = std::array<std::int32_t, 3>;  // vertices, in the order of the mesh
 
-// For each item the triangles that hold it, ascending; all lists in one array.
+// For each item (a vertex or an edge) the triangles that hold it, ascending. All lists lie in one
+// array: that of item i begins at first[i].
 struct Incidence {
-  std::vector<std::size_t> first;  // one more than there are items
+  std::vector<std::size_t> first;  // by item; one more at the end: the end of the last list
   std::vector<std::int32_t> triangle;
   std::span<const std::int32_t> of(std::size_t item) const {
     return {triangle.data() + first[item], triangle.data() + first[item + 1]};
@@ -30,10 +31,10 @@ struct MeshFeatures {
   Incidence triangles_of_edge;         // by place in `edges`
 };
 
-// A triangle with a repeated index has the edges that are left of it. n log n.
+// A triangle that repeats an index has only its edges between different vertices. n log n.
 MeshFeatures mesh_features(const detector::TrianglesView& triangles);
 
-// Pairs of triangles with the same three vertices.
+// All pairs of triangles with the same three vertices.
 std::vector<detector::TrianglePair> same_vertices_pairs(const std::vector<Face>& faces);
 
 inline bool holds(const Face& face, std::int32_t vertex) {

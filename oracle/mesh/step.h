@@ -1,9 +1,9 @@
 // The exact pair set of one step, with the first contact time of each pair.
 //
-// Works from the mesh alone: exact box cull of features, then the exact query of contact.h; every
-// feature contact is spread to all triangle pairs that hold the two features. Knows no view sets,
-// no state, no culling. Candidates are judged as they are found and never stored: memory is that
-// of the mesh, two box trees and the contacts.
+// It is found from the mesh alone; view sets, state and culling play no part. An exact box cull
+// finds candidate pairs of features, the exact query of contact.h judges them, and a contact of
+// two features counts for all pairs of triangles that hold them. Candidates are judged as they are
+// found and never stored: memory is that of the mesh, one box tree and the contacts.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace assay::oracle {
 
-// Which features a detector tests, where these are not all.
+// Which pairs of features a detector tests; some detectors test one kind alone.
 enum class AskedFeatures : std::uint8_t { all, vertex_face, edge_edge };
 
 struct JudgeOptions {
@@ -24,20 +24,21 @@ struct JudgeOptions {
 };
 
 struct StepJudgement {
-  // free, collision, or undecided (stopped: `pairs` holds what was found until then).
+  // free or collision; undecided when the judgement was stopped, and then `pairs` holds what was
+  // found until then.
   detector::Answer answer = detector::Answer::undecided;
-  bool complete = false;
-  detector::TimeEnclosure first;             // when answer is collision and complete
-  std::vector<detector::PairContact> pairs;  // ascending by pair; least time of each
-  // Where one kind of features is asked: the pairs of which two features of that kind meet, and
-  // when first. Edges that pierce a face at t=0 are left out, and so are triangles with the same
-  // three vertices. Empty where all are asked.
+  bool complete = false;                     // false: the judgement was stopped
+  detector::TimeEnclosure first;             // the least time of all; set for a collision
+  std::vector<detector::PairContact> pairs;  // ascending by pair, each with its least time
+  // If JudgeOptions::features names one kind: the pairs in which two features of that kind meet,
+  // each with the first time at which they do. Edges that pierce a face at t=0 and triangles with
+  // the same three vertices do not count here. Empty when all kinds are asked for.
   std::vector<detector::PairContact> asked_pairs;
   std::uint64_t feature_candidates = 0;  // feature pairs (VF, EE) whose boxes meet
   RungCounts rungs;
 };
 
-// REQUIRES indices in range; positions finite, equal row counts. Two triangles with the same three
+// REQUIRES indices in range, finite positions, equal row counts. Two triangles with the same three
 // vertices are in contact at t=0 by convention.
 StepJudgement judge_step(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
                          const detector::TrianglesView& triangles, const JudgeOptions& options);

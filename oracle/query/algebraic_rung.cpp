@@ -46,7 +46,7 @@ bool contact_at(ContactPolynomials& polynomials, const AlgebraicTimes& times, in
     if (positive && negative) return false;
     if (positive || negative) return true;
   }
-  // All four points on one line: the groups are disjoint when strictly ordered on it.
+  // All four points lie on one line: the groups are disjoint when they are strictly ordered on it.
   for (int axis = 0; axis < 3; ++axis) {
     bool positive = false, negative = false, equal = false;
     for (const IntegerPolynomial& gap : polynomials.gaps(axis)) {

@@ -30,8 +30,8 @@ Polynomial kernel_polynomial(const IntegerPolynomial& p) {
 
 Integer integer(const CGAL::Gmpz& x) { return Integer(x.mpz()); }
 
-// q as a polynomial of w, where time = low + w (high - low) on the interval that isolates a number,
-// times a positive power of the denominators.
+// q as a polynomial of w, where time = low + w (high - low) on the interval that isolates
+// `number`, times a positive power of the denominators.
 IntegerPolynomial on_interval(const IntegerPolynomial& q, const Real& number) {
   const Bound low = number.low(), high = number.high();
   const Integer denominator = integer(low.denominator()) * integer(high.denominator());
@@ -85,8 +85,8 @@ AlgebraicTimes::~AlgebraicTimes() = default;
 
 int AlgebraicTimes::size() const { return static_cast<int>(zeros_->times.size()); }
 
-// Not the kernel's Sign_at_1: when its refinement meets the number itself, a rational that was not
-// known as one, it goes on with an empty interval and throws.
+// Does not use the kernel's Sign_at_1. When its refinement meets the number itself, a rational
+// that was not known as one, that goes on with an empty interval and throws.
 int AlgebraicTimes::sign(const IntegerPolynomial& q, int i) const {
   if (q.is_zero() || q.degree() == 0) return q.is_zero() ? 0 : sgn(q.c[0]);
   const Polynomial kernel_q = kernel_polynomial(q);

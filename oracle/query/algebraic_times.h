@@ -1,6 +1,7 @@
-// Zeros of polynomials in the closed step as exact algebraic numbers, by CGAL's algebraic kernel.
+// The zeros of polynomials in the closed step as exact algebraic numbers, by CGAL's algebraic
+// kernel.
 //
-// The kernel stays behind this header: its numbers are reference counted without regard to
+// The kernel stays behind this header. Its numbers are reference counted without regard to
 // threads, so an object belongs to the thread that made it.
 #pragma once
 
@@ -14,14 +15,15 @@ namespace assay::oracle {
 
 class AlgebraicTimes {
  public:
-  // The distinct zeros in [0,1] of all the polynomials, ascending. None may be identically zero.
+  // Finds the distinct zeros in [0,1] of all the polynomials together, ascending. REQUIRES that no
+  // polynomial is identically zero.
   explicit AlgebraicTimes(std::span<const IntegerPolynomial> polynomials);
   ~AlgebraicTimes();
   AlgebraicTimes(const AlgebraicTimes&) = delete;
   AlgebraicTimes& operator=(const AlgebraicTimes&) = delete;
 
   int size() const;
-  // Exact sign of q at the i-th time.
+  // The exact sign of q at the i-th time.
   int sign(const IntegerPolynomial& q, int i) const;
   detector::TimeEnclosure enclosure(int i) const;
 

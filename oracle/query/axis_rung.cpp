@@ -6,7 +6,7 @@ namespace assay::oracle {
 
 namespace {
 
-// -1: all of S before all of S' along the axis, 1: after, 0: neither.
+// -1: all of S lies strictly before all of S' along the axis; 1: strictly after; 0: neither.
 int strict_order(const FourPoints& q, detector::Point detector::MovingPoint::*end, int axis) {
   auto at = [&](int i) { return (q.x[i].*end)[axis]; };
   double s_min = at(0), s_max = at(0);

@@ -1,12 +1,13 @@
-// Rung "axis": comparisons of the inputs alone, so exact for every finite input. About 0.03 us.
+// The rung "axis" only compares inputs, so it is exact for every finite input. About 0.03 us.
 #pragma once
 
 #include "oracle/query/four_points.h"
 
 namespace assay::oracle {
 
-// True when along some axis one group lies strictly before the other at t=0 and at t=1: then it
-// does so at every time, as each difference of two coordinates is linear. No contact.
+// True when along some axis one group of points lies strictly before the other at t=0 and at t=1.
+// It then does so at every time, because each difference of two coordinates is linear in time, so
+// there is no contact.
 bool separated_by_axis(const FourPoints& q);
 
 }  // namespace assay::oracle

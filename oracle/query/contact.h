@@ -1,12 +1,13 @@
 // The exact referee for one vertex-face or edge-edge query.
 //
-// Guarantee: the answer is that of exact arithmetic on the doubles given, for every finite input:
-// degenerate features, no motion, coplanar or collinear throughout. Touching counts, and so do
-// t = 0 and t = 1. Coordinates must be finite.
-// Cost: 0.03 us where an axis separates, 1 to 2 us in interval arithmetic and about 8 more for a
-// time, 0.1 to 0.4 ms in the algebraic kernel (7 ms when exponents spread over all doubles).
-// Thread safe (one set of number objects a thread). Ends the process when the processor does not
-// round to nearest or flushes denormals.
+// Guarantee: the answer is that of exact arithmetic on the doubles given, for every finite input,
+// also for degenerate features, without motion, and for points that are coplanar or collinear
+// throughout. Touching counts, and so do t = 0 and t = 1. Coordinates must be finite.
+// Cost: 0.03 us if an axis separates the two; 1 to 2 us in interval arithmetic, and about 8 more
+// if a time is wanted; 0.1 to 0.4 ms in the algebraic kernel (7 ms when exponents spread over all
+// doubles).
+// Thread safe, because threads share no number objects. Ends the process when the processor does
+// not round to nearest or flushes denormals.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@
 
 namespace assay::oracle {
 
-// Which rung decided whether there is a contact. It may differ between the two wants: a time asks
-// more of a rung.
+// The rung that decided whether there is a contact. The same query may be decided by different
+// rungs for yes_no and for first_time, because a time asks more of a rung.
 enum class Rung : std::uint8_t { axis, interval, algebraic };
 
 struct RungCounts {
@@ -27,7 +28,7 @@ struct RungCounts {
 
 struct ContactAnswer {
   bool contact = false;
-  // First contact time; set only when contact is true and a time was wanted.
+  // The first contact time; set only when contact is true and a time was wanted.
   detector::TimeEnclosure first;
   Rung rung = Rung::axis;
 };
@@ -35,8 +36,9 @@ struct ContactAnswer {
 ContactAnswer vertex_face_contact(const detector::VertexFace& query, detector::Want want);
 ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want want);
 
-// Whether the open segment e0e1 strictly pierces the open triangle f0f1f2 (no motion): the ends
-// strictly on opposite sides of its plane, the line strictly inside all three edges.
+// Whether, without motion, the open segment e0e1 strictly pierces the open triangle f0f1f2: the
+// ends lie strictly on opposite sides of its plane, and the line passes strictly inside all three
+// edges.
 bool segment_pierces_triangle(const detector::Point& e0, const detector::Point& e1,
                               const std::array<detector::Point, 3>& face);
 

@@ -10,16 +10,17 @@
 
 namespace assay::oracle {
 
-// Made on demand and kept; one object belongs to one query in one thread.
+// Makes F and the L when they are first asked for, and keeps them. One object belongs to one query
+// in one thread.
 class ContactPolynomials {
  public:
   explicit ContactPolynomials(const FourPoints& q);
 
-  // F.
+  // F, which is zero when the four points are coplanar.
   const IntegerPolynomial& coplanarity();
-  // L_0..L_3 of the points projected along an axis.
+  // L_0..L_3, of the points projected along this axis.
   const std::array<IntegerPolynomial, 4>& sides(int axis);
-  // All D of an axis.
+  // All D of this axis.
   std::vector<IntegerPolynomial> gaps(int axis) const;
 
  private:

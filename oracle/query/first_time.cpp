@@ -1,4 +1,4 @@
-// Signs that prove a claim [lo, hi], F not identically zero:
+// Signs that prove a claim [lo, hi] if F is not identically zero:
 //
 //   claimed     | where lo = hi                               | where lo < hi, adjacent
 //   not before  | F has no zero in [0, lo)                    | F has no zero in [0, lo]
@@ -25,7 +25,7 @@ FourPoints points_of(const Query& query) {
 
 // p(s + (e - s) t) times a positive power of two, for doubles s < e in [0,1].
 IntegerPolynomial on_piece(const IntegerPolynomial& p, double s, double e) {
-  // s = m 2^-k and e - s = n 2^-k: Horner in the linear polynomial m + n t.
+  // s = m 2^-k and e = n 2^-k: Horner in the linear polynomial that goes from m to n.
   constexpr int mantissa_bits = 53;
   int exponent_s = 0, exponent_e = 0;
   std::frexp(s, &exponent_s);
@@ -48,7 +48,7 @@ IntegerPolynomial on_piece(const IntegerPolynomial& p, double s, double e) {
   return value;
 }
 
-// p / (1 - t)^m with m the multiplicity of the zero at 1; p is not identically zero.
+// p / (1 - t)^m, where m is the multiplicity of the zero at 1. REQUIRES p not identically zero.
 IntegerPolynomial without_zero_at_one(IntegerPolynomial p) {
   while (true) {
     // p = (1 - t) q + rest: the coefficients of q are the partial sums, the rest is the whole sum.
@@ -66,7 +66,7 @@ bool keeps_sign_on(const IntegerPolynomial& p, double s, double e) {
   return sign_at(p, s) != 0 && surely_no_zero_in_unit(on_piece(p, s, e));
 }
 
-// Signs of L that prove a contact at the zero of F in the claim.
+// Whether the signs of the L prove a contact at the zero of F in the claim.
 bool surely_contact(ContactPolynomials& polynomials, const detector::TimeEnclosure& claim) {
   for (int axis = 0; axis < 3; ++axis) {
     bool positive = false, negative = false, open = false;

@@ -9,7 +9,7 @@ namespace assay::oracle {
 
 using Integer = mpz_class;
 
-// c[0] + c[1] t + ...; no trailing zero coefficients, so the zero polynomial is empty.
+// c[0] + c[1] t + ... The last coefficient is never zero, so the zero polynomial has none.
 struct IntegerPolynomial {
   std::vector<Integer> c;
 
@@ -25,10 +25,10 @@ IntegerPolynomial operator*(const IntegerPolynomial& a, const IntegerPolynomial&
 // The linear polynomial with these values at t=0 and t=1.
 IntegerPolynomial linear(const Integer& at_t0, const Integer& at_t1);
 
-// Exact sign at a finite double t >= 0.
+// The exact sign of p at t. REQUIRES t finite and >= 0.
 int sign_at(const IntegerPolynomial& p, double t);
 
-// True only if p has no zero in [0,1] (Descartes' rule in Bernstein form); false says nothing.
+// True: p has no zero in [0,1], by Descartes' rule in Bernstein form. False: nothing is known.
 bool surely_no_zero_in_unit(const IntegerPolynomial& p);
 
 }  // namespace assay::oracle

@@ -1,4 +1,4 @@
-// Doubles as integers, by one power of two common to a query.
+// Turns the doubles of a query into integers, all by one power of two.
 #pragma once
 
 #include <span>
@@ -9,14 +9,15 @@
 namespace assay::oracle {
 
 // Multiplies by the least power of two that makes every coordinate of the points an integer. The
-// sign of any homogeneous polynomial of the coordinates, and so every contact time, is unchanged.
+// sign of any homogeneous polynomial of the coordinates stays as it is, and so does every contact
+// time.
 class IntegerScale {
  public:
   explicit IntegerScale(std::span<const detector::MovingPoint> points);
 
-  // coordinate must be one of those given.
+  // REQUIRES a coordinate of the given points.
   Integer operator()(double coordinate) const;
-  // The coordinate is the integer times 2^exponent().
+  // A coordinate is its integer times 2^exponent().
   int exponent() const { return exponent_; }
 
  private:

@@ -14,12 +14,12 @@ using Linear = LinearVector<Interval>;
 
 // Differences stay below 2^301 and F, the largest expression, below 2^910: no overflow.
 constexpr double kLargest = 0x1p300;
-// Pieces are split off the middle: contacts at 1/2, 1/4, ... are frequent in made-up input, and a
-// zero of F at the end of a piece can never be settled. Each split adds 5 bits to the ends, so at
-// the greatest depth they and 1 minus them are still exact doubles.
+// Pieces are split beside the middle, because contacts at 1/2, 1/4, ... are frequent in made-up
+// input and a zero of F at the end of a piece can never be settled. Each split adds 5 bits to the
+// ends, so at the greatest depth they and 1 minus them are still exact doubles.
 constexpr double kSplit = 15.0 / 32.0;
 constexpr int kMaxDepth = 9;
-// Beyond this the algebraic rung is the cheaper one.
+// If a query needs more pieces, the algebraic rung is the cheaper one.
 constexpr int kMaxPieces = 40;
 
 struct Piece {
@@ -47,7 +47,7 @@ struct Differences {
   std::array<Vector3<Interval>, 3> t0, t1;
 };
 
-// The rung "axis" again, on the piece: u_0 = 0 and u_j stand for the four points.
+// The rung "axis" again, on a piece. The four points are taken as 0, u_1, u_2, u_3.
 bool separated_on_piece(const std::array<Linear, 3>& u, int first_group) {
   for (int k = 0; k < 3; ++k) {
     auto order = [&](const auto& end) {
@@ -105,7 +105,7 @@ PieceDecision judge_piece(const std::array<Linear, 3>& u, int first_group) {
   return {detector::Decision::yes, sure_sign(slope) != 0};
 }
 
-// Not inlined: nothing of it may move out of the region that rounds upward.
+// Not inlined, because nothing of it may move out of the region that rounds upward.
 [[gnu::noinline]] IntervalAnswer judge_pieces(const FourPoints& q, detector::Want want) {
   const Differences differences(q);
   std::array<Piece, kMaxDepth + 2> stack;  // later pieces below earlier ones

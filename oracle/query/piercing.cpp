@@ -45,7 +45,7 @@ int pierces(const Orientation& sign) {
   return s20 == s01 ? 1 : 0;
 }
 
-// Rounds upward while it lives, so nothing of it is inlined.
+// Not inlined, because it rounds upward while it runs.
 [[gnu::noinline]] int pierces_by_intervals(const Configuration& c) {
   const Interval::Protector round_upward;
   return pierces([&](int o, int a, int b, int d) {

@@ -1,9 +1,9 @@
 // Polynomials on a piece [s,e] of the step, in scaled Bernstein form, over any number type.
 //
-// With w = (t - s)/(e - s) the coefficient c_k belongs to (1-w)^(n-k) w^k, without the binomial:
-// products are then plain convolutions. As all these basis functions are >= 0 on the piece and
-// never all 0, coefficients of one strict sign mean that sign on the whole (closed) piece; the
-// first and last coefficients are the values at s and e.
+// With w = (t - s)/(e - s), the coefficient c_k is that of (1-w)^(n-k) w^k, without the binomial,
+// so that products are plain convolutions. These basis functions are >= 0 on the piece and never
+// all 0. So if all coefficients have one strict sign, the polynomial has it on the whole (closed)
+// piece. The first and last coefficients are the values at s and e.
 #pragma once
 
 #include <array>

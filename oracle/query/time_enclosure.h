@@ -1,4 +1,4 @@
-// From a time that can only be compared to its canonical enclosure by doubles.
+// Finds the canonical enclosure by doubles of a time that can only be compared with doubles.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 namespace assay::oracle {
 
-// The enclosure of a time in [lo,hi], 0 <= lo <= hi. compare(t) is the exact sign of (time - t);
-// it is asked of doubles in [lo,hi] only. The guess costs nothing but time when it is wrong: about
-// 2 log2 of its distance in units of the last place.
+// The enclosure of a time in [lo,hi]. REQUIRES 0 <= lo <= hi, and that compare(t) is the exact
+// sign of (time - t); it is asked of doubles in [lo,hi] only. A wrong guess costs only work: when
+// it is n units in the last place away, about 2 log2 n comparisons.
 template <class Compare>
 detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare compare) {
   // Doubles >= 0 are ordered as their bit patterns.
@@ -24,7 +24,7 @@ detector::TimeEnclosure enclose_time(double guess, double lo, double hi, Compare
   std::uint64_t at = bits(guess + 0.0);
   const int first = compare(value(at));
   if (first == 0) return {value(at), value(at)};
-  // Steps that double, until the time is passed; then halve.
+  // Takes steps that double until the time is passed, then halves.
   std::uint64_t below = at, above = at;
   for (std::uint64_t step = 1;; step *= 2) {
     if (first > 0) {

@@ -5,9 +5,9 @@
 // parallelogram; its corners move linearly. So the question of contact is: does a moving triangle
 // or parallelogram pass over the origin?
 //
-// Notation of the referee: c_0, c_1, c_2 (and c_3 = c_1 + c_2 - c_0 of a parallelogram) the
-// corners; P = c_0, U = c_1 - c_0, V = c_2 - c_0. The hull is P + u U + v V with u, v >= 0 and
-// u + v <= 1 (triangle) or u, v <= 1 (parallelogram).
+// Notation of the referee: c_0, c_1, c_2 are the corners (and c_3 = c_1 + c_2 - c_0 of a
+// parallelogram); P = c_0, U = c_1 - c_0, V = c_2 - c_0. The hull is P + u U + v V with u, v >= 0
+// and u + v <= 1 (triangle) or u, v <= 1 (parallelogram).
 #pragma once
 
 #include <gmpxx.h>
@@ -28,7 +28,7 @@ struct Hull {
   int corners = 3;
 };
 
-// Products of vectors; a common tool of double and integer directions.
+// Vector arithmetic that directions in doubles and in integers share.
 template <class Number>
 Vector<Number> minus(const Vector<Number>& a, const Vector<Number>& b) {
   return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
@@ -51,21 +51,22 @@ Vector<Number> outer(const Vector<Number>& a, const Vector<Number>& b) {
           Number(a[0] * b[1] - a[1] * b[0])};
 }
 
-// The corners at t=0 and t=1 in double, times a power of two that brings the largest into [1/2,1].
-// `usable` is false when a difference overflows. Corner i, axis k, either end, is wrong by at most
-// u * size[k] + 2^-1074 (u = 2^-53): one rounding of the difference, and the scaling, which is
-// exact above the denormals.
+// The corners at t=0 and t=1 in double, times a power of two that brings the largest coordinate
+// into [1/2,1]. `usable` is false when a difference overflows. Coordinate k of a corner, at either
+// end, is wrong by at most u * size[k] + 2^-1074 (u = 2^-53): the difference is rounded once, and
+// the scaling is exact above the denormals.
 struct DoubleHull {
   Hull<double> t0, t1;
   Vector<double> size = {};  // largest |coordinate| of a corner as computed, at least 2^-900
   bool usable = false;
 
-  // Corners at t in [0,1], a multiple of 2^-53. Wrong by at most 3.01 u size[k] + 2^-1072 (derived
-  // in separation.cpp).
+  // The corners at t in [0,1], a multiple of 2^-53. Wrong by at most 3.01 u size[k] + 2^-1072
+  // (derived in separation.cpp).
   Hull<double> at(double t) const;
 };
 
-// The same times a power of two of its own that makes all coordinates integers: exact.
+// The same corners, exact: times a power of two of their own, which makes all coordinates
+// integers.
 struct IntegerHull {
   Hull<mpz_class> t0, t1;
 
@@ -78,12 +79,12 @@ DoubleHull double_hull(const detector::EdgeEdge& query);
 IntegerHull integer_hull(const detector::VertexFace& query);
 IntegerHull integer_hull(const detector::EdgeEdge& query);
 
-// A hull of doubles that is near a positive multiple of an integer one: each coordinate is rounded
-// once, its relation to the largest kept. For guesses only.
+// A hull of doubles that is near a positive multiple of the integer hull: all coordinates are
+// divided by one power of two, and each is rounded once. For guesses only.
 Hull<double> rounded(const Hull<mpz_class>& hull);
 
-// The point of the hull nearest to the origin, as computed: a guess, never a verdict. The weights
-// of the corners are >= 0 and sum to about 1.
+// The point of the hull nearest to the origin, as doubles compute it: a guess, never a verdict.
+// The weights of the corners are >= 0 and sum to about 1.
 struct NearestPoint {
   Vector<double> point = {};
   std::array<double, 4> weight = {};

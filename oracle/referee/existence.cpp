@@ -17,7 +17,7 @@ bool triangle_contains_origin(const Vector<mpz_class>& a, const Vector<mpz_class
     if (inner(normal, a) != 0) return false;
     return inner(normal, ab) >= 0 && inner(normal, bc) >= 0 && inner(normal, ca) >= 0;
   }
-  // A segment or a point: the union of its three sides.
+  // The triangle is a segment or a point: the union of its three sides.
   auto side_holds = [](const Vector<mpz_class>& x, const Vector<mpz_class>& y,
                        const Vector<mpz_class>& xy) {
     return xy[0] == 0 && xy[1] == 0 && xy[2] == 0 && inner(x, y) <= 0;
@@ -26,7 +26,7 @@ bool triangle_contains_origin(const Vector<mpz_class>& a, const Vector<mpz_class
 }
 
 // The corners that play P, P + U and P + V for a base. Those of a triangle may be turned, so that
-// u + v <= 1 holds with room to spare near a guess; a parallelogram stays as it is.
+// near a guess u + v <= 1 holds with room to spare; a parallelogram stays as it is.
 std::array<int, 3> roles(int base) { return {base, (base + 1) % 3, (base + 2) % 3}; }
 
 template <class Number>
@@ -55,7 +55,8 @@ Range range_about(double x, int bits) {
   return {std::max<std::int64_t>(centre - r, 0), std::min(centre + r, kOne)};
 }
 
-// f and the columns of its Jacobian in integers, over [0,1]^3 in units of 2^-58.
+// f and the columns of its Jacobian, in integers. The parameters run over [0,1]^3 in units of
+// 2^-58.
 class IntegerMap {
  public:
   IntegerMap(const IntegerHull& hull, int base) : at_t0_(hull.t0, base), at_t1_(hull.t1, base) {}
@@ -119,8 +120,9 @@ bool contains_origin(const Hull<mpz_class>& hull) {
 }
 
 Fraction simplest_fraction(std::int64_t k, int depth) {
-  // Continued fractions: the first integer between the ends, or the integer part and the simplest
-  // fraction between the reciprocals of what is left.
+  // By continued fractions: the result is the first integer between the ends or, if there is none,
+  // the integer part and the reciprocal of the simplest fraction between the reciprocals of what
+  // is left.
   auto simplest = [](auto&& self, std::int64_t a, std::int64_t b, std::int64_t c,
                      std::int64_t d) -> Fraction {  // in [a/b, c/d]
     const std::int64_t whole = a / b;

@@ -23,7 +23,7 @@ class Referee {
     const int deepest = std::clamp(options_.depth, 0, kMostDepth);
     std::vector<std::int64_t> pieces = {0};  // piece k of depth d is [k/2^d, (k+1)/2^d]
     std::uint64_t looked_at = 0;
-    // Breadth first: a contact is found while few pieces are left, whatever its time.
+    // Goes breadth first, so that a contact is found while few pieces are left, whatever its time.
     for (int depth = 0; depth <= deepest; ++depth) {
       std::vector<std::int64_t> left;
       for (const std::int64_t k : pieces) {
@@ -56,7 +56,7 @@ class Referee {
     return std::ldexp(static_cast<double>(k), -depth);
   }
 
-  // Whether the piece is not wholly behind the time up to which is asked.
+  // False: the piece is sure to begin at `until` or later, so it is not asked about.
   bool begins_in_time(std::int64_t k, int depth) const {
     return depth > kMostDepthOfDoubles || time(k, depth) < options_.until;
   }
@@ -89,7 +89,7 @@ class Referee {
 
   bool crossing(const std::optional<Crossing>& guess) {
     if (!guess) return false;
-    // From many pieces the same place is found.
+    // Many pieces lead to the same place, which is to be tried once.
     constexpr double kSame = 0x1p-40;
     for (const Crossing& c : refused_) {
       if (c.base == guess->base && std::fabs(c.t - guess->t) < kSame &&

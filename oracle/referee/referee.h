@@ -1,14 +1,14 @@
 // A second, independent referee for one vertex-face or edge-edge query.
 //
 // Guarantee: contact and no_contact are proved, by other means than those of contact.h: no
-// coplanarity cubic, no roots, no code of the rungs. open says that neither proof was found, which
-// is usual where features touch without crossing, and rare elsewhere.
+// coplanarity cubic, no roots, no code of the rungs. open means that neither proof was found,
+// which is usual when features touch without crossing, and rare otherwise.
 //   no_contact: [0,1] is cut into pieces, and on each some direction separates the two hulls
 //               (separation.h);
-//   contact:    the origin lies in the hull of differences at a rational time, or a box of time and
-//               two parameters holds a zero by Poincare-Miranda (existence.h).
-// Coordinates must be finite. Cost: 1 us where a direction separates over the whole step, tens of
-// us for a contact, up to tens of ms near touching and for open. Thread safe. Ends the process when
+//   contact:    the origin lies in the hull of differences at a rational time, or a box of time
+//               and two parameters holds a zero by Poincare-Miranda (existence.h).
+// Coordinates must be finite. Cost: 1 us if a direction separates over the whole step, tens of us
+// for a contact, up to tens of ms near touching and for open. Thread safe. Ends the process when
 // the processor does not round to nearest or flushes denormals.
 #pragma once
 
@@ -19,16 +19,16 @@
 namespace assay::oracle {
 
 struct RefereeOptions {
-  // Times are cut in halves this often at most, 0 to 61. 17 confirm every no of random queries;
-  // neighbours of a touch need about the number of bits in which they differ from it.
+  // The step is halved this often at most, 0 to 61. 17 halvings confirm every no of random
+  // queries; neighbours of a touch need about the number of bits in which they differ from it.
   int depth = 60;
-  // Pieces of the step looked at, at most.
+  // At most so many pieces of the step are looked at.
   std::uint64_t max_boxes = 1000;
-  // The question is about the step up to here: above 0, at most 1.
+  // The question is about [0,until] instead of the whole step: above 0, at most 1.
   double until = 1;
 };
 
-// An open verdict never becomes the opposite of a decided one: more depth only settles more.
+// A greater depth may decide what was open; it never turns a no into a yes or a yes into a no.
 detector::Decision referee(const detector::VertexFace& query, const RefereeOptions& options = {});
 detector::Decision referee(const detector::EdgeEdge& query, const RefereeOptions& options = {});
 

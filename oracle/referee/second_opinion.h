@@ -1,10 +1,12 @@
 // Checks a step's judgement by two other methods, on a share of its questions.
 //
-// Feature queries whose swept boxes meet go to the referee (referee.h), whose verdict is compared
-// with contact.h and with the pair set; triangle pairs whose swept boxes meet are tested at rest
-// (static_check.h) at t = 0, 1/3, 1/2, 1, and at the pair's first time where that is a double. The
-// share is chosen by a hash of the mesh indices: the same for every run, number of jobs and order.
-// A contradiction means that one of the methods is wrong, and no verdict of the run can be trusted.
+// Feature queries whose swept boxes meet go to the referee (referee.h), and its verdict is
+// compared with contact.h and with the pair set. Triangle pairs whose swept boxes meet are tested
+// at rest (static_check.h) at t = 0, 1/3, 1/2, 1, and at the pair's first time if that is a
+// double. A hash of the mesh indices chooses the share, so it is the same for every run, number of
+// jobs and order.
+// A contradiction means that one of the methods is wrong; then no verdict of the run can be
+// trusted.
 #pragma once
 
 #include <cstdint>
@@ -25,18 +27,18 @@ struct SecondOpinionOptions {
 
 enum class ContradictionKind : std::uint8_t {
   query,         // referee and contact.h answer one query differently
-  missing_pair,  // the referee proves a feature contact, the pair set lacks a triangle pair of it
-  static_pair,   // the triangles meet at `time`, the pair set lacks them
-  static_late,   // they meet at `time`, the pair set has a later first time
+  missing_pair,  // the referee proves a feature contact, but the pair set lacks a pair of it
+  static_pair,   // the triangles meet at `time`, but are not in the pair set
+  static_late,   // they meet at `time`, before their first time in the pair set
   static_apart,  // they do not meet at `time`, which is their first time in the pair set
 };
 
 struct Contradiction {
   ContradictionKind kind = ContradictionKind::query;
-  detector::Feature feature;            // of query and missing_pair
-  detector::TrianglePair pair{-1, -1};  // of all kinds but query
-  StaticTime time;                      // of the static kinds
-  bool judged = false, second = false;  // contact, as judged and by the second method
+  detector::Feature feature;            // set for query and missing_pair
+  detector::TrianglePair pair{-1, -1};  // set for all kinds but query
+  StaticTime time;                      // set for the static kinds
+  bool judged = false, second = false;  // is there a contact: as judged; by the second method
 };
 
 struct SecondOpinion {
@@ -47,8 +49,8 @@ struct SecondOpinion {
   std::vector<Contradiction> contradictions;  // in a fixed order
 };
 
-// REQUIRES what judge_step requires, and its judgement of this step. A judgement that was stopped
-// is compared by queries alone: its pair set and times are not final.
+// REQUIRES what judge_step requires, and its judgement of this step. If that was stopped, only
+// queries are compared, because its pair set and times are not final.
 SecondOpinion second_opinion(const detector::PositionsView& x_t0,
                              const detector::PositionsView& x_t1,
                              const detector::TrianglesView& triangles,

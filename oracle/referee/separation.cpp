@@ -7,8 +7,8 @@ namespace assay::oracle {
 
 namespace {
 
-// A hull at both ends of a piece, twice its middle, and how the point of it that is nearest to the
-// origin in the middle moves over the piece.
+// A hull at both ends of a piece, and twice the hull at its middle. `nearest` is the point of that
+// which is nearest to the origin, and `motion` how this point moves over the piece.
 template <class Number>
 struct Piece {
   Hull<Number> s, e, middle;
@@ -47,11 +47,11 @@ Vector<Number> perpendicular(const Vector<Number>& v, const Vector<Number>& w) {
   return minus(times(v, inner(w, w)), times(w, inner(w, v)));
 }
 
-// Offers candidates until one is accepted. What they are for:
+// Offers candidates until one is accepted. They serve these cases:
 //   nearest point       - the hull is far away compared with its motion;
-//   vertex, edge, face  - the best direction where the nearest point lies there, turning along;
-//   edge x motion       - an edge that passes the origin closely; motion's perpendicular for a
-//                         vertex that does.
+//   vertex, edge, face  - the nearest point lies there; its best direction, turning along;
+//   edge x motion       - an edge passes the origin closely; if a vertex does, the motion's
+//                         perpendicular.
 template <class Number, class Accept>
 bool some_direction(const Piece<Number>& p, const Accept& accept) {
   if (accept(p.nearest, p.nearest)) return true;
@@ -80,8 +80,8 @@ bool some_direction(const Piece<Number>& p, const Accept& accept) {
   return false;
 }
 
-// Signs of the Bernstein coefficients that are certain by comparison with `bound`.
-// 1: all surely positive, -1: one surely is not, 0: neither.
+// Whether the Bernstein coefficients are positive, as far as comparison with `bound` proves it. 1:
+// all surely are, -1: one surely is not, 0: neither is sure.
 int all_positive(const Piece<double>& p, const Vector<double>& n_s, const Vector<double>& n_e,
                  double bound) {
   int result = 1;

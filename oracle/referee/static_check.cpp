@@ -64,12 +64,13 @@ Shape hull(const std::vector<Point>& points) {
   return hull_on_a_line(points);
 }
 
-// Positions as intervals of doubles: a quick, certain "apart" for most pairs, and nothing else.
+// Positions as intervals of doubles. They give a quick, certain "apart" for most pairs, and are
+// used for nothing else.
 //
 // Bound, u = 2^-53: the time as a double is wrong by at most 3 u (numerator, denominator,
 // quotient), 1 - t by one more rounding, so the weights by 4 u and 3 u; two products and a sum add
-// 3 u more. In all below 11 u M, M the larger end of the coordinate; 16 u M, plus what underflow
-// may add.
+// 3 u more. In all that is below 11 u M, where M is the greater magnitude of the coordinate at the
+// two ends. The code takes 16 u M, plus what underflow may add.
 class QuickPositions {
  public:
   QuickPositions(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
@@ -164,8 +165,9 @@ bool triangles_meet(const detector::PositionsView& x_t0, const detector::Positio
   Vertices common;
   std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
 
-  // Two faces without a common vertex: each common vertex goes to one of them at most. The largest
-  // such pairs give every common vertex to one or the other, and hold all smaller ones.
+  // Two faces without a common vertex: each common vertex of the triangles is in one of them at
+  // most. The largest such pairs are enough, which give every common vertex to one or the other,
+  // because they hold all smaller ones.
   for (unsigned choice = 0; choice < (1U << common.size()); ++choice) {
     Vertices to_a, to_b;
     for (unsigned i = 0; i < common.size(); ++i) {

@@ -8,13 +8,15 @@
 
 namespace assay::oracle {
 
-// K = (V+,V-) u (U,V0) u (U,Vv): a pair is in K when its signs are opposite, when one of them is
-// zero, or when one of its triangles is in Vv; and when its triangles are of two groups (L10).
-// U is all triangles. Triangles that share a vertex or an edge are pairs like all others.
+// K = (V+,V-) u (U,V0) u (U,Vv), where U is all triangles, and with groups every pair of two
+// groups too (L10). So a pair is in K when its signs are opposite, when a sign is zero, when a
+// triangle is in Vv, or when its triangles are of two groups. Triangles that share a vertex or an
+// edge are pairs like all others.
 class Candidates {
  public:
-  // By triangle: signs of all; Vv (touched by a ghost, or dirty) as 0 or 1, or empty for none;
-  // groups (components), or empty for one.
+  // Each list is by triangle. `violated` is 1 for a triangle of Vv (dirty, or touched by a ghost),
+  // else 0; it may be empty if Vv is. `groups` holds components; it may be empty if all are of one
+  // group.
   Candidates(std::vector<detector::ViewSign> signs, std::vector<std::uint8_t> violated,
              std::vector<std::int32_t> groups = {});
 
@@ -32,7 +34,8 @@ struct PairSplit {
 
 PairSplit split(const std::vector<detector::PairContact>& pairs, const Candidates& candidates);
 
-// L3: some pair of `pairs` with the least time is in `candidates`. True of no pairs.
+// What L3 promises: some pair of `pairs` with the least time is in `candidates`. True if there are
+// no pairs.
 bool holds_a_first_contact(const std::vector<detector::PairContact>& pairs,
                            const Candidates& candidates);
 

@@ -55,9 +55,10 @@ bool zero_of_end_piece(const IntegerPolynomial& h, std::span<const IntegerPolyno
   return false;
 }
 
-// Whether the middle piece is zero at a time when it is active. When hm is identically zero, it is
-// not active at t=0 (the sign there is known not to be zero), so a time at which it becomes active
-// is a boundary of the piece; the view function is zero there by continuity, and h0 or h1 with it.
+// Whether the middle piece is zero at a time when it is active. If hm is identically zero, the
+// piece is not active at t=0, because the sign there is known not to be zero. So a time at which
+// it becomes active is a boundary of the piece, where the view function is zero by continuity, and
+// h0 or h1 with it; the end pieces find that.
 bool zero_of_middle_piece(const ViewPolynomials& v, int vertex) {
   const IntegerPolynomial hm = v.between(vertex);
   if (hm.is_zero()) return false;

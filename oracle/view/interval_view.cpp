@@ -129,7 +129,7 @@ class ViewFunctions {
   std::array<Difference, 3> from_q0_, from_q1_;
 };
 
-// Not inlined: nothing of it may move out of the region that rounds upward.
+// Not inlined, because nothing of it may move out of the region that rounds upward.
 [[gnu::noinline]] std::optional<ViewSign> judge_pieces(const MovingTriangle& triangle,
                                                        const detector::ViewPrimitive& primitive) {
   const ViewFunctions functions(triangle, primitive);
@@ -143,8 +143,8 @@ class ViewFunctions {
     const PieceSigns signs = functions.on(piece);
     positive = positive || signs.some_positive;
     negative = negative || signs.some_negative;
-    // Two signs anywhere: two vertices differ at one time, or the view function of a vertex, which
-    // is continuous, passes zero.
+    // There are two signs: either two vertices differ at one time, or the view function of a
+    // vertex, which is continuous, passes zero.
     if (signs.some_zero || (positive && negative)) return ViewSign::zero;
     if (signs.all_positive || signs.all_negative) continue;
     if (piece.depth == kMaxDepth) {

@@ -12,8 +12,8 @@ namespace assay::oracle {
 
 namespace {
 
-// The exact tests over the step. Features of which nothing moves go to the integer tests: flat
-// sheets at rest have many that are coplanar, and finding times for them is slow.
+// The exact tests over the step. Features of which nothing moves go to the integer tests, because
+// flat sheets at rest have many that are coplanar, and finding times for those is slow.
 class SweptTests {
  public:
   SweptTests(const detector::Positions& x_t0, const detector::Positions& x_t1)
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> touched_by_ghosts(const detector::PositionsView& x_t0,
   const MeshFeatures mesh_parts = mesh_features(triangles), fan_parts = mesh_features(ghosts);
   const FeatureIndex mesh(mesh_parts, box_of), fans(fan_parts, box_of);
   const SweptTests swept(all_t0, all_t1);
-  // Only ever set, so that the order of threads does not matter.
+  // Elements are only ever set to 1, so the order of threads does not matter.
   std::vector<std::atomic<std::uint8_t>> touched(static_cast<std::size_t>(triangles.rows()));
   for_each_contact(mesh, fans, swept.tests(options.static_at_start), {options.jobs},
                    {[&](std::int32_t t, std::int32_t) { return !touched[t]; },

@@ -9,13 +9,14 @@
 
 namespace assay::oracle {
 
-// positive: (x - n(x)).N > 0 at every point x of the triangle and every t in [0,1]; negative: < 0;
-// zero: neither. The primitive may be a point, a fixed segment, or have ends that move apart
-// (the middle piece is then a quintic).
+// positive: (x - n(x)).N > 0 at every point x of the triangle and every t in [0,1], where n(x) is
+// the primitive's point nearest to x and N the triangle's normal; negative: < 0; zero: neither.
+// The primitive may be a point, a fixed segment, or a segment whose ends move apart (the middle
+// piece is then a quintic).
 detector::ViewSign view_sign(const std::array<detector::MovingPoint, 3>& triangle,
                              const detector::ViewPrimitive& primitive);
 
-// primitives: one for all triangles, or one for each.
+// REQUIRES one primitive for all triangles, or one for each.
 std::vector<detector::ViewSign> view_signs(const detector::PositionsView& x_t0,
                                            const detector::PositionsView& x_t1,
                                            const detector::TrianglesView& triangles,
