@@ -2,8 +2,8 @@
 // inside a triangle, is exact as well.
 //
 // Error bounds of the filter, in the notation of bernstein.h. The determinant's entries are those
-// of A = 4 (a - o); W_k is the largest |a_k - p_k| involved. V is the product of the sizes 4 W_k of
-// the three entries of a term.
+// of A = 4 (a - o); W_k is the largest |a_k - p_k| involved. V is the product of the sizes 4 W_k
+// of the three entries of a term.
 //
 //   quantity       | operations                         | error in u               | size
 //   a - p0, ...    | differences of two doubles         | 1 W                      | W
