@@ -1,5 +1,5 @@
-// Rung 2 of the elementary test: exact integers. Always decides; every degenerate case is treated
-// by the same few rules (contact_exact.cpp).
+// Rung 2 of the elementary test: exact integers. It always decides. It treats every degenerate
+// case by the same few rules (contact_exact.cpp).
 #pragma once
 
 #include <optional>
@@ -8,21 +8,25 @@
 
 namespace assay::detector {
 
-// The first contact time, or nothing; where only yes or no is wanted any time stands for a contact.
-// Exact for all finite inputs. 0.2 to 1 us for coordinates of similar magnitude.
+// The first contact time, or nothing if there is no contact. If only yes or no is wanted, any time
+// stands for a contact. Exact for all finite inputs. 0.2 to 1 us for coordinates of similar
+// magnitude.
 std::optional<TimeEnclosure> exact_first_contact(const FourPoints& query,
                                                  Want want = Want::first_time);
 
-// The time of a contact of which the filter knows that it is the only root of the coplanarity cubic
-// in (lo, hi), where the cubic changes sign. 0.4 us for coordinates of similar magnitude.
+// The time of a contact that the filter has bracketed. REQUIRES that this time is the only root of
+// the coplanarity cubic in (lo, hi), and that the cubic changes its sign there. `guess` is about
+// that time. 0.4 us for coordinates of similar magnitude.
 TimeEnclosure exact_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
-// The same in integers without bound alone: what the above fall back on. 5 to 50 us for coordinates
-// of similar magnitude; grows with the spread of their exponents, to 2 ms over all doubles.
+// The same in integers without bound alone. The functions above fall back on these. 5 to 50 us for
+// coordinates of similar magnitude; the time grows with the spread of their exponents, to 2 ms
+// over all doubles.
 std::optional<TimeEnclosure> general_first_contact(const FourPoints& query);
 TimeEnclosure general_bracketed_time(const FourPoints& query, double lo, double hi, double guess);
 
-// Whether the four points are coplanar at all times: the coplanarity cubic vanishes identically.
+// Whether the four points are coplanar at all times, which means that the coplanarity cubic
+// vanishes identically.
 bool coplanar_throughout(const FourPoints& query);
 
 }  // namespace assay::detector

@@ -1,8 +1,8 @@
 // The coplanarity cubic and the dependencies (contact_pieces.h) of a query in integers of fixed
-// width: exact, as Bernstein coefficients times positive constants.
+// width. Their Bernstein coefficients are exact up to positive constant factors.
 //
-// Widths. W is the number of limbs of a coordinate, and every coordinate is below 2^c in size, with
-// c = bits() <= 64 W - 8. x and y are entries of two differences, s and e ends of the step.
+// Widths. W is the number of limbs of a coordinate, and every coordinate is below 2^c in size,
+// with c = bits() <= 64 W - 8. x and y are entries of two differences, s and e ends of the step.
 //
 //   quantity                             | below, in size                        | bits
 //   x: a difference of coordinates       | 2 * 2^c                               | c + 1
@@ -50,7 +50,7 @@ class FixedProducts {
     for (std::size_t k = 0; k < 3; ++k) lam1_[k] = minor(1, 2, k);
   }
 
-  // B0, B1, B2, B3: the cubic's coefficients are B0, B1/3, B2/3, B3.
+  // B0, B1, B2, B3, with which the cubic's Bernstein coefficients are B0, B1/3, B2/3, B3.
   FixedCubic<Triple> coplanarity() const {
     FixedCubic<Triple> b;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -64,7 +64,7 @@ class FixedProducts {
     return b;
   }
 
-  // L_k,0..3 of the axis, times 2.
+  // L_k,0..3 of axis k, times 2.
   std::array<FixedQuadratic<Minor>, 4> dependency(std::size_t axis) const {
     std::array<FixedQuadratic<Minor>, 4> l = {
         {{}, lam1_[axis], minor(2, 0, axis), minor(0, 1, axis)}};
@@ -94,7 +94,8 @@ class FixedProducts {
   std::array<FixedQuadratic<Minor>, 3> lam1_;
 };
 
-// Coefficients over the two halves, times 2^(n-1).
+// Sets `left` and `right` to the coefficients over the two halves, times 2^(n-1), so that nothing
+// is divided.
 template <class T, std::size_t n>
 void halve_undivided(std::array<T, n> row, std::array<T, n>& left, std::array<T, n>& right) {
   for (std::size_t level = 0; level < n; ++level) {
