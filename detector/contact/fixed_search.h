@@ -131,8 +131,8 @@ class FixedSearch {
   }
 
   // Decides by the signs that are known throughout the open piece. If both strict signs occur
-  // along some axis there is no contact. If all signs along some axis are known, and the cubic has
-  // a root inside (`has_root`), there is one.
+  // along some axis there is no contact. If all signs along some axis are known and not all zero,
+  // and the cubic has a root inside (`has_root`), there is one.
   Found look_at_signs(Piece& piece, bool has_root) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       SignSet inside;
