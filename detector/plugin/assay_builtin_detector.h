@@ -39,7 +39,7 @@ enum {
   ASSAY_BUILTIN_SAME_VERTICES_TWICE = 4,   /* two triangles have the same three vertices */
   ASSAY_BUILTIN_WRONG_FRAME_SIZE = 5,      /* (not met in C: arrays carry no size) */
   ASSAY_BUILTIN_NON_FINITE_COORDINATE = 6, /* NaN or infinity, also in a view primitive */
-  ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT = 7, /* it is not none, one, or one for each component */
+  ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT = 7, /* neither none, one, nor one for each component */
   ASSAY_BUILTIN_NOTHING_TO_COMMIT = 8,     /* no step with an answer was evaluated */
   ASSAY_BUILTIN_FOREIGN_STATE = 9,         /* the state is of another mesh or another culling */
   ASSAY_BUILTIN_DAMAGED_STATE = 10,        /* no saved state, or one that was cut or changed */
@@ -127,8 +127,7 @@ int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,
                              assay_builtin_error* error);
 
 /* A place to view the mesh from, in place of the detector's own choice: a segment, each end with
- * its place at t = 0 and at t = 1. Equal ends are a point. It may be
- * anywhere. */
+ * its place at t = 0 and at t = 1. Equal ends are a point. It may be anywhere. */
 typedef struct assay_view_primitive {
   double q0_t0[3], q0_t1[3], q1_t0[3], q1_t1[3];
 } assay_view_primitive;
