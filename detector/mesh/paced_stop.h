@@ -21,8 +21,8 @@ inline const StopFunction never_stops;
 
 class PacedStop {
  public:
-  // About a millisecond of work. A stop may come ten times as late, because work is counted
-  // roughly.
+  // About a millisecond of work. That is a tenth of the time by which a stop may be late, because
+  // work is counted roughly.
   static constexpr std::uint64_t usual_interval = 200'000;
 
   explicit PacedStop(const StopFunction& stop, std::uint64_t interval = usual_interval)

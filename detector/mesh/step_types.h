@@ -42,8 +42,12 @@ struct TrianglePair {
 
 enum class FeatureKind : std::uint8_t { vertex_face, edge_edge, piercing, same_vertices };
 
-// Two features that meet, by their mesh vertices. vertex_face: v, f0 f1 f2. edge_edge: a0 a1, b0
-// b1. piercing (an edge goes through a triangle at t=0): e0 e1, f0 f1 f2. Unused places hold -1.
+// Two features that meet, by their mesh vertices:
+//   vertex_face    v, f0 f1 f2
+//   edge_edge      a0 a1, b0 b1
+//   piercing       e0 e1, f0 f1 f2; the edge goes through the triangle at t=0
+//   same_vertices  f0 f1 f2 of two triangles with the same vertices; the oracle alone has these
+// Unused places hold -1.
 struct Feature {
   FeatureKind kind = FeatureKind::vertex_face;
   std::array<std::int32_t, 5> vertices = {-1, -1, -1, -1, -1};

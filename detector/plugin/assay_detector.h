@@ -149,8 +149,8 @@ enum { ASSAY_FREE = 0, ASSAY_COLLISION = 1, ASSAY_UNDECIDED = 2, ASSAY_ERROR = 3
 /* The result of a step. The host sets all members to 0 before the call. */
 typedef struct assay_result {
   int32_t answer; /* ASSAY_FREE, ASSAY_COLLISION, ASSAY_UNDECIDED, ASSAY_ERROR */
-  /* With ASSAY_COLLISION: an interval that holds the first contact time,
-   * 0 <= first_lo <= first_hi <= 1. [0, 1] states nothing about the time. */
+  /* With ASSAY_COLLISION: the interval of the first contact time, 0 <= first_lo <= first_hi <= 1.
+   * [0, 1] states nothing about the time. */
   double first_lo;
   double first_hi;
   uint64_t pair_count;      /* pairs of triangles in contact; any order, each once or more */

@@ -50,8 +50,8 @@ static_assert(ASSAY_DETECTOR_ABI_VERSION == 2, "this header is of another versio
 namespace assay {
 namespace plugin {
 
-// The members of assay_description, where their meanings stand. The defaults claim nothing, and
-// their contract leaves nothing out. The texts must live as long as the library: literals do.
+// The members mean the same as in assay_description. The defaults claim nothing, and their
+// contract leaves nothing out. The texts must live as long as the library: literals do.
 struct Description {
   const char* name = "";
   const char* version = "";

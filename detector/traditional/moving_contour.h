@@ -19,8 +19,8 @@
 // q is. But the boundary is projected one to one. So there are no such p and q. Two faces without
 // a common vertex that meet would hold such points.
 //
-// P need not be connected or a manifold: a set that is not has no such boundary
-// (patch_contours.h).
+// L13 need not require that P is connected or a manifold, because a set that is not has no such
+// boundary (patch_contours.h).
 //
 // If doubles cannot tell whether the contour crosses itself, it is taken to do so.
 #pragma once
