@@ -20,8 +20,7 @@ struct FilterSearch {
     if (want == Want::yes_no) return;
     result.lo = piece.lo;
     result.hi = piece.hi;
-    // F has one root only if its coefficients change sign once, whatever the sign of an uncertain
-    // one is.
+    // Then F has exactly one root: its coefficients change sign once, whatever the uncertain are.
     const bool single =
         sign_beyond(piece.f[1], f_bound) == f_lo || sign_beyond(piece.f[2], f_bound) == -f_lo;
     result.time_bracketed = all_free && single;

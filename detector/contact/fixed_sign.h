@@ -21,8 +21,8 @@
 // If l2 = 0 the root is p = -l0/l1, and F(p) is computed directly.
 //
 // Widths. As in fixed_products.h W is the number of limbs of a coordinate and c its bits, at most
-// 64 W - 8. After 4 halvings the Bernstein coefficients of F have 3c + 20 bits, those of L 2c +
-// 14.
+// 64 W - 8. After 4 halvings the Bernstein coefficients of F have 3c + 20 bits, those of L have
+// 2c + 14.
 //
 //   quantity                          | below, in size            | bits       | limbs
 //   f0..f3: F by powers of s          | 12 * 2^(3c + 20)          | 3c + 24    | 3 W + 1

@@ -1,10 +1,11 @@
 // Isolates the distinct real roots of a square-free polynomial in the open interval (0,1): each
 // gets an interval of its own.
 //
-// Method: Descartes' rule (sign_changes.h) over intervals that are halved. The halves have equally
-// many DOUBLES, not equal lengths, so that an interval is halved some 70 times at most, whatever
-// the exponents are. root_cluster.h tells apart roots that lie in one gap between adjacent
-// doubles. Intervals wait in a list, so the stack does not grow with their number.
+// Method: Descartes' rule (sign_changes.h) over intervals that are split. The parts have equally
+// many DOUBLES, not equal lengths (those from 0 are split by exponents), so that an interval is
+// split some 70 times at most, whatever the exponents are. root_cluster.h tells apart roots that
+// lie in one gap between adjacent doubles. Intervals wait in a list, so the stack does not grow
+// with their number.
 #pragma once
 
 #include <vector>
