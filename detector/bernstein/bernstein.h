@@ -1,10 +1,10 @@
 // Bernstein coefficients over [0,1] of products of linearly moving vectors, in double or float.
 //
-// A polynomial lies between the least and the greatest of its coefficients; the first and the last
-// are its values at the ends.
+// Over the interval a polynomial lies between the least and the greatest of its Bernstein
+// coefficients. The first and the last coefficient are its values at the ends.
 //
-// Error bounds. Every filter of the detector derives its bound from the table below, and writes it
-// in the same notation:
+// Error bounds. Every filter of the detector derives its bound from the table below, and writes
+// the derivation in the same notation:
 //   u         2^-53. An operation rounds its result by at most u times the size of that result.
 //   M         bounds the size of an entry: a coordinate of a vector, at both ends of the step.
 //   MM, WMM   products of such bounds, of the entries that the row multiplies.
@@ -13,8 +13,8 @@
 //   error     in units of u. First comes what the errors of the operands make of the result, then
 //             the rounding of each operation in turn: 3 + 3 + 2 = 8 MM stands for 8 u MM.
 //   middle    a coefficient that is neither the first nor the last: its error is the larger one.
-// A division by 2 and a product with 2 are exact. Errors are of first order in u: the constants in
-// the code are larger by some u, and these cover what is of second order.
+// A division by 2 and a product with 2 are exact. The table has errors of first order in u. The
+// constants in the code are larger by some u, and these cover errors of second order.
 //
 //   quantity         | operations                    | error in u                     | size
 //   entry            | a difference of two doubles   | 1 M                            | M
@@ -30,7 +30,7 @@
 //   cubic halved     | (x + y) / 2 at three levels   | as before + 1 + 1 + 1 = + 3 B  | B
 //
 // Halving averages older errors and never adds them up. All of this holds while no product
-// overflows and underflow stays below the bounds: see `in_range`.
+// overflows and underflows stay below the bounds. in_range() says whether that is so.
 #pragma once
 
 #include <algorithm>
@@ -53,9 +53,10 @@ using Vector = VectorOf<double>;
 using Quadratic = QuadraticOf<double>;
 using Cubic = CubicOf<double>;
 
-// An underflow costs at most 2^-1074 an operation, and at most 2^-1074 2^300 where a product that
-// underflowed is multiplied once more by M_k; within this range the bounds there are above
-// 2^-53 2^-600 M_k, far more.
+// The range of magnitudes within which the bounds hold. An underflow costs at most 2^-1074 in an
+// operation, and at most 2^-1074 2^300 if a product that underflowed is multiplied once more by
+// M_k. Within this range the bounds of such products are above 2^-53 2^-600 M_k, which is far
+// more.
 inline constexpr double least_magnitude = 0x1p-300;
 inline constexpr double greatest_magnitude = 0x1p300;
 
@@ -65,7 +66,7 @@ struct MovingVectorOf {
 };
 using MovingVector = MovingVectorOf<double>;
 
-// Of the coordinates as T has them.
+// p - q at both ends of the step, computed from the coordinates rounded to T.
 template <class T = double>
 MovingVectorOf<T> difference(const MovingPoint& p, const MovingPoint& q) {
   MovingVectorOf<T> d;
@@ -112,7 +113,7 @@ CubicOf<T> triple_product(const MovingVectorOf<T>& w, const CrossQuadraticOf<T>&
           (dot(w.t0, n.b2) + 2 * dot(w.t1, n.b1)) / 3, dot(w.t1, n.b2)};
 }
 
-// Coefficients over the two halves of the interval.
+// Sets `left` and `right` to the coefficients over the two halves of the interval.
 template <class T, std::size_t n>
 void halve(const std::array<T, n>& b, std::array<T, n>& left, std::array<T, n>& right) {
   std::array<T, n> row = b;
@@ -123,7 +124,7 @@ void halve(const std::array<T, n>& b, std::array<T, n>& left, std::array<T, n>& 
   }
 }
 
-// Largest size of each coordinate over the step.
+// Raises `magnitude` to the largest size of each coordinate of v over the step, where it is less.
 template <class T>
 void grow(std::array<T, 3>& magnitude, const MovingVectorOf<T>& v) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -131,19 +132,21 @@ void grow(std::array<T, 3>& magnitude, const MovingVectorOf<T>& v) {
   }
 }
 
+// Whether the error bounds hold for vectors with coordinates of these magnitudes.
 inline bool in_range(const Vector& magnitude) {
   return std::all_of(magnitude.begin(), magnitude.end(), [](double m) {
     return m == 0 || (m > least_magnitude && m < greatest_magnitude);
   });
 }
 
-// 1 or -1 when the value is beyond the bound on that side, else 0.
+// 1 if value > bound, -1 if value < -bound, else 0.
 template <class T>
 int sign_beyond(T value, T bound) {
   return value > bound ? 1 : value < -bound ? -1 : 0;
 }
 
-// The same of all coefficients: the sign of the polynomial over the interval.
+// 1 or -1 if all coefficients are beyond the bound on that side, else 0. If the coefficients are
+// off by at most `bound`, 1 and -1 are the sign of the polynomial over the whole interval.
 template <class T, std::size_t n>
 int sure_sign(const std::array<T, n>& b, T bound) {
   const auto [least, greatest] = std::minmax_element(b.begin(), b.end());

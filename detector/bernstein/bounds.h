@@ -1,22 +1,22 @@
-// The numbers that a filter computes in, and by how much it holds a computed one to be off: the
-// policy over which filters are written once.
+// The policy of a filter: in which numbers it computes, and by how much a computed number is
+// assumed to be off. Filters are written once, as templates over this policy.
 //
-// Every bound is a derived constant times `unit`. With unit 0 the bounds vanish: a computed sign is
-// taken for the sign, zero for zero.
+// Every error bound is a derived constant times `unit`. With unit 0 the bounds vanish: then the
+// sign of a computed number is taken for the true sign, and a computed zero for zero.
 #pragma once
 
 namespace assay::detector {
 
 inline constexpr double unit_roundoff = 0x1p-53;
 
-// Doubles, each rounding off by at most 2^-53 of the result: bounds that hold.
+// Doubles with bounds that hold: each rounding is off by at most 2^-53 of the result.
 struct ProvedBounds {
   using Number = double;
   static constexpr bool proved = true;
   static constexpr Number unit = unit_roundoff;
 };
 
-// Plain arithmetic in T.
+// Plain arithmetic in T, without bounds.
 template <class T>
 struct NoBounds {
   using Number = T;

@@ -6,8 +6,9 @@
 namespace assay::detector {
 namespace {
 
-// Pieces are halved this far, as long as the number of halvings allows: until the first that stays
-// open, which decides; after it only to find where a contact is certain.
+// How far pieces are halved, and how many halvings a query may take. Up to the first piece that
+// stays open the limit is max_depth, because that piece decides the answer. After it the limit is
+// max_depth_after_open: pieces then only serve to find a time at which a contact is certain.
 constexpr int max_depth = 20, max_depth_after_open = 6, max_halvings = 64;
 
 struct BoundedSearch {

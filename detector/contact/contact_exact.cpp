@@ -1,9 +1,9 @@
 // At a time r at which the four points are coplanar, the hulls of the two groups meet if and only
 // if the points have a non-zero affine dependency that is >= 0 on the first group and <= 0 on the
-// second. The lam of one axis span all dependencies where they are not all zero; where all 12
-// vanish the points are collinear and the signed distances along an axis decide; where those
-// vanish too the points coincide. So parallel edges, slivers, zero-length edges and no motion are
-// no special cases.
+// second. If the lam of one axis (contact_pieces.h) are not all zero, they span all dependencies.
+// If all 12 lam vanish, the points are collinear, and the signed distances along an axis decide.
+// If those vanish too, the points coincide. So parallel edges, slivers, zero-length edges and
+// points at rest are no special cases.
 #include "detector/contact/contact_exact.h"
 
 #include "detector/contact/contact_fixed.h"
@@ -15,7 +15,7 @@ namespace {
 class ExactContact {
  public:
   explicit ExactContact(const FourPoints& query) : query_(query) {
-    // Each axis times a power of two of its own: as contact_pieces.h does, an affine map.
+    // Multiplies each axis by a power of two of its own: an affine map, as in contact_pieces.h.
     for (std::size_t k = 0; k < 3; ++k) {
       std::array<double, 8> values;
       for (std::size_t i = 0; i < 4; ++i) {
@@ -55,8 +55,8 @@ class ExactContact {
     return u_[i][p] * u_[j][q] - u_[i][q] * u_[j][p];
   }
 
-  // L_k,0..3 of the axis: the affine dependency, signs of the second group turned. Made when asked
-  // for: most queries end at the first axis.
+  // L_k,0..3 of the axis: the affine dependency with the signs of the second group turned. It is
+  // computed only when it is asked for, because most queries end at the first axis.
   const std::array<Polynomial, 4>& dependency(std::size_t axis) {
     auto& l = dependencies_[axis];
     if (!l) {
@@ -106,9 +106,10 @@ class ExactContact {
     return true;
   }
 
-  // Coplanar throughout: contact can only begin at t=0 or where a dependency changes (one axis
-  // with a dependency that is not identically zero is enough); collinear throughout: where a
-  // difference along an axis changes sign.
+  // For points that are coplanar throughout. A contact can begin only at t=0 or at a root of a
+  // dependency; it is enough to look at one axis with a dependency that is not identically zero.
+  // If the points are collinear throughout, a contact can begin only at t=0 or at a root of a
+  // difference along an axis.
   std::optional<TimeEnclosure> first_contact_of_coplanar() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::vector<Polynomial> changing;

@@ -20,7 +20,7 @@ struct FilterSearch {
     if (want == Want::yes_no) return;
     result.lo = piece.lo;
     result.hi = piece.hi;
-    // One root of F only: the coefficients change sign once, wherever an uncertain one falls.
+    // Then F has exactly one root: its coefficients change sign once, whatever the uncertain are.
     const bool single =
         sign_beyond(piece.f[1], f_bound) == f_lo || sign_beyond(piece.f[2], f_bound) == -f_lo;
     result.time_bracketed = all_free && single;

@@ -7,7 +7,8 @@
 namespace assay::detector {
 namespace {
 
-// Calls with the least of a few widths that holds the coordinates, or returns `otherwise`.
+// Calls call(width) with the least of a few widths that holds the coordinates. Returns `otherwise`
+// if none does.
 template <class Result, class Call>
 Result with_width(int bits, const Result& otherwise, Call call) {
   if (bits <= most_bits<1>) return call(std::integral_constant<std::size_t, 1>());

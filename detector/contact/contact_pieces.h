@@ -1,15 +1,15 @@
-// Four moving points over pieces of [0,1], in time order: the ladder of the elementary test below
-// its integers, written once for every arithmetic.
+// Looks at four moving points over pieces of [0,1], in time order. This is the part of the
+// elementary test that comes before integers, written once for every arithmetic.
 //
 // Notation: u_j = x_j - x_0 for j = 1..3, moving linearly from a_j (t=0) to c_j (t=1).
 //   F = u_1 . (u_2 x u_3), a cubic: the four points are coplanar where it vanishes.
 //   lam_1 = u_2 x u_3, lam_2 = u_3 x u_1, lam_3 = u_1 x u_2, lam_0 = -(lam_1 + lam_2 + lam_3);
 //   component k of these is an affine dependency of the points projected along axis k.
 //   L_i = lam_i for points of the first group, -lam_i for those of the second.
-// At a root of F: one L_k,i > 0 and another < 0 for some axis k -> no contact; all of one sign, not
-// all zero, for some axis -> contact.
+// At a root of F there is no contact if one L_k,i > 0 and another < 0 for some axis k. There is a
+// contact if for some axis all L_k,i have one sign and are not all zero.
 //
-// Error bounds, in the notation of bernstein.h. All u_j have the same bounds M_k, so T is 3 MxMyMz.
+// Error bounds, in the notation of bernstein.h. All u_j have the bounds M_k, so T is 3 MxMyMz.
 //
 //   quantity      | operations                      | error in u               | size
 //   lam_1..3      | cross, middle                   | 10 MM                    | 2 MM
@@ -18,7 +18,7 @@
 //   lam_0 halved  | a quadratic with B = 6 MM       | as before + 12 MM        | 6 MM
 //   F halved      | a cubic with B = 6 MxMyMz       | as before + 18 MxMyMz    | 6 MxMyMz
 //
-// quadratic_error and cubic_error are these and one u more.
+// quadratic_error (of lam_0) and cubic_error (of F) are these with one u more.
 #pragma once
 
 #include "detector/bernstein/bernstein.h"
@@ -46,17 +46,17 @@ struct ContactPiece {
   Number lo, hi;  // dyadic: exact
 };
 
-// `Search` says what to do where the signs tell. It has three functions:
+// Visits pieces of the step in time order. `Search` says what to do with them by three functions:
 //
 //   bool may_halve(int depth);
 //   bool open(const Piece&);
 //   void contact(const Piece&, Number f_bound, int f_lo);
 //
-// may_halve says whether a piece of that depth that is not settled is split. open is told of such a
-// piece that is not split, and ends the search when it returns true. contact is told of a piece
-// with a contact at each root of F: F changes its sign over the piece, beginning with f_lo, and its
-// coefficients are off by at most f_bound. Pieces without contact are passed over. After contact()
-// the search ends.
+// A piece that is surely without contact is passed over. A piece that the signs do not settle is
+// split if may_halve(depth) returns true. If not, the search calls open(piece), and ends if that
+// returns true. contact() is called for a piece with a contact at each root of F: F changes its
+// sign over the piece, beginning with the sign f_lo, and its coefficients are off by at most
+// f_bound. After contact() the search ends.
 template <class Bounds, class Search>
 class ContactPieces {
  public:
@@ -90,9 +90,10 @@ class ContactPieces {
     }
   }
 
-  // Multiplies each axis by a power of two that makes 1 <= M_k < 2: an affine map, so that contacts
-  // and their times are the same. What underflows is off by less than 2^-1074, far below the slack
-  // of u MxMyMz in the bounds. Where a difference overflows, those of halved coordinates serve.
+  // Multiplies each axis by a power of two that makes 1 <= M_k < 2. This is an affine map, so
+  // contacts and their times stay the same. A number that underflows is off by less than 2^-1074,
+  // far below the slack of u MxMyMz in the bounds. If a difference overflows, differences of
+  // halved coordinates are used.
   [[gnu::noinline]] void bring_into_range() {
     const bool overflows = !std::all_of(magnitude_.begin(), magnitude_.end(),
                                         [](Number m) { return std::isfinite(m); });
@@ -136,7 +137,7 @@ class ContactPieces {
     }
   }
 
-  // True: stop.
+  // Looks at a piece of this depth. True if the search has to end.
   bool visit(const Piece& piece, int depth) {
     const Number f_bound = cubic_error<Bounds>(depth) * f_scale_;
     if (sure_sign(piece.f, f_bound) != 0) return false;
@@ -179,8 +180,9 @@ class ContactPieces {
   Number f_scale_ = 0;
 };
 
-// A root of the cubic, whose ends differ in sign, in [0,1]: Newton steps, halvings where they leave
-// the bracket. No promise of how near.
+// A guess of a root in [0,1] of a cubic whose values at 0 and 1 differ in sign. It makes Newton
+// steps, and halves where a step would leave the bracket. It does not promise how near the guess
+// is.
 template <class Number>
 Number guess_root(const CubicOf<Number>& b) {
   const Number c1 = 3 * (b[1] - b[0]), c2 = 3 * (b[2] - 2 * b[1] + b[0]);

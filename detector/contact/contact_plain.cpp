@@ -21,8 +21,9 @@ struct PlainSearch {
 
   bool may_halve(int depth) const { return depth < max_plain_depth; }
 
-  // In place of integers: signs at a root as computed. A root without a change of sign is not seen;
-  // a piece that is coplanar all along is looked at where it begins and ends.
+  // Takes the place of integers: it takes the signs at a root as computed. It does not see a root
+  // at which F does not change its sign. If the points are coplanar throughout the piece, it looks
+  // at the piece's two ends only.
   bool open(const Piece& piece) {
     const Number first = piece.f.front(), last = piece.f.back();
     if (first == 0 && touches(piece, 0)) return true;
@@ -52,7 +53,7 @@ struct PlainSearch {
     return true;
   }
 
-  // Of points on one line: whether neither group is before the other, along every axis.
+  // For points on one line: whether the two groups overlap along every axis.
   bool overlap(Number time) const {
     for (std::size_t k = 0; k < 3; ++k) {
       bool before = true, behind = true;

@@ -6,8 +6,9 @@
 
 namespace assay::detector {
 
-// `rung` is always `filter`; the time one double. For a query that separated_along_an_axis did not
-// settle. Number: double or float (coordinates are rounded to it first). 0.1 to 1 us.
+// `rung` is always `filter`, and the time is one double. Number is double or float; coordinates
+// are rounded to it first. REQUIRES a query that separated_along_an_axis did not settle.
+// 0.1 to 1 us.
 template <class Number>
 ContactResult plain_contact(const FourPoints& query, Want want);
 

@@ -1,8 +1,10 @@
-// The elementary test of the production detector: vertex-face and edge-edge, by the ladder.
+// The elementary test of the production detector, vertex-face and edge-edge. It is a ladder of
+// rungs: axis order, doubles with proved bounds, integers. Each rung decides with certainty or
+// passes the query on.
 //
-// Guarantee of exact arithmetic: the answer is that of exact arithmetic on the doubles given, for
-// every finite input; touching counts, and so do t=0 and t=1. A time is the unique enclosure of
-// TimeEnclosure. The other arithmetics: contact_bounded.h, contact_plain.h.
+// Guarantee of exact arithmetic: for every finite input the answer is that of exact arithmetic on
+// the doubles given. Touching counts, and so do t=0 and t=1. A time is the unique enclosure of
+// TimeEnclosure. For the other arithmetics see contact_bounded.h and contact_plain.h.
 #pragma once
 
 #include <memory>
@@ -23,33 +25,34 @@ struct ContactResult {
 // Mean 0.1 to 1 us for candidates of a mesh; a hit's time costs about 1 us more.
 ContactResult test_contact(const FourPoints& query, Want want);
 
-// The same for a query that separated_along_an_axis did not settle.
+// The same. REQUIRES a query that separated_along_an_axis did not settle.
 ContactResult test_contact_past_axis(const FourPoints& query, Want want);
 
-// By any arithmetic; axis order first, which compares the inputs themselves.
+// The test in any arithmetic. In each of them axis order comes first, on the inputs as they are
+// given.
 ContactResult test_contact(const FourPoints& query, Want want, Arithmetic arithmetic);
 
-// The stage of the detector: asked for every feature pair that axis order left open, and for edges
-// that may pierce a triangle.
+// The elementary test as a stage of the detector. It is asked for every feature pair that axis
+// order left open, and for edges that may pierce a triangle.
 class ElementaryTest {
  public:
   virtual ~ElementaryTest() = default;
   virtual ContactResult test(const FourPoints& query, Want want) const {
     return test_contact_past_axis(query, want);
   }
-  // Whether the open segment strictly pierces the open triangle, at one instant: how two triangles
-  // that met before the step began are found.
+  // Whether the open segment strictly pierces the open triangle at one instant. In this way the
+  // detector finds two triangles that met before the step began.
   virtual bool pierces(const Point& e0, const Point& e1, const std::array<Point, 3>& face) const {
     return segment_pierces_triangle(e0, e1, face);
   }
-  // When two triangles first meet of which pierces() says that they do at t=0.
+  // The first contact time of two triangles of which pierces() said yes at t=0.
   virtual TimeEnclosure piercing_time(const Point&, const Point&,
                                       const std::array<Point, 3>&) const {
     return {0, 0};
   }
 };
 
-// The stage in this arithmetic.
+// The stage for this arithmetic.
 std::shared_ptr<const ElementaryTest> make_elementary_test(Arithmetic arithmetic);
 
 }  // namespace assay::detector

@@ -1,7 +1,8 @@
-// A root is guessed, and the places a little before and after it are tried: the cubic is surely
-// without a root up to the one when the coefficients up to there have one sign, and has surely
-// changed its sign at the other when its value there says so. Where several roots are near, or a
-// double one, halvings find the two places.
+// A root is guessed, and two places are tried, one a little before the guess and one a little
+// after it. If the coefficients up to the first place have one sign, the cubic surely has no root
+// up to there. If the value at the second place has the other sign, the cubic has surely changed
+// its sign by then. If several roots or a double root are near, this may fail; then halvings find
+// the two places.
 //
 // Error bounds, in the notation of bernstein.h; B is the largest |coefficient| that is split.
 //
@@ -28,7 +29,7 @@ double greatest(const Cubic& f) {
   return std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2]), std::abs(f[3])});
 }
 
-// Coefficients up to s.
+// The coefficients over [0,s].
 Cubic left_of(Cubic f, double s) {
   Cubic left;
   for (std::size_t level = 0; level < 4; ++level) {
@@ -42,7 +43,7 @@ struct RootPiece {
   Cubic f;
   double bound, lo, hi;
 
-  // Every middle is then a multiple of 2^-53: exact.
+  // While this holds every middle is a multiple of 2^-53, and so it is exact.
   bool may_halve() const { return hi - lo > 0x1p-52; }
 };
 
@@ -55,7 +56,7 @@ std::array<RootPiece, 2> halves(const RootPiece& piece) {
   return out;
 }
 
-// The end of what is surely free of roots at the piece's beginning.
+// A time up to which the piece is surely free of roots, as late as it is found.
 double free_until(RootPiece piece, int sign) {
   while (piece.may_halve() && sign_beyond(piece.f[0], piece.bound) == sign) {
     const auto [left, right] = halves(piece);
@@ -64,7 +65,8 @@ double free_until(RootPiece piece, int sign) {
   return piece.lo;
 }
 
-// A time, as early as it is found, at which the cubic surely has the other sign, as at the end.
+// A time at which the cubic surely has the sign that it has at the piece's end, as early as it is
+// found.
 double changed_at(RootPiece piece, int sign) {
   while (piece.may_halve()) {
     const auto [left, right] = halves(piece);

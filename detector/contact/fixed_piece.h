@@ -1,9 +1,11 @@
-// A piece of the step in exact Bernstein coefficients, and what their signs tell.
+// A piece of the step in exact Bernstein coefficients, and what the signs of the coefficients
+// tell.
 //
-// Of a polynomial over a piece, zeros among its coefficients left out:
-//   - coefficients of one sign, not all zero: that sign throughout the open piece;
-//   - the number of sign changes is the number of roots in the open piece, or an even number more
-//     (Descartes' rule, by s/(1-s)): none without a change, exactly one, a simple one, with one.
+// Leave out the zeros among the coefficients of a polynomial over a piece. Then:
+// - If the rest have one sign, the polynomial has that sign throughout the open piece.
+// - The number of sign changes is the number of roots in the open piece, or more by an even number
+//   (Descartes' rule, by s/(1-s)). So with no change there is no root, and with one change there
+//   is exactly one, a simple one.
 #pragma once
 
 #include <optional>
@@ -12,11 +14,11 @@
 
 namespace assay::detector {
 
-// Of one polynomial over the open piece.
+// The signs of one polynomial over the open piece.
 struct PieceSigns {
   int changes = 0;
-  int first = 0;  // the sign after the beginning; 0: vanishes throughout
-  bool known() const { return changes == 0; }
+  int first = 0;  // the sign just after the beginning; 0 if the polynomial vanishes throughout
+  bool known() const { return changes == 0; }  // `first` is then the sign throughout
 };
 
 template <class T, std::size_t n>
@@ -33,7 +35,7 @@ PieceSigns piece_signs(const std::array<T, n>& coefficients) {
   return signs;
 }
 
-// Which signs occur among some polynomials.
+// Which of the two strict signs occur among some polynomials.
 struct SignSet {
   bool positive = false, negative = false;
   void add(int sign) {
@@ -51,17 +53,18 @@ struct FixedPiece {
   using Dependency = std::array<FixedQuadratic<Minor>, 4>;
 
   FixedCubic<Triple> f;
-  std::array<std::optional<Dependency>, 3> dependencies;  // made when asked for
-  double lo, hi;                                          // dyadic: exact
+  std::array<std::optional<Dependency>, 3> dependencies;  // computed when asked for
+  double lo, hi;                                          // dyadic, and so exact
 
-  // Only the whole step can lack one.
+  // The dependency of this axis, computed now if it is not there yet. Only a piece that is the
+  // whole step can lack one, because halves() hands all of them on.
   const Dependency& dependency(std::size_t axis, const FixedProducts<W>& products) {
     auto& l = dependencies[axis];
     if (!l) l = products.dependency(axis);
     return *l;
   }
 
-  // All dependencies must have been made.
+  // The two halves. REQUIRES that all dependencies have been computed.
   std::array<FixedPiece, 2> halves() const {
     std::array<FixedPiece, 2> out;
     auto& [left, right] = out;
@@ -81,7 +84,7 @@ struct FixedPiece {
   }
 };
 
-// A quadratic as a cubic, times 3 in the coefficients: b0, b1, b2, b3 from q0, q1, q2.
+// The coefficients b0, b1, b2, b3, times 3, of the quadratic q0, q1, q2 written as a cubic.
 template <std::size_t W>
 FixedCubic<FixedInteger<3 * W>> raised(const FixedQuadratic<FixedInteger<2 * W>>& quadratic) {
   using Triple = FixedInteger<3 * W>;

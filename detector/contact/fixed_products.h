@@ -1,20 +1,20 @@
 // The coplanarity cubic and the dependencies (contact_pieces.h) of a query in integers of fixed
-// width: exact, as Bernstein coefficients times positive constants.
+// width. Their Bernstein coefficients are exact up to positive constant factors.
 //
-// Widths. W is the number of limbs of a coordinate, and every coordinate is below 2^c in size, with
-// c = bits() <= 64 W - 8. x and y are entries of two differences, s and e ends of the step.
+// Widths. W is the number of limbs of a coordinate, and every coordinate is below 2^c in size,
+// with c = bits() <= 64 W - 8. x and y are entries of two differences, s and e ends of the step.
 //
-//   quantity                             | below, in size                        | bits
-//   x: a difference of coordinates       | 2 * 2^c                               | c + 1
-//   n(s,e) = x_s y_e - x_e y_s           | 2 * 2^(2c + 2)                        | 2c + 3
-//   m = n(0,1) + n(1,0)                  | 2 * 2^(2c + 3)                        | 2c + 4
-//   dependencies 1..3: 2 n00, m, 2 n11   | 2 * 2^(2c + 3)                        | 2c + 4
-//   dependency 0: minus their sum        | 3 * 2^(2c + 4)                        | 2c + 6
-//   B0 = w0.n00, B3 = w1.n11             | 3 * 2^(3c + 4)                        | 3c + 6
-//   3 B0, 3 B3                           | 9 * 2^(3c + 4)                        | 3c + 8
-//   B1 = w0.m + w1.n00, B2 likewise      | 3 * 2^(3c + 5) + 3 * 2^(3c + 4)       | 3c + 8
-//   a dependency, halved undivided       | 4 times as much a halving             | 2 more a halving
-//   the cubic, halved undivided          | 8 times as much a halving             | 3 more a halving
+//   quantity                            | below, in size                        | bits
+//   x: a difference of coordinates      | 2 * 2^c                               | c + 1
+//   n(s,e) = x_s y_e - x_e y_s          | 2 * 2^(2c + 2)                        | 2c + 3
+//   m = n(0,1) + n(1,0)                 | 2 * 2^(2c + 3)                        | 2c + 4
+//   dependencies 1..3: 2 n00, m, 2 n11  | 2 * 2^(2c + 3)                        | 2c + 4
+//   dependency 0: minus their sum       | 3 * 2^(2c + 4)                        | 2c + 6
+//   B0 = w0.n00, B3 = w1.n11            | 3 * 2^(3c + 4)                        | 3c + 6
+//   3 B0, 3 B3                          | 9 * 2^(3c + 4)                        | 3c + 8
+//   B1 = w0.m + w1.n00, B2 likewise     | 3 * 2^(3c + 5) + 3 * 2^(3c + 4)       | 3c + 8
+//   a dependency, halved undivided      | 4 times as much a halving             | 2 more a halving
+//   the cubic, halved undivided         | 8 times as much a halving             | 3 more a halving
 //
 // After max_fixed_depth = 4 halvings a dependency has at most 2c + 14 <= 128 W - 2 bits and the
 // cubic 3c + 20 <= 192 W - 4: 2 W limbs hold a dependency, 3 W limbs the cubic, signs included.
@@ -50,7 +50,7 @@ class FixedProducts {
     for (std::size_t k = 0; k < 3; ++k) lam1_[k] = minor(1, 2, k);
   }
 
-  // B0, B1, B2, B3: the cubic's coefficients are B0, B1/3, B2/3, B3.
+  // B0, B1, B2, B3, with which the cubic's Bernstein coefficients are B0, B1/3, B2/3, B3.
   FixedCubic<Triple> coplanarity() const {
     FixedCubic<Triple> b;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -64,7 +64,7 @@ class FixedProducts {
     return b;
   }
 
-  // L_k,0..3 of the axis, times 2.
+  // L_k,0..3 of axis k, times 2.
   std::array<FixedQuadratic<Minor>, 4> dependency(std::size_t axis) const {
     std::array<FixedQuadratic<Minor>, 4> l = {
         {{}, lam1_[axis], minor(2, 0, axis), minor(0, 1, axis)}};
@@ -94,7 +94,8 @@ class FixedProducts {
   std::array<FixedQuadratic<Minor>, 3> lam1_;
 };
 
-// Coefficients over the two halves, times 2^(n-1).
+// Sets `left` and `right` to the coefficients over the two halves, times 2^(n-1), so that nothing
+// is divided.
 template <class T, std::size_t n>
 void halve_undivided(std::array<T, n> row, std::array<T, n>& left, std::array<T, n>& right) {
   for (std::size_t level = 0; level < n; ++level) {

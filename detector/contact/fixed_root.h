@@ -1,5 +1,5 @@
-// The time at which the coplanarity cubic changes sign, from its coefficients in integers of fixed
-// width.
+// Finds the time at which the coplanarity cubic changes sign, from its coefficients in integers of
+// fixed width.
 //
 // With B0..B3 and c of fixed_products.h the cubic is c0 + c1 t + c2 t^2 + c3 t^3:
 //
@@ -33,19 +33,19 @@ Integer integer_of(const FixedInteger<limbs>& value) {
 template <std::size_t W>
 class FixedRoot {
  public:
-  // bits: of a coordinate; only scales guesses.
+  // b: B0..B3. bits: those of a coordinate; they only scale guesses.
   FixedRoot(const FixedCubic<FixedInteger<3 * W>>& b, int bits) : bits_(bits) {
     const auto b0_3 = b[0] + b[0] + b[0];
     c_ = {b[0], b[1] - b0_3, b[2] - (b[1] + b[1]) + b0_3, b[3] - b[2] + b[1] - b[0]};
   }
 
-  // As bracket_root: one root in (lo, hi), the sign before it.
+  // As bracket_root: the one root in (lo, hi), where sign_lo is the sign before it.
   TimeEnclosure bracket(int sign_lo, double lo, double hi, double guess) const {
     return bracket_root([this](double t) { return sign_at(t); }, sign_lo, lo, hi,
                         sharpened(guess, lo, hi));
   }
 
-  // Exact sign at a double in [0,1].
+  // The exact sign of the cubic at a double in [0,1].
   int sign_at(double time) const {
     const Binary t = binary_of(time);
     return -t.exponent <= 64    ? scaled_value_at<3 * W + 3>(t).sign()
@@ -54,7 +54,7 @@ class FixedRoot {
   }
 
  private:
-  // Of c0..c3 the greatest is below 2^(3c + 10).
+  // Each of c0..c3 is below 2^(3c + 10) in size.
   using Coefficient = FixedInteger<3 * W>;
 
   template <std::size_t limbs>
@@ -69,7 +69,8 @@ class FixedRoot {
     return value;
   }
 
-  // One Newton step with the exact value: a guess within the last place of a double, mostly.
+  // Improves the guess by one Newton step with the exact value. Mostly it is then off by less than
+  // the last place of a double.
   double sharpened(double guess, double lo, double hi) const {
     if (!(guess > lo && guess < hi)) return guess;
     const Binary t = binary_of(guess);
@@ -82,7 +83,7 @@ class FixedRoot {
     return next > lo && next < hi ? next : guess;
   }
 
-  // Times so near 0 that they do not fit.
+  // The sign at times so near 0 that their powers do not fit into integers of fixed width.
   int unbounded_sign_at(double time) const {
     Polynomial f;
     const Polynomial t = Polynomial::linear(0, 1);

@@ -1,12 +1,14 @@
-// The first contact in exact Bernstein coefficients over pieces of [0,1], in time order. There is
-// no uncertain sign as in contact_pieces.h. Ends of pieces are looked at by themselves: the
-// coefficients there are the values. Inside, the cubic's root must be the only one, and each
-// dependency may have one root: SignAtRoot puts them in order. What is open in the end: roots close
-// together, double roots, and collinear points.
+// Finds the first contact by exact Bernstein coefficients over pieces of [0,1], in time order. No
+// sign is uncertain as in contact_pieces.h. The ends of a piece are looked at by themselves,
+// because the coefficients there are the values. Inside a piece a contact is decided if the cubic
+// has one root only and each dependency has at most one: SignAtRoot tells the order of these
+// roots. In the end the following stay open: roots close together, double roots, and collinear
+// points.
 //
-// Coplanar throughout, no contact where the piece begins: contacts are closed in time, so the first
-// one inside is where signs along an axis change, if not all dependencies of that axis vanish
-// throughout: at a root of one of these.
+// Now let the points be coplanar throughout, without a contact where the piece begins. Take an
+// axis of which not all dependencies vanish throughout. The times of contact are a closed set, so
+// at the first contact inside the piece the signs along that axis change. So that time is a root
+// of one of its dependencies.
 #pragma once
 
 #include "detector/contact/fixed_piece.h"
@@ -18,7 +20,7 @@ namespace assay::detector {
 template <std::size_t W>
 class FixedSearch {
  public:
-  // query.bits() <= most_bits<W>.
+  // REQUIRES query.bits() <= most_bits<W>.
   FixedSearch(const QueryIntegers& query, int first_group, Want want)
       : bits_(query.bits()),
         want_(want),
@@ -38,14 +40,15 @@ class FixedSearch {
     return visit(whole, 0);
   }
 
-  // Of the contact that was found; meaningful where a time is wanted.
+  // The time of the contact that was found. Meaningful only if a time is wanted.
   const TimeEnclosure& time() const { return time_; }
 
  private:
   using Piece = FixedPiece<W>;
   using Triple = typename Piece::Triple;
 
-  // Whether there is a contact at an end of the piece where the points are coplanar.
+  // Whether there is a contact at `time`, an end of the piece. REQUIRES that the points are
+  // coplanar then.
   template <class SignThere>
   Decision look_at(Piece& piece, double time, SignThere sign_there) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -59,7 +62,7 @@ class FixedSearch {
     return Decision::open;  // collinear
   }
 
-  // The piece without its beginning.
+  // Looks for a contact in the piece without its beginning.
   Decision visit(Piece& piece, int depth) {
     const PieceSigns f = piece_signs(piece.f);
     if (coplanar_ || f.changes > 0) {
@@ -78,7 +81,7 @@ class FixedSearch {
     return look_at(piece, piece.hi, [](const auto& l) { return l.back().sign(); });
   }
 
-  // In the open piece.
+  // Looks for a contact in the open piece.
   Decision look_inside(Piece& piece, PieceSigns f) {
     const bool single = f.changes == 1;
     Decision found = look_at_signs(piece, single);
@@ -126,8 +129,9 @@ class FixedSearch {
     return Decision::yes;
   }
 
-  // By signs that are known throughout the open piece: both along some axis, or all along some axis
-  // and a root (`has_root`) of the cubic inside.
+  // Decides by the signs that are known throughout the open piece. If both strict signs occur
+  // along some axis there is no contact. If all signs along some axis are known and not all zero,
+  // and the cubic has a root inside (`has_root`), there is one.
   Decision look_at_signs(Piece& piece, bool has_root) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       SignSet inside;
@@ -146,7 +150,8 @@ class FixedSearch {
     return Decision::open;
   }
 
-  // At the one root in the open piece of a cubic that has the sign `before` before it.
+  // Decides whether there is a contact at the root of `cubic` in the open piece. REQUIRES that the
+  // cubic has one root there and the sign `before` before it.
   Decision look_at_root(Piece& piece, const FixedCubic<Triple>& cubic, int before) {
     std::optional<SignAtRoot<W>> sign_at_root;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -170,8 +175,8 @@ class FixedSearch {
     return Decision::open;
   }
 
-  // Of the one root in the open piece of a cubic: `whole` as coplanarity(), over the step; `cubic`
-  // over the piece.
+  // The enclosure of the one root of a cubic in the open piece. `whole` holds the cubic over the
+  // step, in the form of coplanarity(); `cubic` holds it over the piece.
   TimeEnclosure bracket(const Piece& piece, const FixedCubic<Triple>& whole,
                         const FixedCubic<Triple>& cubic, int before) const {
     Cubic f;

@@ -1,8 +1,9 @@
-// The sign of a quadratic L at a root r of a cubic F, each of which has exactly one root in (0,1),
-// by a resultant: no interval has to be made small, and common roots are no special case.
+// The sign of a quadratic L at the root r of a cubic F in (0,1). REQUIRES that each of them has
+// exactly one root in (0,1). It is found by a resultant: no interval has to be made small, and
+// common roots are no special case.
 //
-// Let p be the root of L. On (0,1) F has the sign f before r and -f after it, L the sign l before p
-// and -l after it. So F(p) tells the order of the two:
+// Let p be the root of L. On (0,1) F has the sign f before r and -f after it, and L has the sign l
+// before p and -l after it. So F(p) tells the order of r and p:
 //
 //   F(p) = 0      r = p, and L(r) = 0
 //   F(p) has f    p < r, and L(r) has -l
@@ -12,15 +13,16 @@
 //
 //   l2^2 F = (...) L + R,   R = a s + b,
 //
-// so F(p) has the sign of R(p). Where R has one sign at 0 and 1, that is it. Else R vanishes at
-// q = -b/a in (0,1), and L(q) tells the order of p and q in the same way:
+// so F(p) has the sign of R(p). If R has the same sign at 0 and 1, R(p) has that sign too. Else R
+// vanishes at q = -b/a in (0,1), and L(q) tells the order of p and q in the same way:
 //
 //   a^2 L(q) = l2 b^2 - l1 a b + l0 a^2.
 //
-// With l2 = 0 the root p = -l0/l1 is put into F.
+// If l2 = 0 the root is p = -l0/l1, and F(p) is computed directly.
 //
 // Widths. As in fixed_products.h W is the number of limbs of a coordinate and c its bits, at most
-// 64 W - 8. After 4 halvings the Bernstein coefficients of F have 3c + 20 bits, those of L 2c + 14.
+// 64 W - 8. After 4 halvings the Bernstein coefficients of F have 3c + 20 bits, those of L have
+// 2c + 14.
 //
 //   quantity                          | below, in size            | bits       | limbs
 //   f0..f3: F by powers of s          | 12 * 2^(3c + 20)          | 3c + 24    | 3 W + 1
@@ -39,8 +41,8 @@
 //   a term                        | four of these at most, multiplied  | at most 4 (9 + 1) = 40
 //   a sum of seven terms at most  | six sums                           | 40 + 6 = 46 S
 //
-// The code asks for 2^-46 S = 128 u S. Where S is so small that a term may have lost bits by
-// underflow, nothing is decided.
+// The code asks for 2^-46 S = 128 u S. If S is so small that a term may have lost bits by
+// underflow, doubles decide nothing.
 #pragma once
 
 #include "detector/bernstein/bernstein.h"
@@ -54,8 +56,8 @@ class SignAtRoot {
   using Minor = typename FixedProducts<W>::Minor;
   using Triple = typename FixedProducts<W>::Triple;
 
-  // f: Bernstein coefficients of F over (0,1). sign_before: its sign before the root. bits: of the
-  // coordinates.
+  // f: the Bernstein coefficients of F over (0,1). sign_before: the sign of F before its root.
+  // bits: those of the coordinates.
   SignAtRoot(const FixedCubic<Triple>& f, int sign_before, int bits)
       : f_before_(sign_before), bits_(bits) {
     const FixedCubic<F> b = {F(f[0]), F(f[1]), F(f[2]), F(f[3])};
@@ -64,7 +66,8 @@ class SignAtRoot {
     for (std::size_t i = 0; i < 4; ++i) near_f_[i] = f_[i].approximate(3 * bits_);
   }
 
-  // Of L at the root of F. L by its Bernstein coefficients; its sign before its root.
+  // The sign at the root of F of the L with these Bernstein coefficients. l_before: the sign of L
+  // before its own root.
   int of(const FixedQuadratic<Minor>& quadratic, int l_before) const {
     const FixedQuadratic<L> b = {L(quadratic[0]), L(quadratic[1]), L(quadratic[2])};
     const L d0 = b[1] - b[0], d1 = b[2] - b[1];
@@ -79,7 +82,7 @@ class SignAtRoot {
   using Step2 = FixedInteger<7 * W + 1>;
   using Value = FixedInteger<16 * W + 3>;
 
-  // Sign of F at the root p of L.
+  // The sign of F at the root p of L.
   int sign_at_root_of(const FixedQuadratic<L>& l, int l_before) const {
     const Quadratic near_l = {l[0].approximate(2 * bits_), l[1].approximate(2 * bits_),
                               l[2].approximate(2 * bits_)};
@@ -116,7 +119,7 @@ class SignAtRoot {
                 std::abs(terms[0]) + std::abs(terms[1]) + std::abs(terms[2]) + std::abs(terms[3]));
   }
 
-  // Where the remainder has one sign on (0,1).
+  // The sign of the remainder R if it surely has one sign on (0,1), else 0.
   int sure_remainder(const Quadratic& l) const {
     const Cubic& f = near_f_;
     const double a[] = {l[2] * l[2] * f[1], -l[2] * l[0] * f[3], -l[1] * l[2] * f[2],
@@ -131,7 +134,7 @@ class SignAtRoot {
 
   int f_before_, bits_;
   FixedCubic<F> f_;
-  Cubic near_f_;  // times 2^(-3 bits)
+  Cubic near_f_;  // f_ times 2^(-3 bits), in doubles
 };
 
 }  // namespace assay::detector

@@ -1,8 +1,9 @@
 // The common form of the two elementary queries: four moving points in two groups.
 //
-// Vertex-face: {0} | {1,2,3}. Edge-edge: {0,1} | {2,3}. The features are the closed convex hulls of
-// the groups, whatever these have become (a zero-area triangle is the segment or point that is
-// left); contact at t means that the hulls meet at t.
+// The groups of a vertex-face query are {0} | {1,2,3}, those of an edge-edge query {0,1} | {2,3}.
+// The features are the closed convex hulls of the groups, whatever these have become: a zero-area
+// triangle is the segment or point that is left of it. A contact at t means that the two hulls
+// meet at t.
 #pragma once
 
 #include "detector/mesh/step_types.h"

@@ -1,8 +1,9 @@
-// The segment pierces the triangle strictly when its ends lie strictly on opposite sides of the
-// plane and its line strictly inside the three edges (segment_pierces_triangle). Where the sides of
-// the plane cannot be told, as between coplanar triangles, a shadow settles it: what pierces meets
-// in the projection along every axis. There the two are apart when a line through an edge of the
-// triangle, or through the segment, has the one strictly on its one side and the other not there.
+// The segment pierces the triangle strictly if its ends lie strictly on opposite sides of the
+// triangle's plane and its line passes strictly inside the three edges (segment_pierces_triangle).
+// If the sides of the plane cannot be told, as between coplanar triangles, projections may settle
+// it: a segment that pierces meets the triangle in the projection along every axis. In a
+// projection the two are apart if a line through an edge of the triangle, or through the segment,
+// has one of them strictly on one side and no point of the other on that side.
 //
 // Error bound of a side in the projection along axis k. With p and q the other two axes, and M_p
 // and M_q the largest |difference| along them, (b-a) x (c-a) is one minor, off by 8 u M_p M_q
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double side_error = 9 * unit_roundoff;
 
-// The sign of (b-a) x (c-a) in the projection along `axis`, 0 when it is not sure.
+// The sign of (b-a) x (c-a) in the projection along `axis`, or 0 if it is not sure.
 int sure_side(const Point& a, const Point& b, const Point& c, std::size_t axis) {
   const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
   const double bp = b[p] - a[p], bq = b[q] - a[q], cp = c[p] - a[p], cq = c[q] - a[q];
@@ -45,7 +46,8 @@ bool surely_apart(const Point& e0, const Point& e1, const std::array<Point, 3>& 
   return false;
 }
 
-// Signs of the two sides of the plane and of the three turns around the segment.
+// On which sides of the triangle's plane the two ends are, and the signs of the three turns of the
+// triangle's edges around the segment.
 template <class Bounds>
 struct PiercingSigns {
   PiercingSigns(const Point& e0, const Point& e1, const std::array<Point, 3>& face)

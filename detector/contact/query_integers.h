@@ -1,6 +1,6 @@
-// The coordinates of an elementary query as integers, each axis times a power of two of its own: an
-// affine map, so that contacts and their times are the same, and the integers are as short as they
-// can be.
+// The coordinates of an elementary query as integers. Each axis is multiplied by a power of two of
+// its own. This is an affine map, so contacts and their times stay the same, and the integers are
+// as short as they can be.
 #pragma once
 
 #include <bit>
@@ -33,7 +33,8 @@ class QueryIntegers {
   // Every integer is below 2^bits() in size.
   int bits() const { return bits_; }
 
-  // Point i, axis k, at t=0 or t=1. Needs bits() < 64 limbs.
+  // The coordinate of point i along axis k, at t=0 (end 0) or t=1 (end 1). REQUIRES bits() < 64
+  // limbs.
   template <std::size_t limbs>
   FixedInteger<limbs> at(std::size_t i, std::size_t end, std::size_t k) const {
     const Coordinate& c = coordinates_[i][end][k];
@@ -58,7 +59,7 @@ class QueryIntegers {
     bool negative;
   };
 
-  // Of a finite double: mantissa times 2^exponent.
+  // A finite double as its sign and mantissa times 2^exponent.
   static Coordinate split(double value) {
     const auto pattern = std::bit_cast<std::uint64_t>(value);
     constexpr unsigned fraction_bits = 52;

@@ -1,15 +1,16 @@
-// Real numbers of any magnitude, known up to a bound: what the integers without bound are filtered
-// by. Signs of sums of products of integers of thousands of bits are told here in some 0.1 us
-// unless all but the last 2^-50 of their terms cancels; then integers decide.
+// Real numbers of any magnitude, known up to a bound. They are the filter before the integers
+// without bound: the sign of a sum of products of integers of thousands of bits is told here in
+// some 0.1 us, unless the terms cancel to 2^-50 of their size or less. Then integers decide.
 //
-// A ball is a pair of doubles and an exponent: the number is within radius 2^exponent of
-// middle 2^exponent. The larger of |middle| and radius is in [1,2), or both are 0 and so is the
-// number. So doubles neither overflow nor lose small numbers, whatever the exponent is.
+// A ball is a pair of doubles and an exponent. The number is off by at most radius 2^exponent from
+// middle 2^exponent. Either the larger of |middle| and radius is in [1,2), or both are 0 and so is
+// the number. So the doubles neither overflow nor lose small numbers, whatever the exponent is.
 //
-// Errors, with u = 2^-53. A sum or product of doubles is off by at most u times its size: 2 u are
-// added to the radius for it. The radius itself is rounded, a few times for each operation, and
-// what is far smaller than the rest may underflow when the pair is scaled (by 2^-1074 where the
-// radius is 2^-260 or more): all of that is far below `slack`, by which each radius grows.
+// Errors, with u = 2^-53. A sum or product of doubles is off by at most u times its size; the
+// radius grows by 2 u of that size to cover it. The radius itself is rounded a few times in each
+// operation. When the pair is scaled, a number far smaller than the other may underflow (by
+// 2^-1074, where the radius is 2^-260 or more). All of that is far below `slack`, by which each
+// radius is multiplied.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +26,10 @@ class Ball {
  public:
   Ball() = default;  // exactly 0
 
-  // value 2^exponent, from its two highest limbs. With the higher one t >= 1 and the lower one l,
-  // both as integers, t + l 2^-64 in doubles is off by u t (0 for t below 2^53), u and u (t + 1)
-  // at most, and the limbs below are worth less than 2^-64: together less than 4 u t.
+  // The ball around value 2^exponent, from the two highest limbs of `value`. Let t >= 1 be the
+  // higher and l the lower one, both as integers. Computed in doubles, t + l 2^-64 is off by u t
+  // (0 for t below 2^53) from the first limb, by u from the second, and by u (t + 1) from the sum,
+  // at most. The limbs below are worth less than 2^-64. Together this is less than 4 u t.
   explicit Ball(const Integer& value, std::int64_t exponent = 0) {
     using Limb = boost::multiprecision::limb_type;
     static_assert(sizeof(Limb) == 8);
@@ -64,7 +66,7 @@ class Ball {
     return product;
   }
 
-  // Nothing where the bound does not tell.
+  // The sign of the number, or nothing if the bound leaves it open.
   std::optional<int> sign() const {
     if (middle_ > radius_) return 1;
     if (-middle_ > radius_) return -1;
@@ -82,8 +84,9 @@ class Ball {
     return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
   }
 
-  // Of two that are not 0, a with the greater exponent. Far below a's unit b is below 4 2^-200, as
-  // its middle and its radius are below 2 of its units: it then is a part of the radius.
+  // The sum. REQUIRES that neither is 0 and that a has the greater exponent. The middle and the
+  // radius of b are each below 2 of b's units. If b's unit is less than 2^-200 of a's, b is below
+  // 4 2^-200 in a's units, and is added to the radius alone.
   static Ball sum_of(const Ball& a, const Ball& b) {
     constexpr std::int64_t far = 200;
     const std::int64_t shift = a.exponent_ - b.exponent_;

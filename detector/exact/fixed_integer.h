@@ -1,6 +1,6 @@
-// Integers of a fixed number of limbs on the stack, two's complement: for values of which a bound
-// is known beforehand. No allocation, no length to keep, hardly a branch. Results that do not fit
-// wrap; whoever uses them shows that they fit.
+// Integers of a fixed number of 64-bit limbs on the stack, in two's complement, for values whose
+// bound is known beforehand. They need no allocation, keep no length and have hardly a branch.
+// Results that do not fit wrap, so whoever uses these integers has to prove that they fit.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ class FixedInteger {
     limb_[0] = static_cast<std::uint64_t>(value);
     fill_from(1, value < 0);
   }
-  // The same value in another width, in which it must fit.
+  // The same value in another width. REQUIRES that it fits.
   template <std::size_t others>
   explicit FixedInteger(const FixedInteger<others>& value) {
     for (std::size_t i = 0; i < limbs && i < others; ++i) limb_[i] = value.limb(i);
@@ -73,7 +73,7 @@ class FixedInteger {
     }
     return out;
   }
-  // By a factor below 2^63, in place of a full product.
+  // Times a factor below 2^63; cheaper than a full product.
   FixedInteger times(std::uint64_t factor) const {
     FixedInteger out;
     DoubleLimb carry = 0;
@@ -85,7 +85,7 @@ class FixedInteger {
     return out;
   }
 
-  // Divided by 2^scale, within some units in the last place: for guesses.
+  // The value divided by 2^scale, off by some units in the last place. It serves for guesses.
   double approximate(int scale) const {
     const FixedInteger size = negative() ? -*this : *this;
     std::size_t top = limbs - 1;
@@ -103,8 +103,8 @@ class FixedInteger {
   std::array<std::uint64_t, limbs> limb_ = {};  // least significant first
 };
 
-// The whole product. With the values read as unsigned, a negative one counts 2^bits too much: then
-// the other one is taken off the upper limbs.
+// The whole product. The limbs are multiplied as if the values were unsigned, so that a negative
+// value counts 2^bits too much. To mend that, the other value is subtracted from the upper limbs.
 template <std::size_t m, std::size_t n>
 FixedInteger<m + n> operator*(const FixedInteger<m>& a, const FixedInteger<n>& b) {
   FixedInteger<m + n> product;

@@ -80,7 +80,7 @@ Polynomial Polynomial::derivative() const {
   return d;
 }
 
-// With lo = m 2^-k and hi - lo = w 2^-k: f((m + w s) 2^-k) 2^(k degree) in integers.
+// With lo = m 2^-k and hi - lo = w 2^-k, this is f((m + w s) 2^-k) 2^(k degree), in integers.
 Polynomial Polynomial::over(const Dyadic& lo, const Dyadic& hi) const {
   assert(lo.exponent <= 0 && hi.exponent <= 0);
   const int k = -std::min(lo.exponent, hi.exponent);
@@ -176,9 +176,10 @@ void Polynomial::take_out_powers_of_two() {
   for (auto& c : coefficients_) c >>= common;
 }
 
-// Let d be the divisor, with integers that have no common factor; then this is d h with h of
-// integers too (Gauss's lemma). Divided by d / leading(d) instead it is leading(d) h: integers
-// again, and so is each h_k d_i below, which is written by those of any multiple of d.
+// Let d be the divisor after its integers were freed of common factors. Then this polynomial is d
+// h, where h has integer coefficients too (Gauss's lemma). Divided by d / leading(d) instead, it
+// gives leading(d) h, which has integer coefficients again. So each h_k d_i below is an integer,
+// and it can be written with the coefficients of any multiple of d.
 Polynomial Polynomial::quotient(const Polynomial& divisor) const {
   assert(!divisor.is_zero());
   Polynomial rest = *this, result;

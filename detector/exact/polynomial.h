@@ -1,5 +1,5 @@
-// Polynomials in the step's time with exact integer coefficients. The detector's are of degree 5
-// at most (the middle piece of a view-line); none is limited here.
+// Polynomials in the step's time with exact integer coefficients. Those of the detector have
+// degree 5 at most (the middle piece of a view-line), but this class does not limit the degree.
 #pragma once
 
 #include <boost/container/small_vector.hpp>
@@ -8,7 +8,7 @@
 
 namespace assay::detector {
 
-// A time m * 2^e, exact.
+// The exact time mantissa * 2^exponent.
 struct Dyadic {
   Integer mantissa = 0;
   int exponent = 0;  // at most 0 for every time in [0,1]
@@ -20,7 +20,7 @@ class Polynomial {
  public:
   Polynomial() = default;  // zero
   static Polynomial constant(const Integer& value);
-  // value_t0 + t (value_t1 - value_t0)
+  // The polynomial value_t0 + t (value_t1 - value_t0).
   static Polynomial linear(const Integer& value_t0, const Integer& value_t1);
 
   bool is_zero() const { return coefficients_.empty(); }
@@ -36,24 +36,27 @@ class Polynomial {
   Polynomial operator-() const;
 
   Polynomial derivative() const;
-  // A positive multiple of f(lo + s (hi - lo)) as a polynomial in s; lo < hi.
+  // A positive multiple of f(lo + s (hi - lo)) as a polynomial in s. REQUIRES lo < hi.
   Polynomial over(const Dyadic& lo, const Dyadic& hi) const;
 
-  // Sign (-1, 0, 1) at a time; exact. 0.1 us unless nearly all of its terms cancels there (ball.h).
+  // The exact sign (-1, 0, 1) at a time. 0.1 us unless the terms cancel nearly wholly there
+  // (ball.h).
   int sign_at(const Dyadic& time) const;
-  // Signs at t = 0 and t = 1 without a Dyadic.
+  // The signs at t = 0 and t = 1. They need no Dyadic.
   int sign_at_zero() const;
   int sign_at_one() const;
 
-  // By an integer that divides every coefficient.
+  // Divides all coefficients by `divisor`. REQUIRES that it divides every one of them.
   void divide_exactly(const Integer& divisor);
-  // By the greatest power of two that does so.
+  // Divides all coefficients by the greatest power of two that divides every one of them.
   void take_out_powers_of_two();
-  // The pseudo-remainder of this by `divisor` (not zero): that of this times |leading
-  // coefficient|^(difference of degrees + 1). This itself where its degree is the lower one.
+  // The pseudo-remainder by `divisor`: the remainder of this polynomial times |leading coefficient
+  // of divisor|^(difference of degrees + 1). If the degree of this polynomial is lower than that
+  // of `divisor`, it is this polynomial itself. REQUIRES that `divisor` is not zero.
   Polynomial remainder(const Polynomial& divisor) const;
-  // This divided by a polynomial that divides it up to a constant; up to a non-zero constant, but
-  // with integers no longer than those of this and some bits.
+  // This polynomial divided by `divisor`, up to a non-zero constant factor. REQUIRES that
+  // `divisor` divides this polynomial up to a constant. The result's integers are longer than
+  // those of this polynomial by some bits at most.
   Polynomial quotient(const Polynomial& divisor) const;
 
   static constexpr std::size_t inline_coefficients = 6;

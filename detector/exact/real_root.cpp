@@ -11,8 +11,8 @@
 namespace assay::detector {
 namespace {
 
-// Where f changes sign between lo and hi, in plain double arithmetic: a guess that saves exact
-// evaluations and decides nothing.
+// About where f changes sign between lo and hi, in plain double arithmetic. This is a guess that
+// saves exact evaluations and decides nothing.
 double approximate_root(const Polynomial& f, double lo, double hi) {
   constexpr unsigned kept_bits = 900;  // far inside the range of double
   unsigned most_bits = 0;
@@ -49,14 +49,15 @@ RealRoot enclosed(const Polynomial& f, const IsolatedRoot& root) {
   return {f, Dyadic::of(doubles.lo), Dyadic::of(doubles.hi), root.sign_after_lo, doubles};
 }
 
-// Of the square-free part of f, which has these sign changes over (0,1).
+// The isolated roots of `simple`, the square-free part of f. REQUIRES that f has the sign changes
+// of_f over (0,1).
 std::vector<IsolatedRoot> isolated_roots(const Polynomial& simple, const Polynomial& f,
                                          SignChanges of_f, Roots wanted) {
   const bool is_f = simple.degree() == f.degree();
   return isolate_roots(simple, is_f ? of_f : sign_changes_over_unit(simple), wanted);
 }
 
-// The double in which a dyadic time lies, or the two around it.
+// The double that a dyadic time is, or the two adjacent doubles around it.
 TimeEnclosure doubles_around(const Dyadic& time) {
   const Integer scale = Integer(1) << static_cast<unsigned>(-time.exponent);
   const Polynomial f = Polynomial::linear(-time.mantissa, scale - time.mantissa);

@@ -1,4 +1,5 @@
-// The enclosure in doubles of a root that is the only one between two doubles, from exact signs.
+// Finds the enclosure in doubles of a root that is the only one between two doubles, by exact
+// signs.
 #pragma once
 
 #include <bit>
@@ -8,15 +9,19 @@
 
 namespace assay::detector {
 
-// Doubles in [0,1] in order are consecutive integers.
+// The doubles in [0,1] are numbered by consecutive integers in ascending order: their bits, read
+// as an integer.
 inline std::uint64_t ordinal(double time) { return std::bit_cast<std::uint64_t>(time); }
 inline double from_ordinal(std::uint64_t n) { return std::bit_cast<double>(n); }
 inline bool adjacent(double lo, double hi) { return ordinal(hi) == ordinal(lo) + 1; }
 
-// The one root in the open interval (lo, hi), doubles in [0,1], of a function whose sign is sign_lo
-// (1 or -1) from lo to the root and the other one from there to hi. `sign_at` is asked only for
-// times inside. From the guess outward in growing strides of doubles until the root is between,
-// then halving; a guess outside (lo, hi) is none. Two signs where the guess is next to the root.
+// The enclosure of the one root of a function in the open interval (lo, hi). REQUIRES doubles lo
+// and hi in [0,1], and that the sign of the function is sign_lo (1 or -1) between lo and the root,
+// and the opposite between the root and hi. sign_at(t) is asked only for times t inside.
+//
+// The search starts at the guess and goes towards the root in growing strides of doubles until it
+// has passed the root; then it halves. A guess outside (lo, hi) is ignored. If the guess is next
+// to the root, two signs are enough.
 template <class SignAt>
 TimeEnclosure bracket_root(SignAt sign_at, int sign_lo, double lo, double hi, double guess) {
   if (guess > lo && guess < hi) {

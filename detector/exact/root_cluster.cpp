@@ -1,7 +1,7 @@
-// Halving alone takes a step a bit, and thousands of bits may be needed. So a part of the gap with
-// n sign changes, n >= 2, is narrowed as the quadratic interval refinement of clusters does it
-// (Abbott, Quadratic interval refinement for real roots, 2006; Sagraloff, Mehlhorn, Computing real
-// roots of real polynomials, J. Symb. Comput. 73, 2016):
+// Halving alone would take one step for each bit, and thousands of bits may be needed. So a part
+// of the gap with n sign changes, n >= 2, is narrowed as in quadratic interval refinement of
+// clusters (Abbott, Quadratic interval refinement for real roots, 2006; Sagraloff, Mehlhorn,
+// Computing real roots of real polynomials, J. Symb. Comput. 73, 2016):
 //
 //   guess    If n roots are near c and all others far, f(x) is nearly a constant times (x - c)^n
 //            around c, so that x - n f(x)/f'(x) is nearly c. x is one end of the part, then the
@@ -14,19 +14,21 @@
 //            first_log_cells.
 //
 // Why it ends: each narrowing or halving leaves parts of at most half the width, and over a short
-// enough one the count is 0 or 1 (sign_changes.h; f has no multiple root).
+// enough part the count is 0 or 1 (sign_changes.h), because f has no multiple root.
 //
-// How many steps: let d be the distance of the n roots from x over that of the nearest other root.
-// With these others the guess is off by about n d times the distance from x, and by the extent of
-// the cluster. Narrowing by 2^k makes d smaller by 2^k, so that 2k more bits of the next guess are
-// right: k doubles while the two cells are wider than the cluster, whose extent be w 2^-s. That
-// takes log2(s) steps. On the way down, when k has failed and k/2 has not, less than k/2 of s is
-// left: k and k/2 are tried once more in vain, and it is the turn of k/4. So each k is tried three
-// times at most, and after about 4 log2(s) steps of at most six counts each a halving or two tell
-// the cluster's roots apart, or leave smaller clusters: of a quintic there are four at most.
+// How many steps: let d be the distance of the n roots from x, divided by the distance of the
+// nearest other root from x. Because of the other roots the guess is off by about n d times its
+// distance from x; it is also off by the extent of the cluster. Narrowing by 2^k makes d smaller
+// by 2^k, so that 2k more bits of the next guess are right. So k doubles while the two cells are
+// wider than the cluster. Let the cluster's extent be w 2^-s, with w the width of the part; then
+// this takes log2(s) steps. On the way down, when k has failed and k/2 has not, less than k/2 of s
+// is left: k and k/2 are tried once more in vain, and it is the turn of k/4. So each k is tried
+// three times at most. After about 4 log2(s) steps of at most six counts each, a halving or two
+// tell the cluster's roots apart, or leave smaller clusters. A quintic has four such clusters at
+// most.
 //
-// A part carries f itself as a polynomial over it, with integers: all its numbers are of the part's
-// own size, and counts over some of its cells need few bits beside these.
+// Each part keeps f as a polynomial over the part, with integer coefficients. So all its numbers
+// are of the part's own size, and counts over some of its cells need few bits more than these.
 #include "detector/exact/root_cluster.h"
 
 #include "detector/exact/ball.h"
@@ -36,7 +38,7 @@ namespace {
 
 constexpr int first_log_cells = 4;
 
-// The times lo to lo + 2^log_width, or a root at lo.
+// The times from lo to lo + 2^log_width, or a root at lo.
 struct ClusterPart {
   Dyadic lo;
   int log_width = 0;
@@ -91,8 +93,9 @@ class GapIsolation {
     add_sub_part(part, Dyadic{0, 0}, half, part.log_width - 1, first_log_cells);
   }
 
-  // The boundary between cells that is nearest to the guess from one end of the part; nothing
-  // outside of the part. From the end 1 the step goes back by n f(1)/f'(1).
+  // The boundary between cells that is nearest to the guess made from one end of the part, or
+  // nothing if the guess is outside of the part. From the end 1 the step goes back by n
+  // f(1)/f'(1).
   static std::optional<Integer> guessed_cell(const ClusterPart& part, int log_cells,
                                              bool from_end) {
     const Polynomial& f = part.f;
@@ -111,7 +114,8 @@ class GapIsolation {
     return cell;
   }
 
-  // To the two cells around the guess, where all roots of the part are there.
+  // Narrows the part to the two cells around the guess. False, and nothing is done, if it is not
+  // proved that all roots of the part are in these.
   bool narrow_to(const ClusterPart& part, const Integer& guess, int log_cells) {
     const Integer last = (Integer(1) << static_cast<unsigned>(log_cells)) - 2;
     Integer first = guess - 1;
@@ -126,13 +130,13 @@ class GapIsolation {
     return true;
   }
 
-  // `begin` and `end` in shares of the part.
+  // Adds the part from `begin` to `end`, given as shares of `part`.
   void add_sub_part(const ClusterPart& part, const Dyadic& begin, const Dyadic& end, int log_width,
                     int log_cells) {
     add({place(part, begin), log_width, part.f.over(begin, end), {}, log_cells});
   }
 
-  // If there is one.
+  // Adds the root at this share of the part, if there is one.
   void add_root(const ClusterPart& part, const Dyadic& at) {
     if (part.f.sign_at(at) == 0) open_.push_back({place(part, at), 0, {}, {}, 0});
   }
@@ -155,7 +159,7 @@ class GapIsolation {
   TimeEnclosure gap_;
   Roots wanted_;
   std::vector<IsolatedRoot>& found_;
-  std::vector<ClusterPart> open_;  // the first one is last
+  std::vector<ClusterPart> open_;  // parts to look at; the next one is last
   int counted_ = 0;
 };
 

@@ -8,14 +8,15 @@
 namespace assay::detector {
 namespace {
 
-// Between two doubles; lo == hi is a root.
+// The open interval between two doubles, or a root at lo == hi.
 struct Part {
   double lo, hi;
   SignChanges changes;
 };
 
-// A double in between: the middle in the order of doubles. From 0 that would be 2^-512 first of
-// all, but most roots are of ordinary size: 1/2, 2^-3, 2^-7, and so on down to 2^-1023.
+// A double between lo and hi: the middle in the order of doubles. In (0,1) that would be about
+// 2^-512, but most roots are of ordinary size. So intervals that begin at 0 are split at 1/2,
+// 2^-3, 2^-7, and so on down to 2^-1023.
 double split(double lo, double hi) {
   constexpr int last_exponent = -511;
   if (lo == 0 && hi >= std::ldexp(1, last_exponent)) return std::ldexp(1, 2 * std::ilogb(hi) - 1);
@@ -26,7 +27,7 @@ double split(double lo, double hi) {
 
 std::vector<IsolatedRoot> isolate_roots(const Polynomial& f, SignChanges over_unit, Roots wanted) {
   std::vector<IsolatedRoot> found;
-  std::vector<Part> open = {{0, 1, over_unit}};  // the first one is last
+  std::vector<Part> open = {{0, 1, over_unit}};  // parts to look at; the next one is last
   while (!open.empty() && (found.empty() || wanted == Roots::all)) {
     const Part part = open.back();
     open.pop_back();

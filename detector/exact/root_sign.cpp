@@ -1,7 +1,8 @@
-// The sign of a polynomial q of degree 2 at most at the root of f in (lo,hi): f changes its sign
-// there and nowhere else in between, so its sign at a root p of q tells the order of the two. A
-// positive multiple of f is (...) q + r with r of degree 1 at most, so f(p) has the sign of r(p);
-// and where r has a root in between, the sign of q there tells the order of that and p.
+// The sign of a polynomial q of degree 2 at most at the root of f in (lo,hi). f changes its sign
+// at its root and nowhere else in (lo,hi), so the sign of f at a root p of q tells the order of
+// the two roots. A positive multiple of f is (...) q + r with r of degree 1 at most, so f(p) has
+// the sign of r(p). If r has a root in (lo,hi), the sign of q at that root tells the order of the
+// root and p.
 //
 //   roots of q in (lo,hi)  | q at the root of f
 //   none                   | the sign that q has throughout
@@ -15,7 +16,7 @@
 namespace assay::detector {
 namespace {
 
-// Degree 2 at most, on an open interval. The signs just inside its ends.
+// The signs of a polynomial of degree 2 at most just inside the ends of an open interval.
 struct EndSigns {
   int after_lo, before_hi;
 };
@@ -28,7 +29,7 @@ EndSigns end_signs(const Polynomial& q, const Dyadic& lo, const Dyadic& hi) {
           first_of(q.sign_at(hi), -slope.sign_at(hi), bend)};
 }
 
-// Of q at the root -b/a of a t + b.
+// The sign of q at the root -b/a of a t + b.
 int sign_at_root_of_linear(const Polynomial& q, const Polynomial& linear) {
   const Integer &a = linear[1], &b = linear[0];
   return Integer(q[2] * b * b - q[1] * a * b + q[0] * a * a).sign();
@@ -42,7 +43,7 @@ int RealRoot::sign_of(const Polynomial& q) const {
   const int at_lo = q.sign_at(lo_), at_hi = q.sign_at(hi_);
   if (q.degree() == 1 && at_lo * at_hi >= 0) return at_lo != 0 ? at_lo : at_hi;
   if (q.degree() == 2 && at_lo * at_hi > 0) {
-    // Roots only if q turns around in between, towards 0 and far enough.
+    // q has roots in (lo,hi) only if it turns around there, towards 0 and far enough.
     if (at_lo != q[2].sign()) return at_lo;
     const Polynomial slope = q.derivative();
     if (slope.sign_at(lo_) * slope.sign_at(hi_) >= 0) return at_lo;
@@ -50,7 +51,7 @@ int RealRoot::sign_of(const Polynomial& q) const {
     return sign_by_order(q, at_lo, at_lo);
   }
   const auto [after_lo, before_hi] = end_signs(q, lo_, hi_);
-  // With the same sign at both ends and a root at one of them, the other root is not in between.
+  // If q has the same sign at both ends and a root at one end, its other root is not in (lo,hi).
   if (after_lo == before_hi) return after_lo;
   return sign_by_order(q, after_lo, before_hi);
 }

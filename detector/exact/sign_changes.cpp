@@ -22,8 +22,9 @@ void shift(Row<Number>& row, const Step& add_multiple) {
   }
 }
 
-// Of coefficients in powers of t over (0,1); nothing where unsure signs leave open whether there
-// are 0, 1 or more changes. One unsure coefficient between two of different signs changes nothing.
+// The changes over (0,1) of a polynomial with these coefficients of powers of t. Nothing if unsure
+// signs leave open whether there are 0, 1 or more changes. One unsure coefficient between two of
+// different signs does not matter.
 template <class Number>
 std::optional<SignChanges> changes_of(Row<Number> row) {
   std::reverse(row.begin(), row.end());

@@ -1,8 +1,9 @@
-// Most polynomials have simple roots only, and a look modulo one prime shows it: a common divisor
-// of f and f' in integers without common factor has a leading coefficient that divides that of f.
-// So where the prime does not divide the latter, the divisor keeps its degree modulo the prime and
-// is a common divisor there. If there is none of degree 1 or more modulo the prime, there is none.
-// If there is one, integers decide.
+// Most polynomials have simple roots only, and computing modulo one prime shows it. Take a common
+// divisor of f and f' with integer coefficients that have no common factor. Its leading
+// coefficient divides that of f. So if the prime does not divide the leading coefficient of f, the
+// divisor keeps its degree modulo the prime, and is a common divisor there. If there is no common
+// divisor of degree 1 or more modulo the prime, there is none at all. If there is one, integers
+// decide.
 #include "detector/exact/square_free.h"
 
 #include <cassert>
@@ -63,10 +64,10 @@ bool surely_square_free(const Polynomial& f) {
   return a.size() <= 1;
 }
 
-// The last of the subresultants of f and g that is not zero (Collins; Cohen, A Course in
-// Computational Algebraic Number Theory, Algorithm 3.3.1): each pseudo-remainder is divided by a
-// factor that is known to divide it, so that the coefficients grow by a constant length a step, as
-// determinants of coefficients, without any greatest common divisor.
+// The last subresultant of a and b that is not zero (Collins; Cohen, A Course in Computational
+// Algebraic Number Theory, Algorithm 3.3.1). Each pseudo-remainder is divided by a factor that is
+// known to divide it. So the coefficients grow by a constant length in each step, as determinants
+// of coefficients do, and no greatest common divisor of integers has to be found.
 Polynomial common_divisor(Polynomial a, Polynomial b) {
   Integer g = 1, h = 1;
   while (true) {

@@ -1,12 +1,12 @@
-// Multiple roots taken out of a polynomial, before its roots are told apart.
+// Makes the multiple roots of a polynomial simple, before its roots are told apart.
 #pragma once
 
 #include "detector/exact/polynomial.h"
 
 namespace assay::detector {
 
-// Of the same distinct roots (complex ones too), each simple; up to a non-zero constant. f must not
-// be zero. 1 us where there is nothing to take out.
+// A polynomial with the same distinct roots as f (complex ones too), each of them simple; its
+// constant factor is any but 0. REQUIRES that f is not zero. 1 us if f has no multiple root.
 Polynomial square_free_part(const Polynomial& f);
 
 }  // namespace assay::detector

@@ -1,9 +1,9 @@
-// Coordinates are taken 4 times as large, so that the origin o = (2 p0 + p1 + p2) / 4, inside a
-// triangle, is exact as well.
+// Coordinates are taken 4 times as large, so that the origin o = (2 p0 + p1 + p2) / 4, a point
+// inside a triangle, is exact as well.
 //
 // Error bounds of the filter, in the notation of bernstein.h. The determinant's entries are those
-// of A = 4 (a - o); W_k is the largest |a_k - p_k| involved. V is the product of the sizes 4 W_k of
-// the three entries of a term.
+// of A = 4 (a - o); W_k is the largest |a_k - p_k| involved. V is the product of the sizes 4 W_k
+// of the three entries of a term.
 //
 //   quantity       | operations                         | error in u               | size
 //   a - p0, ...    | differences of two doubles         | 1 W                      | W
@@ -13,13 +13,14 @@
 //   determinant    | three terms, two sums              | 3 * 6 + 4 + 6 = 28 V     | 6 V
 //   its entries    | 6 products of 3 entries            | 6 * 3 * 4 = 72 V         | 6 V
 //
-// The rows of minor, term and determinant count roundings alone. The last row adds what the errors
-// of the entries make of it: 11 W is taken for 16 W, so each entry is off by 4 u of its size 4 W.
-// Together these are 100 u V. The code asks for 128 u V, which also covers what is of second order
-// and the rounding of V. A ray's direction is exact.
+// The rows of minor, term and determinant count roundings alone. The last row adds the error of
+// the determinant that comes from the errors of its entries: 11 W is taken for 16 W, so each entry
+// is off by 4 u of its size 4 W. Together these are 100 u V. The code asks for 128 u V, which also
+// covers errors of second order and the rounding of V. A ray's direction is exact.
 //
-// Where the filter cannot tell: exact arithmetic asks integers; bounded arithmetic leaves the sign
-// 0, which gives a direction up or the count altogether, never counts wrongly.
+// If the filter cannot tell a sign, exact arithmetic computes it in integers. Bounded arithmetic
+// leaves the sign 0. Then the direction is given up, or the count altogether, but nothing is
+// counted wrongly.
 #include "detector/geometry/crossing_signs.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ CrossingSigns exact_signs(const std::array<Point, 3>& corners, const RayOrigin& 
   return signs;
 }
 
-// 0 where doubles cannot tell, or where a plain number is 0.
+// A sign is 0 if doubles cannot tell it, or in plain numbers if the computed determinant is 0.
 template <class Bounds>
 CrossingSigns filtered_signs(const std::array<Point, 3>& corners, const RayOrigin& o,
                              const RayDirection& r) {
@@ -96,7 +97,7 @@ CrossingSigns filtered_signs(const std::array<Point, 3>& corners, const RayOrigi
   const VectorOf<Number> reach = {std::abs(direction[0]), std::abs(direction[1]),
                                   std::abs(direction[2])};
   const auto dets = determinants<Number>(a, direction);
-  // The direction is exact and each of its coordinates has its own size: V by terms.
+  // V is summed by terms, because each coordinate of the (exact) direction has its own size.
   constexpr Number error = 128 * Bounds::unit;
   const Number along =
       error * (w[0] * w[1] * reach[2] + w[1] * w[2] * reach[0] + w[2] * w[0] * reach[1]);

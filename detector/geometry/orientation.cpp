@@ -24,9 +24,9 @@ int exact_orientation(const Point& a, const Point& b, const Point& c, const Poin
   return det.sign();
 }
 
-// Whether doubles prove both ends of the segment strictly on one side of the triangle's plane: two
-// orientations with the bound of the filter, M_k the largest |coordinate k| of all four
-// differences.
+// Whether doubles prove that both ends of the segment are strictly on one side of the triangle's
+// plane. It computes two orientations with the bound of orientation_filter.h, with M_k the largest
+// |coordinate k| of all four differences.
 bool surely_on_one_side(const Point& e0, const Point& e1, const std::array<Point, 3>& face) {
   double u[4][3], magnitude[3] = {0, 0, 0};
   const std::array<const Point*, 4> points = {&face[1], &face[2], &e0, &e1};

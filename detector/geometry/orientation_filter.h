@@ -1,4 +1,5 @@
-// Sign of a 3x3 determinant of coordinate differences in double or float, by the policy's bounds.
+// The sign of a 3x3 determinant of coordinate differences in double or float, with the bounds of a
+// policy (bernstein/bounds.h).
 //
 // Error bound, in the notation of bernstein.h. M_k is the largest |coordinate k| of the three
 // differences, and MMM is MxMyMz.
@@ -8,7 +9,7 @@
 //   term          | an entry times a minor            | 8 + 2 + 2 = 12 MMM        | 2 MMM
 //   determinant   | three terms, two sums             | 36 + 4 + 6 = 46 MMM       | 6 MMM
 //
-// orientation_error is this and two u more.
+// orientation_error is the last error and 2 u more, which cover errors of second order.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace assay::detector {
 template <class Bounds>
 inline constexpr typename Bounds::Number orientation_error = 48 * Bounds::unit;
 
-// Sign of det(b-a, c-a, d-a); with proved bounds 0 means zero or not known.
+// The sign of det(b-a, c-a, d-a). With proved bounds 0 means that it is zero or not known.
 template <class Bounds>
 int filtered_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
   using Number = typename Bounds::Number;

@@ -1,10 +1,11 @@
-// Along a ray the winding number drops by 1 across a triangle in the direction of its normal and
-// is 0 at the end: w(origin) is the sum, over the triangles crossed, of the sign of ray . normal.
-// A direction that meets an edge or a corner is given up for the next one.
+// Along a ray the winding number drops by 1 where the ray crosses a triangle in the direction of
+// its normal, and it is 0 at the ray's far end. So w(origin) is the sum, over the triangles
+// crossed, of the sign of ray . normal. If a ray meets an edge or a corner its direction is given
+// up, and the next direction is tried.
 //
-// All rays of a call have the same direction r or its opposite, so that one pass over the triangles
-// serves them all: seen along r, the surface is a plane figure, and a line can meet only triangles
-// whose boxes in that plane hold the line's point. The plane's coordinates are
+// All rays of a call have the same direction r or its opposite, so that one pass over the
+// triangles serves them all: seen along r, the surface is a plane figure, and a line can meet only
+// triangles whose boxes in that plane hold the line's point. The plane's coordinates are
 //   u = (r1 x - r0 y) 2^-20, v = (r2 x - r0 z) 2^-20,
 // constant along r; 2^-20 keeps them finite. Rounding: with S = reach 2^-20 (X + Y + Z), reach the
 // largest |r_k| and X, Y, Z the largest coordinates, two products and a difference are off by less
@@ -25,10 +26,11 @@ namespace {
 
 constexpr int reach = 1000;
 
-// Of a triangle and of a ray, in box tests.
+// The work on a triangle (its size, one cast) and on a ray (one aim), in box tests.
 constexpr std::uint64_t work_of_size = 1, work_of_cast = 2, work_of_aim = 10;
 
-// From a fixed recurrence: the same on every machine, never parallel to many edges.
+// The n-th direction to try, from a fixed recurrence: the same on every machine, and not one that
+// many edges are likely to be parallel to.
 RayDirection direction_number(int n) {
   std::uint32_t state = 0x9e3779b9u * static_cast<std::uint32_t>(n + 1);
   RayDirection r{};
@@ -68,13 +70,13 @@ struct Ray {
   std::int32_t outward_of = -1;  // the triangle whose outside is asked for
   std::optional<int> winding;
 
-  // In the direction tried.
+  // What the direction that is tried at present has shown.
   Shadow shadow{};
   bool reversed = false, met_edge = false, on_surface = false;
   int sum = 0;
 };
 
-// The surface and how it is asked.
+// The surface, and the pass over its triangles that answers rays.
 class Crossings {
  public:
   Crossings(const Topology& mesh, std::span<const std::int32_t> triangles, const PositionsView& x,
@@ -97,7 +99,8 @@ class Crossings {
 
   bool was_stopped() const { return pace_ && pace_->stopped(); }
 
-  // Answers those of the rays that this direction can answer; the others are left in `rays`.
+  // Finds the winding numbers of those rays that direction r can answer. Rays that need another
+  // direction stay in `rays`.
   void answer(const RayDirection& r, std::vector<Ray*>& rays) const {
     std::vector<Ray*> tried;
     const Plane plane(r);
@@ -155,11 +158,13 @@ class Crossings {
     const bool some_negative = s[0] < 0 || s[1] < 0 || s[2] < 0;
     if (some_positive && some_negative) return;  // the line passes by
     const bool all_zero = s[0] == 0 && s[1] == 0 && s[2] == 0;
-    // Nothing is crossed there; where the line meets what is left of it, it meets an edge of a
-    // neighbour too, which gives the direction up. A point would give up every direction.
+    // A triangle of zero area is not crossed. If the line meets the segment that is left of it, it
+    // meets an edge of a neighbour too, and that gives the direction up. A triangle that is only a
+    // point would give up every direction.
     if (all_zero && sure_of_zero_area(t)) return;
-    // Not along the plane, and yet in it: the origin is where the line meets the triangle, be it at
-    // an edge. Every direction would meet that edge.
+    // The line is not parallel to the triangle's plane, and the origin lies in that plane. So the
+    // origin is the place where the line meets the triangle, perhaps at an edge, and every other
+    // direction would meet that edge too.
     if (arithmetic_ == Arithmetic::exact && !all_zero && s[3] == 0) {
       ray.on_surface = true;
     } else if (s[0] == 0 || s[1] == 0 || s[2] == 0) {

@@ -1,4 +1,4 @@
-// In which numbers a step is computed. What each promises: detector/README.md.
+// In which numbers a step is computed. detector/README.md says what each arithmetic promises.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@ namespace assay::detector {
 enum class Arithmetic : std::uint8_t {
   exact,             // doubles with proved bounds, integers where these cannot tell: never wrong
   bounded,           // doubles with proved bounds alone: what they cannot tell counts as contact
-  double_precision,  // the same ladder with bounds 0: no promise, made to be measured
-  single_precision,  // likewise in float, of coordinates rounded to float
+  double_precision,  // doubles with bounds 0: promises nothing, made to be measured
+  single_precision,  // floats with bounds 0, coordinates rounded to float first: promises nothing
 };
 
 }  // namespace assay::detector

@@ -13,7 +13,7 @@ struct LoopEdge {
   std::int32_t from, to;
 };
 
-// Ascending by where they begin, then by where they end.
+// The unmatched edges, ascending by their first vertex, then by their second.
 std::vector<LoopEdge> unmatched_edges(const Topology& mesh, PacedStop& pace) {
   std::vector<LoopEdge> unmatched, room;
   std::vector<std::int32_t> surplus;
@@ -43,7 +43,7 @@ std::vector<Loop> boundary_loops(const Topology& mesh) {
 
 std::vector<Loop> boundary_loops(const Topology& mesh, PacedStop& pace) {
   const auto edges = unmatched_edges(mesh, pace);
-  // The edges that leave a vertex are consecutive; those before `next[v]` are used.
+  // The edges that leave a vertex v are consecutive in `edges`; those before next[v] are used.
   std::vector<std::size_t> next(mesh.vertex_triangles.starts.size(), edges.size());
   const auto begin_at = [&](std::size_t i) {
     const std::size_t e = edges.size() - 1 - i;

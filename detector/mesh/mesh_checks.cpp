@@ -11,8 +11,9 @@
 namespace assay::detector {
 namespace {
 
-// Adding one to an exponent of all ones (infinities, not-a-numbers) carries into the sign. No
-// branch in the loop, so it is as fast as memory.
+// Infinities and not-a-numbers have an exponent of all ones. Adding one to such an exponent, and
+// to no other, carries into the place of the sign. The loop has no branch, so it is as fast as
+// memory.
 bool all_finite(const double* values, std::size_t count) {
   constexpr std::uint64_t exponent = 0x7ff0'0000'0000'0000, one = 0x0010'0000'0000'0000;
   std::uint64_t carries = 0;

@@ -1,5 +1,6 @@
-// What the detector asks of its input (L12: never `free` on a guess; doubtful input is a named
-// error or is answered without trust, never silently repaired).
+// The conditions that the detector's input has to meet. By L12 the answer is never `free` on a
+// guess: input that is in doubt is refused with a named error, or it is answered without trust in
+// it. It is never repaired in silence.
 #pragma once
 
 #include <optional>
@@ -10,20 +11,23 @@
 
 namespace assay::detector {
 
-// Indices have 31 bits. Each triangle may have three unmatched edges, and so three ghosts: four
-// triangles, whose 12 corners stand in one list, and whose directed edges are 12 numbers at most (6
-// for the triangle's own edges, 2 for each ghost's next edge to the apex).
+// The most triangles that a mesh may have, because indices have 31 bits. Each triangle may have
+// three unmatched edges, and so three ghosts. Together these are four triangles: their 12 corners
+// are numbered in one list, and their directed edges take 12 numbers at most (6 for the triangle's
+// own edges, and 2 for each ghost's next edge to the apex).
 inline constexpr Eigen::Index most_triangles = ((std::int64_t{1} << 31) - 1) / 12;
-// Apexes are numbered after the vertices, and there are no more than triangles.
+// The most vertices. Apexes are numbered after them, and there are no more apexes than triangles.
 inline constexpr Eigen::Index most_vertices = (std::int64_t{1} << 31) - 1 - most_triangles;
 
-// no_triangles, mesh_too_large, index_out_of_range, repeated_index or same_vertices_twice; the
-// first in that order, at the lowest triangle. Or stopped. O(N + M).
+// Nothing if all is well. Else the first error that applies, in the order no_triangles,
+// mesh_too_large, index_out_of_range, repeated_index, same_vertices_twice; its message names the
+// lowest triangle that has it. O(N + M).
 std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count);
+// The same with a pace. The error is `stopped` if the pace was stopped before the end.
 std::optional<Problem> check_triangles(const TrianglesView& triangles, Eigen::Index vertex_count,
                                        PacedStop& pace);
 
-// wrong_frame_size or non_finite_coordinate. O(N).
+// Nothing if all is well, else wrong_frame_size or non_finite_coordinate. O(N).
 std::optional<Problem> check_positions(const PositionsView& positions, Eigen::Index vertex_count);
 
 }  // namespace assay::detector

@@ -1,7 +1,8 @@
-// Sorts by a key that is a small number, such as that of a vertex, and can be ended in between.
+// Sorts items by a key that is a small number, such as the number of a vertex. A stop function can
+// end it.
 //
-// By counting: two passes over the items, however large they are. Twice, by the lesser of two keys
-// first, it sorts by both.
+// It is a counting sort: two passes over the items, however many there are. To sort by two keys,
+// sort by the less important key first, then by the other.
 #pragma once
 
 #include <utility>
@@ -11,8 +12,9 @@
 
 namespace assay::detector {
 
-// Items of equal key stay in their order; keys are below `keys`. `room` is what is worked in: hand
-// it to the next sort. False when it was ended in between: the items are then of no use.
+// Sorts `items`; items with equal keys stay in their order. REQUIRES key(item) < keys for each
+// item. `room` is working memory, which can be handed to the next sort. False if the pace was
+// stopped: then the items are of no use.
 template <class Item, class Key>
 bool sort_by_key(std::vector<Item>& items, std::vector<Item>& room, std::size_t keys, Key key,
                  PacedStop& pace) {

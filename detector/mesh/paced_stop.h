@@ -1,8 +1,9 @@
-// Asks a stop function after every so much work: often enough to end in time, too seldom to cost.
+// Asks a stop function once for every so many units of work: often enough to end in time, and so
+// seldom that asking costs next to nothing.
 //
-// The unit of work is what a box test costs, about 5 ns; callers count roughly. The function may
-// ask the system how much memory there is, which takes 10 us. Once it has asked for an end it is
-// not asked again.
+// The unit of work is what a box test costs, about 5 ns. Callers count their work roughly. A stop
+// function may ask the system how much memory there is, which takes 10 us. Once it has returned
+// true it is not asked again.
 #pragma once
 
 #include <algorithm>
@@ -15,34 +16,36 @@ namespace assay::detector {
 
 class Workers;  // parallel/workers.h
 
-// Of work that nobody wants to end.
+// The stop function for work that nobody wants to end.
 inline const StopFunction never_stops;
 
 class PacedStop {
  public:
-  // A millisecond: a tenth of what a stop may be late, for work is counted roughly.
+  // About a millisecond of work. That is a tenth of the time by which a stop may be late, because
+  // work is counted roughly.
   static constexpr std::uint64_t usual_interval = 200'000;
 
   explicit PacedStop(const StopFunction& stop, std::uint64_t interval = usual_interval)
       : stop_(stop), interval_(interval) {}
-  // Of work that the workers share (parallel/for_all.h); one thread asks for all of them.
+  // For work that the workers share (parallel/for_all.h). One thread asks for all of them.
   PacedStop(const StopFunction& stop, const Workers& workers)
       : stop_(stop), workers_(&workers), interval_(usual_interval) {}
 
-  // Whether to end: asks when as much work was done since it last asked.
+  // Adds `work` to what was done, and says whether to end. It asks the stop function if an
+  // interval of work was done since it last asked.
   bool after(std::uint64_t work) {
     if (stopped_) return true;
     done_ += work;
     return done_ >= interval_ && now();
   }
-  // Asks in any case.
+  // Asks the stop function at once, however little work was done, and says whether to end.
   bool now() {
     done_ = 0;
     return stopped_ = stopped_ || (stop_ && stop_());
   }
   bool stopped() const { return stopped_; }
 
-  // With the same workers, and never stopped.
+  // A pace with the same workers that asks nobody and is never stopped.
   PacedStop unasked() const {
     PacedStop pace(never_stops, usual_interval);
     pace.workers_ = workers_;
@@ -59,8 +62,9 @@ class PacedStop {
   bool stopped_ = false;
 };
 
-// body(i) for i = 0 .. count - 1, each so much work. The loop is cut into pieces, so that asking
-// costs the body nothing. False when it was ended in between; without a pace it never is.
+// Calls body(i) for i = 0 .. count - 1, and counts work_of_each for each call. The loop runs in
+// pieces, and only between pieces is the pace asked, so that asking does not slow the body down.
+// False if the pace was stopped after some piece. Without a pace (null) all calls are made.
 template <class Body>
 bool for_each_paced(std::size_t count, std::uint64_t work_of_each, PacedStop* pace, Body body) {
   constexpr std::size_t of_a_piece = 1024;

@@ -21,7 +21,7 @@ std::size_t with_room(std::size_t size) { return size + std::max(size / 4, least
 
 bool PairContacts::make_room(const StopFunction& stop) {
   settle();
-  // With less than a fifth of it free there would be too much sorting.
+  // If less than a fifth of it is free the list grows. Else it would be sorted too often.
   const std::size_t wanted = with_room(all_.size());
   if (all_.capacity() >= wanted) return true;
   constexpr std::size_t at_once = 16'384;  // 768 KB
@@ -37,7 +37,8 @@ bool PairContacts::make_room(const StopFunction& stop) {
   return true;
 }
 
-// The late ones are sorted, those of pairs that are settled taken in there, the others merged.
+// Sorts the late contacts. One whose pair is settled replaces the settled contact if it is
+// earlier; the others are merged in as new pairs.
 void PairContacts::settle() {
   const auto late = all_.begin() + static_cast<std::ptrdiff_t>(settled_);
   std::sort(late, all_.end(), is_before);
@@ -59,7 +60,8 @@ void PairContacts::settle() {
   settled_ = all_.size();
 }
 
-// From the end, into the room that the late ones leave when they are put aside.
+// Merges the last `count` contacts into the settled ones. They are copied aside, and the merge
+// fills the list from its end, so it needs no room but theirs.
 void PairContacts::merge_late(std::size_t count) {
   if (late_.capacity() < count) {
     late_ = {};

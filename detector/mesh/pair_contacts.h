@@ -1,10 +1,13 @@
 // The triangle pairs in contact in a step, each with its first contact.
 //
-// They come from feature pairs: a triangle pair comes up to 21 times, and what lies upon each other
-// makes M^2 / 2 pairs. So what came lately is sorted in among the rest as soon as it is a quarter
-// of it, and a pair is kept once: 70 bytes a pair, 48 of them the result; 118 while the list grows.
-// Nothing takes memory by the list's length but where the stop function is asked meanwhile, so a
-// limit of memory that it keeps is kept. O(log n) for each that comes, all in all.
+// The contacts come from feature pairs, so one triangle pair may come up to 21 times. If all
+// triangles lie upon each other there are M^2 / 2 pairs. To keep memory small, each pair is kept
+// once: the contacts that came lately are merged into the sorted rest as soon as they are a
+// quarter of it. A pair takes 70 bytes, 48 of them the result, and 118 bytes while the list grows.
+//
+// Memory in proportion to the list's length is taken only where the stop function is asked
+// meanwhile. So if the stop function watches a limit of memory, the limit is kept. Cost: O(log n)
+// for each contact that comes, all in all.
 #pragma once
 
 #include <deque>
@@ -21,21 +24,24 @@ class PairContacts {
     all_.push_back(contact);
   }
 
-  // Whether a few more would make the list grow, unasked.
+  // Whether a few more contacts would make the list grow in add(), where no stop function is
+  // asked. Call make_room() first if so.
   bool is_nearly_full() const {
     constexpr std::size_t a_few = 64;
     return !all_.empty() && all_.capacity() - all_.size() < a_few;
   }
-  // Makes room for a quarter more. False where `stop` asked for an end: nothing is lost.
+  // Makes room for a quarter more. False if `stop` asked for an end; all contacts are kept then,
+  // too.
   bool make_room(const StopFunction& stop);
 
-  // Pairs that have come since this was last asked, each once.
+  // The pairs that came for the first time since the last call, each once.
   std::deque<TrianglePair> take_new_pairs();
-  // Ascending by pair; of the contacts of a pair the first in time, at one time the one of the
-  // least feature kind, then of the least vertices. Nothing is left behind.
+  // All pairs, ascending, each with its first contact. If several contacts of a pair have the same
+  // first time, the one with the least feature kind is taken, then the one with the least
+  // vertices. The list is empty afterwards.
   std::vector<PairContact> take();
 
-  // What is held, in bytes.
+  // The memory that is held, in bytes.
   std::size_t bytes() const {
     return (all_.capacity() + late_.capacity()) * sizeof(PairContact) +
            new_.size() * sizeof(TrianglePair);
@@ -46,8 +52,9 @@ class PairContacts {
   void merge_late(std::size_t count);
 
   std::vector<PairContact> all_;
-  std::size_t settled_ = 0;        // so many are ascending, each pair once
-  std::vector<PairContact> late_;  // worked in while it settles
+  // The first settled_ contacts of all_ are ascending, with each pair once; the late ones follow.
+  std::size_t settled_ = 0;
+  std::vector<PairContact> late_;  // working memory of settle()
   std::deque<TrianglePair> new_;
 };
 

@@ -1,4 +1,5 @@
-// Named errors at the detector's border. They are values: nothing in detector/ throws on bad input.
+// The named errors of the detector's interface. They are values: nothing in detector/ throws on
+// bad input.
 #pragma once
 
 #include <boost/outcome/basic_result.hpp>
@@ -15,11 +16,11 @@ enum class InputError : std::uint8_t {
   same_vertices_twice = 4,    // two triangles have the same three vertices
   wrong_frame_size = 5,       // positions do not have the mesh's number of vertices
   non_finite_coordinate = 6,  // NaN or infinity
-  wrong_primitive_count = 7,  // view primitives: none, one, or one for each component
+  wrong_primitive_count = 7,  // not none, one, or one view primitive for each component
   nothing_to_commit = 8,      // commit() without a completed evaluate()
   foreign_state = 9,          // restore() with the state of another mesh or culling
-  damaged_state = 10,         // bytes that are no saved state: cut, changed, of something else
-  other_state_version = 11,   // bytes of a saved state in a form that this build does not read
+  damaged_state = 10,         // the bytes are no saved state, or were cut or changed
+  other_state_version = 11,   // the saved state has a form that this build does not read
   mesh_too_large = 12,        // more triangles or vertices than the detector's indices can number
   stopped = 13,               // the stop function asked for an end before there was a detector
 };

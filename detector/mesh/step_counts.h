@@ -1,4 +1,5 @@
-// What a step did, counted by its stages. Counts do not depend on the machine; times do.
+// How much each stage of a step had to do, as counts. Counts do not depend on the machine; times
+// do.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +7,8 @@
 namespace assay::detector {
 
 // Which rung of the elementary test decided a feature pair: the order along an axis, doubles with
-// error bounds, integers of fixed width, integers without bound. `open`: bounded arithmetic has none
-// after the filter, could not tell, and counts a contact.
+// error bounds, integers of fixed width, or integers without bound. `open` means that bounded
+// arithmetic, which has no integers, could not tell and took the pair for a contact.
 enum class ContactRung : std::uint8_t { axis, filter, fixed, unbounded, open };
 
 struct ContactRungCounts {
@@ -34,9 +35,11 @@ struct ContactRungCounts {
 
 struct SearchCounts {
   std::uint64_t box_tests = 0;
-  std::uint64_t child_counts = 0;   // looks at how many children of a node may hold a partner
-  std::uint64_t skipped = 0;        // nodes with a single such child, left without a box test
-  std::uint64_t contour_tests = 0;  // of patches with a normal cone
+  // How often the search counted the children of a node that may hold a partner.
+  std::uint64_t child_counts = 0;
+  // Nodes with one such child only: the search went on to that child without a box test.
+  std::uint64_t skipped = 0;
+  std::uint64_t contour_tests = 0;  // contour tests of patches that have a normal cone
   std::uint64_t candidate_pairs = 0;
 
   SearchCounts& operator+=(const SearchCounts& other) {
@@ -56,8 +59,10 @@ struct MarkingCounts {
 };
 
 struct NarrowCounts {
-  std::uint64_t elementary_tests = 0;  // feature pairs tested beyond rung 0, each once
-  ContactRungCounts rungs;             // `axis`: those whose boxes met only as floats
+  std::uint64_t elementary_tests = 0;  // feature pairs that rung 0 left open, each counted once
+  // By the rung that decided. `axis` counts feature pairs whose boxes met only because boxes are
+  // rounded to floats.
+  ContactRungCounts rungs;
 
   NarrowCounts& operator+=(const NarrowCounts& other) {
     elementary_tests += other.elementary_tests;
@@ -68,7 +73,7 @@ struct NarrowCounts {
 
 struct ViewCounts {
   std::uint64_t lanes = 0, filter = 0, exact = 0;  // triangles settled by each rung
-  std::uint64_t open = 0;                          // bounded arithmetic could not tell: zero
+  std::uint64_t open = 0;  // triangles that bounded arithmetic could not tell: they count as zero
 
   ViewCounts& operator+=(const ViewCounts& other) {
     lanes += other.lanes;
@@ -81,38 +86,41 @@ struct ViewCounts {
 
 struct GhostCounts {
   std::uint64_t box_tests = 0;
-  std::uint64_t pairs = 0;             // ghost and triangle whose moving boxes are not apart
-  std::uint64_t elementary_tests = 0;  // feature pairs of these tested beyond axis order
-  // Triangles of those pairs, each once, in the step itself: what GhostTest::boxes calls violated.
+  std::uint64_t pairs = 0;             // ghost and triangle, with moving boxes that are not apart
+  std::uint64_t elementary_tests = 0;  // feature pairs of these that axis order left open
+  // The triangles of the pairs that the step itself met, each counted once. GhostTest::boxes calls
+  // these triangles violated.
   std::uint64_t near_triangles = 0;
 
-  // In box tests (5 ns). A pair is up to 15 feature pairs held against axis order and up to 6
-  // orientations; an elementary test beyond axis order takes 0.1 to 2 us.
+  // The work in units of a box test (5 ns). For one pair up to 15 feature pairs are tested by axis
+  // order, and up to 6 orientations are computed. An elementary test of a feature pair that axis
+  // order left open takes 0.1 to 2 us.
   std::uint64_t work() const { return box_tests + 32 * pairs + 64 * elementary_tests; }
 };
 
-// At the start of a step that goes on from a committed one (L9).
+// The release of dirty triangles at the start of a step that goes on from a committed one (L9).
 struct ReleaseCounts {
-  std::uint64_t in_doubt = 0;  // dirty by L8
-  std::uint64_t released = 0;
-  std::uint64_t pairs = 0;  // tested at that instant: met before, or a ghost beside
+  std::uint64_t in_doubt = 0;  // triangles that L8 does not show to be clean
+  std::uint64_t released = 0;  // triangles that L9 shows to be clean again
+  // Pairs tested at the start: pairs that met before, and pairs of a triangle and a ghost near it.
+  std::uint64_t pairs = 0;
   std::uint64_t elementary_tests = 0;
-  std::uint64_t winding_numbers = 0;  // of pieces
+  std::uint64_t winding_numbers = 0;  // computed for pieces
 };
 
 struct StepCounts {
   SearchCounts search;
-  MarkingCounts marking;  // these rest on the steps before, see search/marking.h
+  MarkingCounts marking;  // depends on earlier steps too, see search/marking.h
   NarrowCounts narrow;
   ViewCounts view;
   GhostCounts ghosts;
   ReleaseCounts release;
   std::uint64_t closure_rounds = 0;
-  std::uint64_t winding_numbers = 0;  // of view primitives (L5)
-  std::uint64_t free_components = 0;  // by L5, without any pair
+  std::uint64_t winding_numbers = 0;  // computed at view primitives (L5)
+  std::uint64_t free_components = 0;  // shown to be free by L5, without testing any pair
 };
 
-// Wall-clock milliseconds; not part of the deterministic result.
+// Wall-clock milliseconds. They are not part of the deterministic result.
 struct StepTimes {
   double view_test = 0, start = 0, ghosts = 0, broad_phase = 0, narrow_phase = 0, closure = 0,
          total = 0;

@@ -24,11 +24,11 @@ struct EdgeEdge {
 // Whether a caller wants the first contact time or only the answer.
 enum class Want { yes_no, first_time };
 
-// A time in [0,1]. In exact arithmetic (the oracle, the detector's `exact`) lo == hi when it is a
-// double, otherwise lo and hi are the adjacent doubles with lo < time < hi. This enclosure of a
-// time is unique, so two exact methods must agree in every bit, and the enclosure of the lesser of
-// two times is the lesser enclosure. In bounded arithmetic lo <= time <= hi; in plain doubles and
-// floats lo == hi, without promise.
+// A time in [0,1]. In exact arithmetic (the oracle, the detector's `exact`) lo == hi if the time
+// is a double, otherwise lo and hi are the adjacent doubles with lo < time < hi. This enclosure of
+// a time is unique, so two exact methods must agree in every bit, and the enclosure of the lesser
+// of two times is the lesser enclosure. In bounded arithmetic lo <= time <= hi. In plain doubles
+// and floats lo == hi, and nothing is promised.
 struct TimeEnclosure {
   double lo = 0, hi = 0;
   friend auto operator<=>(const TimeEnclosure&, const TimeEnclosure&) = default;
@@ -42,14 +42,19 @@ struct TrianglePair {
 
 enum class FeatureKind : std::uint8_t { vertex_face, edge_edge, piercing, same_vertices };
 
-// Mesh vertices of two features that meet. vertex_face: v, f0 f1 f2. edge_edge: a0 a1, b0 b1.
-// piercing (an edge through a triangle at t=0): e0 e1, f0 f1 f2. Unused places hold -1.
+// Two features that meet, by their mesh vertices:
+//   vertex_face    v, f0 f1 f2
+//   edge_edge      a0 a1, b0 b1
+//   piercing       e0 e1, f0 f1 f2; the edge goes through the triangle at t=0
+//   same_vertices  f0 f1 f2 of two triangles with the same vertices; the oracle alone has these
+// Unused places hold -1.
 struct Feature {
   FeatureKind kind = FeatureKind::vertex_face;
   std::array<std::int32_t, 5> vertices = {-1, -1, -1, -1, -1};
 };
 
-// A triangle pair in contact, with the first time of that contact and a feature pair that has it.
+// A triangle pair in contact, with the first time of that contact and a feature pair that meets at
+// that time.
 struct PairContact {
   TrianglePair pair;
   TimeEnclosure time;
@@ -65,13 +70,15 @@ enum class Decision : std::uint8_t { no, yes, open };
 // Sign of a triangle over the whole step, seen from the view primitive (L1, L2).
 enum class ViewSign : std::int8_t { negative = -1, zero = 0, positive = 1 };
 
-// A point (q0 and q1 equal at both ends) or a segment; each end moves linearly over the step.
+// A segment whose ends q0 and q1 move linearly over the step, or a point if q0 and q1 are equal at
+// t=0 and at t=1.
 struct ViewPrimitive {
   MovingPoint q0, q1;
   bool is_point() const { return q0.t0 == q1.t0 && q0.t1 == q1.t1; }
 };
 
-// Asked now and then during long work; true means: stop, and answer `undecided`. May be empty.
+// Asked now and then during long work. If it returns true the work stops and the answer is
+// `undecided`. It may be empty: then nothing stops the work.
 using StopFunction = std::function<bool()>;
 
 }  // namespace assay::detector

@@ -32,8 +32,8 @@ Surface make_surface(const TrianglesView& triangles, Eigen::Index vertex_count, 
   }
   surface.with_ghosts =
       make_topology(all, vertex_count + static_cast<Eigen::Index>(surface.loops.size()), pace);
-  // A loop stays within one component, and its apex has the highest indices: no component is
-  // joined with another or changes its place.
+  // A loop stays within one component, so its ghosts join no two components. Apexes have higher
+  // indices than all vertices, so no component changes its place.
   assert(pace.stopped() || surface.with_ghosts.components.size() == surface.mesh.components.size());
   return surface;
 }

@@ -8,10 +8,11 @@
 namespace assay::detector {
 namespace {
 
-// What is done to a triangle, a corner or a vertex, in box tests.
+// The work on a corner and on a triangle, in box tests.
 constexpr std::uint64_t work_of_corner = 2, work_of_triangle = 3 * work_of_corner;
 
-// Rows that hold each triangle, by three a triangle; triangles of a row ascend.
+// Makes the incidence that is the inverse of `lists`: triangle t stands in each of the three rows
+// lists[t]. The triangles of a row ascend.
 bool make_incidence(const std::vector<std::array<std::int32_t, 3>>& lists, std::size_t rows,
                     Incidence& out, PacedStop& pace) {
   out.starts.assign(rows + 1, 0);
@@ -29,7 +30,8 @@ bool make_incidence(const std::vector<std::array<std::int32_t, 3>>& lists, std::
   return for_each_paced(lists.size(), work_of_triangle, pace, place);
 }
 
-// An edge of a triangle. 12 corners of a mesh stand in one list of 31-bit numbers (mesh_checks.h).
+// An edge of a triangle. Its corner fits into 31 bits, because meshes are limited for that
+// (mesh_checks.h).
 struct EdgeUse {
   std::array<std::int32_t, 2> edge;  // ascending
   std::int32_t corner;               // opposite to it: 3 times the triangle, and its place there
@@ -135,7 +137,7 @@ Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count
     const auto t = static_cast<Eigen::Index>(i);
     mesh.triangles[i] = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};
   };
-  // Each goes on from what those before it have made.
+  // Each function needs what those before it have made.
   if (for_each_paced(mesh.triangles.size(), work_of_corner, pace, copy) &&
       make_edges(mesh, vertices, pace) &&
       make_incidence(mesh.triangles, vertices, mesh.vertex_triangles, pace) &&

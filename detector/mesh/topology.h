@@ -11,7 +11,7 @@
 
 namespace assay::detector {
 
-// Rows of varying length in one array; row i is items[starts[i], starts[i+1]).
+// Rows of varying length in one array. Row i is items[starts[i]] to items[starts[i+1] - 1].
 struct Incidence {
   std::vector<std::int32_t> starts, items;
   std::span<const std::int32_t> row(std::int32_t i) const {
@@ -25,8 +25,8 @@ struct Incidence {
 struct Component {
   std::vector<std::int32_t> triangles;  // ascending
   std::vector<std::int32_t> vertices;   // ascending
-  // A cycle: every directed edge (u,v) occurs as often as (v,u). Only then do L3 to L5 hold as
-  // they stand; 4 or 6 triangles at an edge are fine when matched.
+  // True if every directed edge (u,v) occurs as often as (v,u). Only then do L3 to L5 hold as they
+  // stand. 4 or 6 triangles at an edge are fine if they match in this way.
   bool is_cycle = false;
 };
 
@@ -35,17 +35,18 @@ struct Topology {
   std::vector<std::array<std::int32_t, 2>> edges;           // (u,v), u < v, ascending
   std::vector<std::array<std::int32_t, 3>> triangle_edges;  // edge opposite to corner i at place i
   Incidence vertex_triangles, edge_triangles;
-  std::vector<Component> components;  // by lowest vertex
+  std::vector<Component> components;  // ascending by their lowest vertices
   std::vector<std::int32_t> component_of_triangle;
 };
 
-// triangles have passed check_triangles. O(N + M).
+// REQUIRES triangles that have passed check_triangles. O(N + M).
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count);
-// The same; of no use where `pace` was stopped.
+// The same with a pace. If `pace` was stopped the result is of no use.
 Topology make_topology(const TrianglesView& triangles, Eigen::Index vertex_count, PacedStop& pace);
 
-// By edge: its uses in ascending direction less those in descending direction. False where `pace`
-// was stopped.
+// Sets surplus[e], for each edge e, to the number of triangles that use it in ascending direction
+// (from its lower vertex to the higher) less the number of those that use it in descending
+// direction. False if `pace` was stopped.
 bool count_surplus(const Topology& mesh, std::vector<std::int32_t>& surplus, PacedStop& pace);
 
 }  // namespace assay::detector

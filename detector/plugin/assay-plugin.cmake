@@ -1,6 +1,6 @@
-# assay_add_plugin(NAME SOURCE...): a detector as a shared library that `assay --detector` loads,
-# NAME.so, with one symbol. Nothing of Assay is linked: of the installed package it needs the headers
-# of the interface alone, so find_package(assay COMPONENTS plugin) is enough and asks for no library.
+# assay_add_plugin(NAME SOURCE...) makes the shared library NAME.so with one symbol: a detector that
+# `assay --detector` loads. Nothing of Assay is linked to it. It needs only the interface's headers of
+# the installed package, so find_package(assay COMPONENTS plugin) is enough and asks for no library.
 function(assay_add_plugin name)
   if(NOT ARGN)
     message(FATAL_ERROR "assay_add_plugin(${name}): it has no sources")

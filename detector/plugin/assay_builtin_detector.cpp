@@ -10,7 +10,7 @@
 namespace assay::detector {
 namespace {
 
-// The numbers of C are those of C++.
+// The numbers of the C interface are those of the enumerations in C++.
 static_assert(ASSAY_BUILTIN_NO_TRIANGLES == static_cast<int>(InputError::no_triangles));
 static_assert(ASSAY_BUILTIN_OTHER_STATE_VERSION ==
               static_cast<int>(InputError::other_state_version));
@@ -69,7 +69,7 @@ std::int32_t guarded(assay_builtin_error* error, const Function& function) {
   });
 }
 
-// False for a number that names none.
+// Sets `choice` to the value with this number. False, and nothing is set, if there is none.
 template <class Enum>
 bool choose(Enum& choice, std::int32_t number, Enum last) {
   if (number < 0 || number > static_cast<std::int32_t>(last)) return false;
@@ -77,7 +77,7 @@ bool choose(Enum& choice, std::int32_t number, Enum last) {
   return true;
 }
 
-// What is wrong, or null.
+// Copies the given options. Returns what is wrong with them, or null.
 const char* read_options(const assay_builtin_options& given, Options& options) {
   if (given.struct_size != sizeof given) return "struct_size is not the size of the options";
   if (!choose(options.culling, given.culling, Culling::automatic)) return "no such culling";

@@ -1,5 +1,5 @@
-/* The built-in detector in C: for programs in C, and for those that take any detector by the
- * interface of assay_detector.h. C99 or C++; link assay::detector.
+/* The built-in detector in C. It is for programs in C, and for programs that use any detector
+ * through the interface of assay_detector.h. C99 or C++; link assay::detector.
  *
  *   assay_builtin_options options = ASSAY_BUILTIN_DEFAULTS;
  *   assay_builtin_error error;
@@ -7,14 +7,16 @@
  *   if (assay_builtin_create(triangles, m, positions, n, &options, &handle, &error) != ASSAY_OK)
  *     return report(error.message);
  *
- * The table below and the functions after it serve the same handles, and keep the rules on memory,
- * threads and order of assay_detector.h. The functions do what the table does, with more to choose
- * and with named errors, and save and restore the state that is carried from step to step.
+ * The table that assay_builtin_detector() returns and the other functions below work on the same
+ * handles. Both keep the rules on memory, threads and order of assay_detector.h. The functions do
+ * what the table does, but with options and named errors. They also save and restore the state
+ * that is carried from step to step.
  *
- * ERRORS. Each function returns ASSAY_OK, ASSAY_REFUSED or ASSAY_OUT_OF_MEMORY. A call that is not
- * ASSAY_OK has changed nothing, but that a failed evaluate leaves nothing to commit. `error` may be
- * NULL; else it is filled in, with ASSAY_OK by ASSAY_BUILTIN_NO_ERROR and an empty message. Handles
- * and arrays must not be NULL where nothing else is said. */
+ * ERRORS. A function that takes an `error` returns ASSAY_OK, ASSAY_REFUSED or ASSAY_OUT_OF_MEMORY.
+ * A call that does not return ASSAY_OK has changed nothing, with one exception: after a failed
+ * evaluate there is nothing to commit. `error` may be NULL. If it is not, the function fills it
+ * in; with ASSAY_OK it then holds ASSAY_BUILTIN_NO_ERROR and an empty message. Handles and arrays
+ * must not be NULL unless a function says that they may be. */
 #ifndef ASSAY_BUILTIN_DETECTOR_H
 #define ASSAY_BUILTIN_DETECTOR_H
 
@@ -24,10 +26,11 @@
 extern "C" {
 #endif
 
-/* The built-in detector as any other, with the default options. Never NULL; valid for ever. */
+/* The built-in detector as a table of assay_detector.h, with the default options. Never NULL;
+ * valid for ever. */
 const assay_detector_api* assay_builtin_detector(void);
 
-/* What may be wrong. The numbers stay: new ones are added behind. */
+/* What may be wrong. A number keeps its meaning for ever; new errors get new numbers. */
 enum {
   ASSAY_BUILTIN_NO_ERROR = 0,
   ASSAY_BUILTIN_NO_TRIANGLES = 1,          /* an empty mesh */
@@ -36,93 +39,104 @@ enum {
   ASSAY_BUILTIN_SAME_VERTICES_TWICE = 4,   /* two triangles have the same three vertices */
   ASSAY_BUILTIN_WRONG_FRAME_SIZE = 5,      /* (not met in C: arrays carry no size) */
   ASSAY_BUILTIN_NON_FINITE_COORDINATE = 6, /* NaN or infinity, also in a view primitive */
-  ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT = 7, /* none, one, or one for each component */
+  ASSAY_BUILTIN_WRONG_PRIMITIVE_COUNT = 7, /* neither none, one, nor one for each component */
   ASSAY_BUILTIN_NOTHING_TO_COMMIT = 8,     /* no step with an answer was evaluated */
-  ASSAY_BUILTIN_FOREIGN_STATE = 9,         /* saved of another mesh or with another culling */
+  ASSAY_BUILTIN_FOREIGN_STATE = 9,         /* the state is of another mesh or another culling */
   ASSAY_BUILTIN_DAMAGED_STATE = 10,        /* no saved state, or one that was cut or changed */
-  ASSAY_BUILTIN_OTHER_STATE_VERSION = 11,  /* saved in a form that this build does not read */
+  ASSAY_BUILTIN_OTHER_STATE_VERSION = 11,  /* the state has a form that this build does not read */
   ASSAY_BUILTIN_MESH_TOO_LARGE = 12,       /* more triangles or vertices than indices can number */
   ASSAY_BUILTIN_STOPPED = 13,              /* (not met in C: create takes no stop function) */
   ASSAY_BUILTIN_WRONG_OPTIONS = 64,        /* an option has no such value; struct_size is wrong */
-  ASSAY_BUILTIN_SMALL_BUFFER = 65,         /* the state takes more bytes */
+  ASSAY_BUILTIN_SMALL_BUFFER = 65,         /* the state takes more bytes than the buffer has */
   ASSAY_BUILTIN_TOO_MANY = 66,             /* more than 2^31 - 1 triangles or vertices */
   ASSAY_BUILTIN_NO_MEMORY = 67
 };
 
-/* "index_out_of_range"; "unknown_error" for a number that is none of them. Static text. */
+/* The name of an error, such as "index_out_of_range", or "unknown_error" for any other number.
+ * Static text. */
 const char* assay_builtin_error_name(int32_t code);
 
-/* The caller's own. */
+/* An error. The struct is the caller's own. */
 typedef struct assay_builtin_error {
   int32_t code;      /* ASSAY_BUILTIN_... */
-  char message[252]; /* one line for a user, cut where it is longer; ends with 0 */
+  char message[252]; /* one line for a user, cut if it does not fit; ends with 0 */
 } assay_builtin_error;
 
-/* Options. The default is ASSAY_CULLING_AUTO, and 0 in each other. */
+/* The values of the options. The default culling is ASSAY_CULLING_AUTO; every other option has the
+ * value 0 by default. What the options mean for the result is in detector/README.md. */
 enum {
-  ASSAY_CULLING_VIEW_AUTO = 0,  /* a point or a segment, whichever sees more; bvh where that does
-                                   not pay */
-  ASSAY_CULLING_VIEW_POINT = 1, /* each component seen from a point */
-  ASSAY_CULLING_VIEW_LINE = 2,  /* each component seen from a segment */
-  ASSAY_CULLING_NORMAL_CONE = 3,
-  ASSAY_CULLING_BVH = 4,
-  ASSAY_CULLING_NONE = 5, /* every pair, no boxes */
-  ASSAY_CULLING_AUTO = 6  /* the first and normal cones in one descent, each where it pays */
+  ASSAY_CULLING_VIEW_AUTO = 0,   /* each component seen from a point or a segment, whichever sees
+                                    more; a step in which that does not pay is one of bvh */
+  ASSAY_CULLING_VIEW_POINT = 1,  /* each component seen from a point */
+  ASSAY_CULLING_VIEW_LINE = 2,   /* each component seen from a segment */
+  ASSAY_CULLING_NORMAL_CONE = 3, /* a tree of boxes, less patches with a normal cone and a simple
+                                    contour */
+  ASSAY_CULLING_BVH = 4,         /* a tree of boxes alone */
+  ASSAY_CULLING_NONE = 5,        /* every pair is tested, without boxes */
+  ASSAY_CULLING_AUTO = 6         /* view_auto and normal_cone in one descent, each used only where
+                                    it is expected to pay */
 };
+/* What is known at a new start. detector/README.md (The laws) says what clean and dirty mean. */
 enum {
-  ASSAY_START_VERIFIED = 0, /* what is clean is found out at each new start */
-  ASSAY_START_CLEAN = 1,    /* the caller vouches that nothing is in contact, layers are common */
+  ASSAY_START_VERIFIED = 0, /* the detector finds out at each new start what is clean */
+  ASSAY_START_CLEAN = 1,    /* the caller vouches that nothing is in contact and that all triangles
+                               of a component have the same layer */
   ASSAY_START_UNKNOWN = 2   /* everything is dirty */
 };
 enum {
   ASSAY_PAIRS_ALL = 0,  /* the complete pair set of the step */
-  ASSAY_PAIRS_FIRST = 1 /* the first contact time, and pairs that may not be all */
+  ASSAY_PAIRS_FIRST = 1 /* the first contact time, and some pairs, perhaps not all */
 };
 enum {
-  ASSAY_ARITHMETIC_EXACT = 0,
-  ASSAY_ARITHMETIC_BOUNDED = 1, /* never a miss, some false alarms */
-  ASSAY_ARITHMETIC_DOUBLE = 2,  /* no promise: made to be measured */
-  ASSAY_ARITHMETIC_FLOAT = 3    /* likewise */
+  ASSAY_ARITHMETIC_EXACT = 0,   /* never wrong */
+  ASSAY_ARITHMETIC_BOUNDED = 1, /* never misses a contact; gives some false alarms */
+  ASSAY_ARITHMETIC_DOUBLE = 2,  /* promises nothing; made to be measured */
+  ASSAY_ARITHMETIC_FLOAT = 3    /* promises nothing; made to be measured */
 };
+/* When dirty triangles become clean again. */
 enum {
-  ASSAY_RELEASE_PIECES = 0, /* dirty triangles become clean piece by piece */
-  ASSAY_RELEASE_MODEL = 1,  /* a component at once, when all its pieces may be */
-  ASSAY_RELEASE_VIEW = 2    /* a component at once, when it is all positive from inside */
+  ASSAY_RELEASE_PIECES = 0, /* piece by piece */
+  ASSAY_RELEASE_MODEL = 1,  /* a component at once, when all its pieces may become clean */
+  ASSAY_RELEASE_VIEW = 2    /* a component at once, when all of it is positive seen from inside */
 };
+/* Which triangles are violated by a ghost. */
 enum {
-  ASSAY_GHOST_TEST_EXACT = 0, /* violated: what a ghost touches */
-  ASSAY_GHOST_TEST_BOXES = 1  /* what a ghost's moving box is not apart from */
+  ASSAY_GHOST_TEST_EXACT = 0, /* those that the ghost touches */
+  ASSAY_GHOST_TEST_BOXES = 1  /* those whose moving box is not apart from the ghost's: some more */
 };
 
 typedef struct assay_builtin_options {
-  uint32_t struct_size; /* sizeof(assay_builtin_options): members may be added behind */
+  uint32_t struct_size; /* sizeof(assay_builtin_options): later versions may add members */
   int32_t culling;      /* ASSAY_CULLING_... */
   int32_t start;        /* ASSAY_START_... */
   int32_t pairs;        /* ASSAY_PAIRS_... */
   int32_t arithmetic;   /* ASSAY_ARITHMETIC_... */
   int32_t release;      /* ASSAY_RELEASE_... */
   int32_t ghost_test;   /* ASSAY_GHOST_TEST_... */
-  uint32_t threads;     /* that it may use, with equal results; 0: as many as the machine has */
+  uint32_t threads;     /* how many it may use; 0: as many as the machine has. The results do not
+                           depend on the number */
 } assay_builtin_options;
 
 #define ASSAY_BUILTIN_DEFAULTS \
   { sizeof(assay_builtin_options), ASSAY_CULLING_AUTO, 0, 0, 0, 0, 0, 1 }
 
-/* As the table's create. options: NULL for the defaults. *handle is left alone unless ASSAY_OK. */
+/* As the table's create. options may be NULL: the defaults. *handle is set with ASSAY_OK only. */
 int32_t assay_builtin_create(const int32_t* triangles, uint64_t triangle_count,
                              const double* positions, uint64_t vertex_count,
                              const assay_builtin_options* options, assay_handle** handle,
                              assay_builtin_error* error);
 
-/* Where the mesh is viewed from, in place of the detector's own choice: a segment of two ends, each
- * with its place at t = 0 and at t = 1. Equal ends are a point. It may be anywhere. */
+/* A place to view the mesh from, in place of the detector's own choice: a segment, each end with
+ * its place at t = 0 and at t = 1. Equal ends are a point. It may be anywhere. */
 typedef struct assay_view_primitive {
   double q0_t0[3], q0_t1[3], q1_t0[3], q1_t1[3];
 } assay_view_primitive;
 
-/* As the table's evaluate, then result() tells the answer. primitive_count: 0 (the detector's own),
- * 1 for all components, or one for each, ordered by their lowest vertex. stop: called now and then
- * with stop_data; not 0 ends the work with answer ASSAY_UNDECIDED; may be NULL. */
+/* As the table's evaluate; the table's result then tells the answer. primitive_count is 0 for the
+ * detector's own places, 1 for one primitive that serves all components, or the number of
+ * components, with the primitives in the order of the components' lowest vertices. stop is called
+ * now and then with stop_data. When it returns anything but 0, the work ends with the answer
+ * ASSAY_UNDECIDED. stop may be NULL. */
 int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const double* x_t1,
                                const assay_view_primitive* primitives, uint64_t primitive_count,
                                int32_t (*stop)(void* stop_data), void* stop_data,
@@ -131,29 +145,33 @@ int32_t assay_builtin_evaluate(assay_handle* handle, const double* x_t0, const d
 /* As the table's commit. */
 int32_t assay_builtin_commit(assay_handle* handle, assay_builtin_error* error);
 
-/* Of the step evaluated last. Where it used no views all sizes are 0 and doubts is NULL. */
+/* The view sets of the step evaluated last. If that step used no views, all sizes are 0 and doubts
+ * is NULL. The first four sizes add up to the number of triangles of a step that used views. */
 typedef struct assay_builtin_sets {
   uint64_t view_positive, view_negative, view_zero; /* sizes of V+, V-, V0, each without Vv */
-  uint64_t against_all;  /* size of Vv: violated or dirty; the four are all triangles */
-  uint64_t violated;     /* touched by a ghost during the step */
-  uint64_t dirty;        /* carry doubt into the step */
-  const uint8_t* doubts; /* by triangle, bit 0: violated, bit 1: dirty; the detector's own */
+  uint64_t against_all;  /* size of Vv: the triangles that are violated, dirty or both */
+  uint64_t violated;     /* how many triangles a ghost touches during the step */
+  uint64_t dirty;        /* how many triangles are dirty at the start of the step */
+  const uint8_t* doubts; /* by triangle, bit 0: violated, bit 1: dirty. The array is the detector's
+                            own */
 } assay_builtin_sets;
 void assay_builtin_get_sets(const assay_handle* handle, assay_builtin_sets* sets);
 
-/* Forgets the committed steps: the next one is a new start. Keeps what result() tells. */
+/* Forgets the committed steps: the next step is a new start. What the table's result tells stays.
+ * */
 void assay_builtin_reset(assay_handle* handle);
 
-/* The committed state as bytes, the same on every machine, to be kept or sent. *size: set to the
- * bytes that it takes, in any case. Call with buffer NULL and capacity 0 to learn it; a buffer of
- * less is refused and not written to. */
+/* Writes the committed state into a buffer of `capacity` bytes, to be kept or sent. The bytes are
+ * the same on every machine. *size is always set to the number of bytes that the state takes; call
+ * with buffer NULL and capacity 0 to learn it. A buffer with less room is refused and not written
+ * to. */
 int32_t assay_builtin_save(const assay_handle* handle, void* buffer, uint64_t capacity,
                            uint64_t* size, assay_builtin_error* error);
 
-/* Goes on from a saved state: answers, times and pairs are those of the handle that was saved, in
- * every bit; view sets too, where both were created from the same positions. What was evaluated and
- * not committed is dropped. The handle must be of the same mesh and culling. Damage is noticed; the
- * bytes are not protected against forgery. */
+/* Goes on from a saved state. Later answers, times and pairs are those that the saved handle would
+ * give, in every bit; so are the view sets if both handles were created from the same positions. A
+ * step that was evaluated and not committed is dropped. REQUIRES, else the call is refused: the
+ * handle is of the same mesh and culling. Damaged bytes are noticed, but forged ones are not. */
 int32_t assay_builtin_restore(assay_handle* handle, const void* bytes, uint64_t size,
                               assay_builtin_error* error);
 

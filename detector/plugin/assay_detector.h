@@ -5,12 +5,12 @@
  * A detector is told a mesh once and then steps of it: over t in [0,1] every vertex moves linearly
  * from x_t0 to x_t1. It answers whether the mesh touches itself, when first, and which triangles.
  * Two triangles are in contact when a vertex, edge or face of one meets one of the other that
- * shares no vertex with it; touching counts, and so do t = 0 and t = 1. The doubles given are exact
- * numbers, in the user's units of length. Times are fractions of the step.
+ * shares no vertex with it; touching counts, and so do t = 0 and t = 1. The doubles given are
+ * exact numbers, in the user's units of length. Times are fractions of the step.
  *
  * MEMORY. Nothing allocated on one side is freed on the other. Arrays that the host passes are
- * valid during the call and must not be written. Arrays and texts that the detector returns are its
- * own; they stay valid until the next call with the same handle.
+ * valid during the call and must not be written. Arrays and texts that the detector returns are
+ * its own; they stay valid until the next call with the same handle.
  *
  * THREADS. A handle is used by one thread at a time; several handles may be used at once by
  * different threads, so a detector keeps no mutable global data (or guards it).
@@ -18,22 +18,23 @@
  * ERRORS are return codes. No exception, longjmp or exit() may cross this border: the host counts
  * them as crashes. A call that fails changes nothing; the handle stays valid.
  *
- * ORDER. create; then any number of (evaluate, result, and commit where the host accepts the step);
- * destroy. A step usually starts where the last committed one ended. When it starts elsewhere, it
- * is a new start: nothing carried from earlier steps may be trusted.
+ * ORDER. create; then any number of (evaluate, result, and commit where the host accepts the
+ * step); destroy. A step usually starts where the last committed one ended. When it starts
+ * elsewhere, it is a new start: nothing carried from earlier steps may be trusted.
  *
- * LEFT OUT. What the description's contract leaves out is never put to the detector: a step that
- * starts in contact, say, is skipped, and the next one is a new start.
+ * LEFT OUT. A step that the description's contract leaves out is never put to the detector. If,
+ * say, the contract leaves out steps that start in contact, such a step is skipped, and the next
+ * one is a new start.
  *
- * PARTS. A library may hold less than a detector of whole steps: one elementary query (vertex-face,
- * edge-edge), or the candidate pairs of a broad phase. It fills in the functions that it has and
- * sets the others to NULL. evaluate, commit and result stand together; they and candidates need
- * create and destroy.
+ * PARTS. A library may hold less than a detector of whole steps: one elementary query
+ * (vertex-face, edge-edge), or the candidate pairs of a broad phase. It fills in the functions
+ * that it has and sets the others to NULL. evaluate, commit and result stand together; they and
+ * candidates need create and destroy.
  *
  * VERSIONS. abi_version is the first member of the table in every version. Members are only ever
- * added at the end, with a new version. A host of version 2 loads tables of version 1 too: it reads
- * the table up to destroy and the description up to margin, and takes the other members to be 0. It
- * refuses versions above its own. */
+ * added at the end, and then the version goes up. A host of version 2 loads tables of version 1
+ * too: it reads the table up to destroy and the description up to margin, and takes the other
+ * members to be 0. It refuses a table whose version is above its own. */
 #ifndef ASSAY_DETECTOR_H
 #define ASSAY_DETECTOR_H
 
@@ -59,22 +60,27 @@ enum {
   ASSAY_FAILED = 3         /* anything else */
 };
 
-/* What the detector claims; it is judged by that and no more. t* is the first contact time. */
+/* What the detector claims. It is judged by its claims and by nothing else. t* is the first
+ * contact time of the step. */
 enum {
-  ASSAY_CLAIM_FREE_SOUND = 1u << 0,    /* never `free` when there is a contact */
+  ASSAY_CLAIM_FREE_SOUND = 1u << 0,    /* the answer is never `free` when there is a contact */
   ASSAY_CLAIM_NOT_LATE = 1u << 1,      /* first_lo <= t* */
   ASSAY_CLAIM_FIRST_TIME = 1u << 2,    /* first_lo <= t* <= first_hi */
   ASSAY_CLAIM_FIRST_PAIRS = 1u << 3,   /* each connected part of the contact graph at t* (triangles
                                           as nodes, contacts as edges) holds a reported pair */
-  ASSAY_CLAIM_ALL_PAIRS = 1u << 4,     /* every pair in contact during the step, none too late */
-  ASSAY_CLAIM_NO_SPURIOUS = 1u << 5,   /* no collision, pair or contact time before there is one */
+  ASSAY_CLAIM_ALL_PAIRS = 1u << 4,     /* every pair in contact during the step is reported, none
+                                          with a time after its own */
+  ASSAY_CLAIM_NO_SPURIOUS = 1u << 5,   /* no collision, pair or contact time is reported before
+                                          there is a contact */
   ASSAY_CLAIM_DETERMINISTIC = 1u << 6, /* the same calls give the same results */
-  ASSAY_CLAIM_TOTAL = 1u << 7,         /* every valid input within the limits is answered */
-  ASSAY_CLAIM_CANDIDATES = 1u << 8     /* of `candidates`: every pair in contact is among them */
+  ASSAY_CLAIM_TOTAL = 1u << 7,         /* every valid input within the limits of time and memory is
+                                          answered */
+  ASSAY_CLAIM_CANDIDATES = 1u << 8     /* every pair in contact is among those that the table's
+                                          `candidates` gives */
 };
 
-/* Which neighbours are tested against each other; contacts of the others are not held against the
- * detector, and counted. */
+/* Which pairs of neighbouring triangles the detector tests. A contact of a pair that it does not
+ * test is counted, but not held against it. */
 enum {
   ASSAY_ADJACENCY_ALL = 0,              /* every pair of triangles */
   ASSAY_ADJACENCY_NOT_EDGE_SHARING = 1, /* pairs that share at most one vertex */
@@ -87,44 +93,49 @@ enum {
                                    the detector and the oracle see it */
 };
 
-/* Which steps the detector takes, by how the mesh lies at t = 0. The others are left out. */
+/* Which steps the detector takes, by how the mesh lies at t = 0. All others are left out. */
 enum {
   ASSAY_START_ANY = 0,  /* every step */
   ASSAY_START_FREE = 1, /* steps that start without a contact */
-  ASSAY_START_APART = 2 /* steps in which no vertex and face, and no two edges, that share no vertex
-                           are nearer to each other than start_distance at t = 0 */
+  /* Steps in which no vertex and face, and no two edges, that share no vertex are nearer to each
+   * other than start_distance at t = 0. */
+  ASSAY_START_APART = 2
 };
 
-/* Which features the detector tests against each other. Contacts of the others are not held against
- * it, and counted: those of features that are left out, and of a mesh whose edges pierce its faces
- * when a step starts. */
+/* Which pairs of features the detector tests. Contacts that it cannot find in this way are
+ * counted, but not held against it. If it does not test both kinds, these are the contacts of the
+ * other kind, and those of edges that already pierce a face when the step starts. */
 enum { ASSAY_FEATURES_BOTH = 0, ASSAY_FEATURES_VERTEX_FACE = 1, ASSAY_FEATURES_EDGE_EDGE = 2 };
 
 enum {
   ASSAY_REPORTS_PAIRS = 0,
-  ASSAY_REPORTS_NO_PAIRS = 1 /* answer and time alone: claims on pairs are not judged */
+  ASSAY_REPORTS_NO_PAIRS = 1 /* it gives the answer and the time but no pairs; its claims on pairs
+                                (first-pairs, all-pairs) are not judged */
 };
 
 #define ASSAY_WIDEST_TIME_TOLERANCE 1e-3
 
-/* A description that sets the members up to margin and leaves the others 0 has the contract of
- * version 1. */
+/* What the detector is called, what it claims, and its contract: all members from adjacency on. In
+ * a description that is 0 from adjacency on the contract leaves nothing out. One that sets only
+ * the members up to margin has the contract of version 1. */
 typedef struct assay_description {
   const char* name;    /* one line, not empty */
   const char* version; /* one line */
   uint32_t claims;     /* ASSAY_CLAIM_..., or-ed */
   int32_t adjacency;   /* ASSAY_ADJACENCY_... */
   int32_t coordinates; /* ASSAY_COORDINATES_... */
-  double margin;       /* distance at which triangles count as touching, user's units; finite, >= 0.
-                          Above 0 no-spurious is not judged */
+  double margin;       /* distance at which triangles count as touching, user's units; finite,
+                          >= 0. If it is above 0, no-spurious is not judged */
 
   /* Since version 2. */
   int32_t start;         /* ASSAY_START_... */
   double start_distance; /* user's units; above 0 with ASSAY_START_APART, else 0 */
-  double least_nonzero;  /* every coordinate is 0 or of a magnitude from least_nonzero */
-  double largest;   /* to largest; both 0: every finite number. Else 0 <= least_nonzero <= largest,
-                            largest above 0. Meshes beyond it are left out */
-  int32_t features; /* ASSAY_FEATURES_... */
+  /* The range of coordinates that the detector takes: 0, and magnitudes from least_nonzero to
+   * largest. Both 0: it takes every finite number. Else 0 <= least_nonzero <= largest and largest
+   * is above 0. Meshes with a coordinate beyond the range are left out. */
+  double least_nonzero;
+  double largest;
+  int32_t features;      /* ASSAY_FEATURES_... */
   double time_tolerance; /* a time counts as late, early or wrong when it is off by more than this
                             share of the step; 0 <= time_tolerance <= 1e-3 */
   int32_t reports;       /* ASSAY_REPORTS_... */
@@ -135,29 +146,31 @@ typedef struct assay_handle assay_handle;
 
 enum { ASSAY_FREE = 0, ASSAY_COLLISION = 1, ASSAY_UNDECIDED = 2, ASSAY_ERROR = 3 };
 
-/* The host sets all to 0 before the call. */
+/* The result of a step. The host sets all members to 0 before the call. */
 typedef struct assay_result {
-  int32_t answer;           /* ASSAY_FREE, ... */
-  double first_lo;          /* with ASSAY_COLLISION: an interval of the first contact time, */
-  double first_hi;          /* 0 <= first_lo <= first_hi <= 1. [0, 1] states nothing */
+  int32_t answer; /* ASSAY_FREE, ASSAY_COLLISION, ASSAY_UNDECIDED, ASSAY_ERROR */
+  /* With ASSAY_COLLISION: the interval of the first contact time, 0 <= first_lo <= first_hi <= 1.
+   * [0, 1] states nothing about the time. */
+  double first_lo;
+  double first_hi;
   uint64_t pair_count;      /* pairs of triangles in contact; any order, each once or more */
   const int32_t* pairs;     /* pair_count x 2 triangle indices; may be NULL when there are none */
-  const double* pair_times; /* pair_count x 2, lo and hi of each pair's first contact; NULL when not
-                               known: then pairs are judged without times */
+  const double* pair_times; /* pair_count x 2, lo and hi of each pair's first contact. NULL when
+                               the times are not known: then pairs are judged without times */
   const char* message;      /* with ASSAY_ERROR: one line, or NULL */
 } assay_result;
 
 enum { ASSAY_QUERY_VERTEX_FACE = 0, ASSAY_QUERY_EDGE_EDGE = 1 };
 
-/* Of one elementary query. The host sets all to 0 before the call. */
+/* The result of one elementary query. The host sets all members to 0 before the call. */
 typedef struct assay_query_result {
   int32_t answer;  /* ASSAY_FREE, ASSAY_COLLISION, ASSAY_UNDECIDED, ASSAY_ERROR */
-  double first_lo; /* as of assay_result */
+  double first_lo; /* first_lo and first_hi are as in assay_result */
   double first_hi;
 } assay_query_result;
 
-/* Pairs of triangles that may be in contact during the step. The host sets all to 0 before the
- * call. */
+/* The pairs of triangles that a broad phase finds: those that may be in contact during the step.
+ * The host sets all members to 0 before the call. */
 typedef struct assay_candidates {
   uint64_t pair_count;  /* any order, each once or more */
   const int32_t* pairs; /* pair_count x 2 triangle indices; may be NULL when there are none */
@@ -166,50 +179,52 @@ typedef struct assay_candidates {
 typedef struct assay_detector_api {
   uint32_t abi_version; /* ASSAY_DETECTOR_ABI_VERSION */
 
-  /* Valid as long as the library is loaded; the same at every call. */
+  /* What the detector is and claims. Valid as long as the library is loaded; the same at every
+   * call. */
   const assay_description* (*describe)(void);
 
-  /* triangles: triangle_count x 3 vertex indices, counter-clockwise seen from outside; positions:
-   * vertex_count x 3 doubles of the first frame. Both must be copied if they are needed later. The
-   * mesh may be open, of several parts, or already in contact with itself. With a return code other
-   * than ASSAY_OK *handle is left alone, and *message may be set to a line of static text. */
+  /* Makes a handle for a mesh. triangles: triangle_count x 3 vertex indices, counter-clockwise
+   * seen from outside. positions: vertex_count x 3 doubles of the first frame. What is needed of
+   * them later must be copied. The mesh may be open, of several parts, or already in contact with
+   * itself. With a return code other than ASSAY_OK the function leaves *handle alone, and may set
+   * *message to a line of static text. */
   int32_t (*create)(const int32_t* triangles, uint64_t triangle_count, const double* positions,
                     uint64_t vertex_count, assay_handle** handle, const char** message);
 
-  /* Answers the step; state that is carried from step to step is left alone. x_t0, x_t1:
-   * vertex_count x 3 doubles, finite. */
+  /* Answers the step from x_t0 to x_t1, each vertex_count x 3 finite doubles. It leaves alone the
+   * state that is carried from step to step: commit advances that. */
   int32_t (*evaluate)(assay_handle* handle, const double* x_t0, const double* x_t1);
 
-  /* Accepts the step evaluated last: state advances to its end. */
+  /* Accepts the step evaluated last: the state advances to the end of that step. */
   int32_t (*commit)(assay_handle* handle);
 
-  /* Of the step evaluated last. */
+  /* Fills in the result of the step evaluated last. */
   int32_t (*result)(assay_handle* handle, assay_result* result);
 
   /* Frees the handle. */
   void (*destroy)(assay_handle* handle);
 
-  /* Since version 2: each may be NULL. */
+  /* Since version 2. Each of these functions may be NULL. */
 
-  /* How many threads the detector may use, 1 or more: called once, before everything but describe.
-   * Results must not depend on it where deterministic is claimed. */
+  /* Says how many threads the detector may use, 1 or more. Called once, before every function but
+   * describe. If the detector claims deterministic, results must not depend on the number. */
   void (*use_threads)(uint32_t count);
 
-  /* Whether two features meet during the step, and when first: a part of its own, judged by
-   * `check-queries`, `self-test` and campaigns of queries. x_t0, x_t1: 4 x 3 doubles, of the vertex
-   * and the three corners of the face, or of the two ends of one edge and the two of the other. Needs
-   * no handle. */
+  /* Whether two features meet during the step, and when first. This elementary query is a part of
+   * its own (PARTS above), judged by `check-queries`, `self-test` and campaigns of queries. kind:
+   * ASSAY_QUERY_... x_t0 and x_t1 are 4 x 3 doubles each: the vertex and the three corners of the
+   * face, or the two ends of one edge and the two ends of the other. It needs no handle. */
   int32_t (*query)(int32_t kind, const double* x_t0, const double* x_t1,
                    assay_query_result* result);
 
-  /* Pairs that may be in contact during the step: a broad phase, judged by ASSAY_CLAIM_CANDIDATES.
-   * Carries nothing from step to step. */
+  /* The pairs that may be in contact during the step. This is a broad phase, judged by
+   * ASSAY_CLAIM_CANDIDATES. It carries nothing from step to step. */
   int32_t (*candidates)(assay_handle* handle, const double* x_t0, const double* x_t1,
                         assay_candidates* candidates);
 
-  /* What the call that failed last in this thread has to say, whichever of these functions it was:
-   * one line, valid until the next call, or NULL. Asked at once after a return code other than
-   * ASSAY_OK, an ASSAY_ERROR without a message, and a describe() that returns NULL. */
+  /* Why the call that failed last in this thread failed, whichever of these functions it was: one
+   * line, valid until the next call, or NULL. The host asks at once after a return code other than
+   * ASSAY_OK, after an ASSAY_ERROR without a message, and after a describe() that returns NULL. */
   const char* (*error_text)(void);
 } assay_detector_api;
 

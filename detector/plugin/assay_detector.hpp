@@ -4,28 +4,34 @@
 //    public:
 //     static assay::plugin::Description describe();
 //     explicit Mine(const assay::plugin::Mesh& mesh);
-//     assay::plugin::Result evaluate(assay::plugin::Positions x_t0, assay::plugin::Positions x_t1);
+//     assay::plugin::Result evaluate(assay::plugin::Positions x_t0,
+//                                    assay::plugin::Positions x_t1);
 //   };
 //   ASSAY_EXPORT_DETECTOR(Mine);
 //
-// What else a class may have is found by its name:
+// A class may have more functions. This header finds them by their names:
 //
-// - void commit(): the step evaluated last is accepted;
+// - void commit(): accepts the step evaluated last;
 // - static void use_threads(std::uint32_t count): called once, before everything but describe();
-// - static Result query(std::int32_t kind, Positions x_t0, Positions x_t1): of four points each;
-//   pairs of the result are not read;
+// - static Result query(std::int32_t kind, Positions x_t0, Positions x_t1): an elementary query of
+//   four points, given as four rows at t=0 and at t=1; pairs in its result are not read;
 // - std::vector<Pair> candidates(Positions x_t0, Positions x_t1): a broad phase.
 //
-// A library may hold a query or a broad phase alone: such a class has no evaluate(), and one
-// with a query alone needs no constructor either.
+// A library may hold a query or a broad phase alone. Such a class has no evaluate(), and one with
+// a query alone needs no constructor either.
 //
-// Exceptions end here. std::bad_alloc: out of memory, and the step counts as undecided. Refused, of
-// the constructor: the mesh is one that the detector does not take. Any other: of the constructor a
-// failure with its text, of evaluate() a step with the answer ASSAY_ERROR and its text, of all else
-// ASSAY_FAILED, whose text error_text() has. Results are kept until the next evaluate() or
-// candidates() of the same handle. evaluate() that throws leaves no older result behind.
+// No exception gets past this header; each becomes a return code or a result:
 //
-// Where <Eigen/Core> was included before this header there are maps, too.
+// - std::bad_alloc means out of memory; the step counts as undecided.
+// - Refused, thrown by the constructor, means that the detector does not take this mesh.
+// - Any other exception is a failure, told with its text. If the constructor throws it, the mesh
+//   has no handle. If evaluate() throws it, the answer of the step is ASSAY_ERROR. If another
+//   function throws it, the call returns ASSAY_FAILED and error_text() has the text.
+//
+// Results are kept until the next evaluate() or candidates() of the same handle. An evaluate()
+// that throws leaves no older result behind.
+//
+// If <Eigen/Core> is included before this header, eigen(rows) gives rows as an Eigen map.
 #ifndef ASSAY_DETECTOR_HPP
 #define ASSAY_DETECTOR_HPP
 
@@ -44,8 +50,8 @@ static_assert(ASSAY_DETECTOR_ABI_VERSION == 2, "this header is of another versio
 namespace assay {
 namespace plugin {
 
-// As assay_description, with a contract that leaves nothing out unless a member says so. The texts
-// must live as long as the library: literals do.
+// The members mean the same as in assay_description. The defaults claim nothing, and their
+// contract leaves nothing out. The texts must live as long as the library: literals do.
 struct Description {
   const char* name = "";
   const char* version = "";
@@ -62,7 +68,7 @@ struct Description {
   std::int32_t reports = ASSAY_REPORTS_PAIRS;
 };
 
-// Rows of three numbers each, which stay the host's: valid during the call.
+// A view of rows of three numbers each. The numbers are the host's and valid during the call only.
 template <class T>
 class Rows {
  public:
@@ -85,7 +91,8 @@ struct Mesh {
   Positions positions;  // of the first frame
 };
 
-// Of a mesh that the detector does not take; its text is told to the user.
+// To be thrown by the constructor for a mesh that the detector does not take. Its text is told to
+// the user.
 class Refused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -94,11 +101,11 @@ struct Result {
   std::int32_t answer = ASSAY_FREE;
   Interval first = {{0, 0}};
   std::vector<Pair> pairs;
-  std::vector<Interval> pair_times;  // as many as pairs, or their times are not told
-  std::string text;                  // of an error
+  std::vector<Interval> pair_times;  // one for each pair; any other number: times are not known
+  std::string text;                  // says what went wrong, with ASSAY_ERROR
 
   static Result free() { return {}; }
-  // The interval holds the first contact time; without one the time is not known.
+  // [first_lo, first_hi] holds the first contact time. Without arguments the time is not known.
   static Result collision(double first_lo = 0, double first_hi = 1) {
     return of(ASSAY_COLLISION, {{first_lo, first_hi}});
   }
@@ -137,7 +144,7 @@ RowsMap<T> eigen(const Rows<T>& rows) {
 
 #include "detector/plugin/assay_detector_table.hpp"
 
-// The symbol of the library, in one source file of it: ASSAY_EXPORT_DETECTOR(Mine);
+// Defines the one symbol that the library exports. Used in one of its source files.
 #define ASSAY_EXPORT_DETECTOR(...)                                                  \
   extern "C" ASSAY_DETECTOR_EXPORT const assay_detector_api* assay_detector(void) { \
     return ::assay::plugin::detail::table<__VA_ARGS__>();                           \

@@ -1,5 +1,6 @@
-// The table of functions of a class: the C interface on one side, calls of C++ on the other. It is
-// included by assay_detector.hpp, which says what a class may have; of no use alone.
+// Makes the C interface's table of functions for a class: each function of the table calls the
+// class in C++. assay_detector.hpp includes this file and says what a class may have; do not
+// include it alone.
 #ifndef ASSAY_DETECTOR_TABLE_HPP
 #define ASSAY_DETECTOR_TABLE_HPP
 
@@ -18,7 +19,7 @@ namespace detail {
 static_assert(sizeof(Pair) == 2 * sizeof(std::int32_t), "pairs are handed out as they stand");
 static_assert(sizeof(Interval) == 2 * sizeof(double), "times are handed out as they stand");
 
-// One line of text that needs no memory of the heap, for there may be none left.
+// One line of text that needs no memory from the heap, because there may be none left.
 class Line {
  public:
   void clear() { text_[0] = 0; }
@@ -33,7 +34,7 @@ class Line {
   char text_[512] = {};
 };
 
-// Runs what may throw; an exception becomes a return code, and its text a line.
+// Calls work(), which may throw. An exception becomes a return code and leaves its text in `line`.
 template <class Work>
 std::int32_t guarded(Line& line, const Work& work) noexcept {
   try {
@@ -53,7 +54,7 @@ std::int32_t guarded(Line& line, const Work& work) noexcept {
   return ASSAY_FAILED;
 }
 
-// Of the call that failed last in this thread, of any function of the table.
+// The text of the call that failed last in this thread, whichever function of the table it was.
 template <class D>
 Line& last_line() {
   static thread_local Line line;
@@ -65,7 +66,8 @@ const char* error_text() noexcept {
   return last_line<D>().empty() ? nullptr : last_line<D>().c_str();
 }
 
-// Whether D has a member of that name, and whether it can be called as the interface does.
+// names_NAME<D> says whether D has a member of that name, and has_NAME<D> whether it can be called
+// as the interface calls it.
 #define ASSAY_PLUGIN_FINDS(NAME, CALL)                                         \
   template <class D, class = void>                                             \
   struct names_##NAME : std::false_type {};                                    \
@@ -95,7 +97,7 @@ struct Handle {
   D detector;
   Result result;
   std::vector<Pair> candidates;
-  Line line;  // of the exception that ended evaluate() last; empty: none did
+  Line line;  // text of the exception that ended the last evaluate(); empty if none did
 };
 
 template <class D>
@@ -142,7 +144,7 @@ std::int32_t evaluate(assay_handle* handle, const double* x_t0, const double* x_
   const std::int32_t code = guarded(h.line, [&] {
     h.result = h.detector.evaluate({x_t0, h.vertices}, {x_t1, h.vertices});
   });
-  // The text of an exception travels with the result.
+  // All other exceptions are told by result(), with their texts.
   return code == ASSAY_OUT_OF_MEMORY ? code : ASSAY_OK;
 }
 
@@ -213,7 +215,8 @@ std::int32_t candidates(assay_handle* handle, const double* x_t0, const double* 
   });
 }
 
-// The table of a class. What it names has to be callable, or it would be left out in silence.
+// The table of a class. A member whose name is that of an optional function has to be callable as
+// such: else the function would be left out in silence.
 template <class D>
 const assay_detector_api* table() {
   static_assert(has_evaluate<D>::value || !names_evaluate<D>::value,

@@ -1,4 +1,4 @@
-// What the C interface keeps of a mesh: the detector, and the last result as C arrays.
+// What the C interface keeps for a mesh: the detector, and the last result as C arrays.
 #pragma once
 
 #include <new>
@@ -15,7 +15,8 @@ struct assay_handle {
   std::vector<std::int32_t> pairs = {};
   std::vector<double> times = {};
 
-  // As Detector::evaluate; the handle changes as a whole or not at all, should memory fail.
+  // As Detector::evaluate, and keeps the result. If memory runs out the handle keeps its last
+  // result unchanged.
   void evaluate(const double* x_t0, const double* x_t1,
                 std::span<const assay::detector::ViewPrimitive> primitives = {},
                 const assay::detector::StopFunction& stop = {});
@@ -26,7 +27,8 @@ namespace assay::detector {
 using PositionsMap = Eigen::Map<const Positions>;
 using TrianglesMap = Eigen::Map<const Triangles>;
 
-// The built-in detector throws nothing but the want of memory; no exception crosses the border.
+// Calls function(), and out_of_memory() in its place if memory runs out. The built-in detector
+// throws nothing but std::bad_alloc, so no exception crosses the border to C.
 template <class Function, class OutOfMemory>
 std::int32_t guarded(const Function& function, const OutOfMemory& out_of_memory) {
   try {

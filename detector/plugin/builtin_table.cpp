@@ -24,7 +24,7 @@ const assay_description* describe() {
   return &description;
 }
 
-// The table says it for all handles to come.
+// use_threads of the table sets it for all handles made later.
 std::atomic<std::uint32_t> threads_to_use = 1;
 
 void use_threads(std::uint32_t count) { threads_to_use = count; }

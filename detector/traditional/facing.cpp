@@ -9,7 +9,7 @@
 //   times d_k           | exact, |d_k| <= 2        | 20 S_k              | 4 S_k
 //   b_i . d             | three of these, two sums | 20 + 4 + 4 = 28 S   | 4 S
 //
-// facing_units = 32 covers this, what is of second order, and the rounding of S.
+// facing_units = 32 covers this, errors of second order, and the rounding of S.
 #include "detector/traditional/facing.h"
 
 #include <cmath>
@@ -19,8 +19,8 @@ namespace {
 
 constexpr double facing_units = 32;
 
-// Faces, edges and corners of a cube, and what lies between an edge's middle and a face's: the
-// nearest is at most 22 degrees away from any direction.
+// The axes through the faces, edges and corners of a cube, and those between an edge's middle and
+// a face's middle. From any direction the nearest of them is at most 22 degrees away.
 constexpr double axes[3][facing_axes] = {
     {1, 0, 0, 1, 1, 1, 1, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2},
     {0, 1, 0, 1, -1, 0, 0, 1, 1, 1, 1, -1, -1, 1, 1, -1, -1, 2, 2, -2, -2, 1, 1, -1, -1},

@@ -1,9 +1,10 @@
 // Which of a fixed set of directions a triangle faces over a whole step: N(t).d > 0 at every t.
 //
-// A normal cone of [VMT94] serves for one thing: some direction d with N.d > 0 for all triangles of
-// a patch. Kept here is not a cone but the set of those d themselves, out of 50. Two patches merge
-// by the intersection of their sets: exact, without the normalizations of the thesis, and a merged
-// set is never looser than its triangles. A patch has a normal cone when its set is not empty.
+// A normal cone of [VMT94] serves one purpose: to show that there is a direction d with N.d > 0
+// for all triangles of a patch. Instead of a cone, this file keeps the set of such directions d
+// themselves, out of 50 fixed ones. Two patches are merged by the intersection of their sets. That
+// is exact, it needs no normalizations as the thesis does, and a merged set is never looser than
+// its triangles. A patch has a normal cone if its set is not empty.
 #pragma once
 
 #include <array>
@@ -24,11 +25,11 @@ inline constexpr int facing_directions = 2 * facing_axes;
 using Direction = std::array<double, 3>;
 Direction direction(int bit);
 
-// The directions that a triangle faces at every t of the step, as far as doubles can tell; one that
-// they cannot tell is left out. Empty for a triangle without area at some time. 0.1 us.
+// The directions that a triangle faces at every t of the step. A direction of which doubles cannot
+// tell this is left out. Empty for a triangle that has no area at some time. 0.1 us.
 DirectionSet faced_directions(const std::array<MovingPoint, 3>& triangle);
 
-// The one of a set, not empty, that is nearest to a vector.
+// The bit of the direction in `set` that is nearest to `vector`. REQUIRES that `set` is not empty.
 int nearest_direction(DirectionSet set, const Vector& vector);
 
 }  // namespace assay::detector

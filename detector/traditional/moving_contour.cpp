@@ -1,14 +1,14 @@
-// The plane. With m the axis along which |d| is greatest and k, l the others in cyclic order, the
-// two coordinates of a point x are s (d_m x_k - d_k x_m) and d_m x_l - d_l x_m, s the sign of d_m:
-// both are 0 along d, and the map turns no orientation around. A coordinate is computed with one
-// rounding, its products are exact; rounding keeps order, so what is strictly ordered as computed
-// is so in truth, and what is ordered in one sense at t=0 and t=1 is so throughout: points are
-// linear in t.
+// The plane. Let m be the axis along which |d| is greatest, k and l the others in cyclic order,
+// and s the sign of d_m. The two coordinates of a point x are s (d_m x_k - d_k x_m) and d_m x_l -
+// d_l x_m. Both are 0 along d, and the map turns no orientation around. A coordinate is computed
+// with one rounding, because its products are exact. Rounding keeps order: if two computed
+// coordinates are strictly ordered, so are the true ones. Points are linear in t: if two
+// coordinates have one order at t=0 and at t=1, they have it throughout.
 //
-// Error bounds of turns and cosines, in the notation of bernstein.h. x and y are differences of two
-// points in the plane. Their coordinate along the first axis is at most M_u = |d_m| M_k + |d_k| M_m
-// in size, where M_k and M_m bound the differences in space; M_v along the second axis likewise.
-// MM is M_u M_v, and D is M_u^2 + M_v^2.
+// Error bounds of turns and cosines, in the notation of bernstein.h. x and y are differences of
+// two points in the plane. Their coordinate along the first axis is at most M_u = |d_m| M_k +
+// |d_k| M_m in size, where M_k and M_m bound the differences in space; M_v along the second axis
+// likewise. MM is M_u M_v, and D is M_u^2 + M_v^2.
 //
 //   quantity         | operations                       | error in u                 | size
 //   coordinate x_u   | d_m e_k - d_k e_m                | 1 + 1 = 2 M_u              | M_u
@@ -30,8 +30,8 @@
 namespace assay::detector {
 namespace {
 
-// In box tests, an edge in each of the chains that it is halved down through. Shorter chains are
-// part of the last that was counted.
+// The work on an edge, in box tests, counted once for each chain of long_chain edges or more that
+// holds it. The work on shorter chains is part of that.
 constexpr std::uint64_t work_of_edge = 8;
 constexpr std::size_t long_chain = 64;
 
@@ -53,8 +53,9 @@ bool is_in_range(const std::array<double, 2>& magnitude) {
   return in_range({magnitude[0], magnitude[1], 0});
 }
 
-// Of two edges: each pair is where the ends of the one lie seen from the other. When both of a pair
-// have the same strict sign the edges do not meet. At every time one of the pairs will do.
+// How two edges a and b lie to each other: on which side of a the two ends of b are, and on which
+// side of b the two ends of a are. If both ends of one edge are strictly on the same side of the
+// other, the edges do not meet. At different times it may be different edges that show this.
 struct Sides {
   std::array<Quadratic, 2> of_a, of_b;
 };
@@ -76,7 +77,8 @@ bool are_apart(const Sides& sides, double scale, int depth) {
   return are_apart(left, scale, depth + 1) && are_apart(right, scale, depth + 1);
 }
 
-// Two edges at a vertex overlap only where they run in the same direction.
+// Whether it is proved that two edges that leave a common vertex do not overlap. They overlap only
+// if they run in the same direction: then the turn between them is 0 and their cosine positive.
 bool is_open(const Quadratic& turned, const Quadratic& aligned, double turn_scale,
              double aligned_scale, int depth) {
   const double units = turn_units(depth) * unit_roundoff;
@@ -140,7 +142,7 @@ bool MovingContour::stays_simple(Contour contour, int direction_bit) {
     };
     const std::array<double, 4> y = {coordinate(x_t0_, 0), coordinate(x_t0_, 1),
                                      coordinate(x_t1_, 0), coordinate(x_t1_, 1)};
-    // Far out a difference may overflow, and an infinite one orders nothing that can be trusted.
+    // Far out a coordinate may overflow, and the order of infinite ones cannot be trusted.
     if (!std::all_of(y.begin(), y.end(), [](double c) { return std::isfinite(c); })) return false;
     points_[i] = {y, y};
   }

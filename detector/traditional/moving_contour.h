@@ -1,22 +1,28 @@
 // The contour test over a step: does the projection of a patch's contour stay simple?
 //
-// **L13** *A set P of triangles, a direction d with N(t).d > 0 for all of them at every t of the
-// step, and P's boundary one closed walk whose projection along d is a simple polygon at every t:
-// no two triangles of P are in contact during the step.* At a time t project P along d. All
-// triangles keep their orientation, so almost every point y of the plane lies in as many projected
-// triangles as the projected boundary winds around y (the boundary of the sum of P's triangles is
-// P's boundary, edges inside cancel). A simple polygon winds around a point once or not at all (and
-// not -1 times, counts are not negative): the projected triangles do not overlap. Let p and q be
-// different points of P, as a set of triangles joined at their common vertices, with one projection
-// y. Where p is not on the boundary, the triangles around p cover all of a neighbourhood of y: what
-// ends at an edge or at a vertex would change the count there, and only the boundary does. q's
-// triangle covers some of it too, and is not one of those around p, for a triangle is projected one
-// to one: an overlap. So p and q are both on the boundary, and that is projected one to one. Hence
-// no such p, q. But two faces without a common vertex that meet would hold such a pair.
+// **L13** *Let P be a set of triangles and d a direction with N(t).d > 0 for all of them at every
+// t of the step. Let P's boundary be one closed walk whose projection along d is a simple polygon
+// at every t. Then no two triangles of P are in contact during the step.*
 //
-// P need not be connected or a manifold: what is not has no such boundary (patch_contours.h).
+// Proof. At a time t project P along d. All triangles keep their orientation, so almost every
+// point y of the plane lies in as many projected triangles as the projected boundary winds around
+// y (the boundary of the sum of P's triangles is P's boundary, because edges inside cancel). A
+// simple polygon winds around a point once or not at all (and not -1 times, because counts are not
+// negative). So the projected triangles do not overlap.
 //
-// What doubles cannot tell is taken for a crossing.
+// Take P as a set of triangles joined at their common vertices. Suppose that two different points
+// p and q of P have the same projection y. If p is not on the boundary, the triangles around p
+// cover all of a neighbourhood of y: if they ended at an edge or at a vertex the count would
+// change there, but it changes only at the boundary. The triangle of q covers some of that
+// neighbourhood too. It is not one of those around p, because a triangle is projected one to one.
+// So there is an overlap, which was excluded. Hence p is on the boundary, and for the same reason
+// q is. But the boundary is projected one to one. So there are no such p and q. Two faces without
+// a common vertex that meet would hold such points.
+//
+// L13 need not require that P is connected or a manifold, because a set that is not has no such
+// boundary (patch_contours.h).
+//
+// If doubles cannot tell whether the contour crosses itself, it is taken to do so.
 #pragma once
 
 #include <vector>
@@ -30,23 +36,24 @@ class MovingContour {
  public:
   MovingContour(const PositionsView& x_t0, const PositionsView& x_t1) : x_t0_(x_t0), x_t1_(x_t1) {}
 
-  // Whether the contour, projected along the direction of this bit, is a simple polygon at every t.
-  // True is proved. O(length) where the contour is nearly convex, at worst O(length^2).
+  // True only if it is proved that the contour, projected along the direction of this bit, is a
+  // simple polygon at every t. O(length) if the contour is nearly convex, at worst O(length^2).
   bool stays_simple(Contour contour, int direction_bit);
 
-  // Of the area that it encloses at t=0.5, as computed: only the choice of a direction rests on it.
+  // The vector of the area that the contour encloses at t=0.5, up to rounding errors. It serves
+  // only to choose a direction.
   Vector area(Contour contour) const;
 
-  // Asks it during long contours; what was stopped is not proved simple.
+  // From now on `pace` is asked during long contours. If it stops, stays_simple() returns false.
   void ask(PacedStop* pace) { pace_ = pace; }
 
  private:
-  // Bounds along the two axes of the plane, at t=0 and at t=1.
+  // Bounds along the two axes of the plane, at t=0 (places 0, 1) and at t=1 (places 2, 3).
   struct Box {
     std::array<double, 4> lo, hi;
   };
-  // Edges first, ..., first + count - 1; their boxes are those from `box` on: its own, those of its
-  // first half, those of its second.
+  // The edges first, ..., first + count - 1 of the contour. Its boxes stand in boxes_ from place
+  // `box` on: first its own, then those of its first half, then those of its second half.
   struct Chain {
     std::size_t first, count, box;
     Chain first_half() const { return {first, count / 2, box + 1}; }
@@ -54,7 +61,7 @@ class MovingContour {
       return {first + count / 2, count - count / 2, box + 2 * (count / 2)};
     }
   };
-  struct Flat {  // in the plane, a difference of two vertices
+  struct Flat {  // the difference of two vertices in the plane, at both ends of the step
     std::array<double, 2> t0, t1;
   };
   static bool apart(const Box& a, const Box& b);
@@ -68,7 +75,7 @@ class MovingContour {
 
   const PositionsView &x_t0_, &x_t1_;
   PacedStop* pace_ = nullptr;
-  // Of the call at hand.
+  // Of the present call of stays_simple().
   Contour contour_;
   Direction d_ = {0, 0, 0};
   std::array<Eigen::Index, 3> axis_ = {0, 0, 0};

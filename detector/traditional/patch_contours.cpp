@@ -5,7 +5,7 @@
 namespace assay::detector {
 namespace {
 
-using Boundary = std::vector<DirectedEdge>;  // ascending; one edge only in one direction
+using Boundary = std::vector<DirectedEdge>;  // ascending; no edge in both directions
 
 Boundary boundary_of_triangle(const Topology& mesh, std::int32_t t) {
   Boundary edges;
@@ -18,7 +18,7 @@ Boundary boundary_of_triangle(const Topology& mesh, std::int32_t t) {
   return edges;
 }
 
-// Opposite edges cancel.
+// The boundary of two sets together: opposite edges cancel.
 Boundary joined(const Boundary& a, const Boundary& b) {
   Boundary out;
   out.reserve(a.size() + b.size());
@@ -87,13 +87,14 @@ PatchContours::PatchContours(const Topology& mesh, const BoundingVolumeTree& tre
   vertices_.shrink_to_fit();
 }
 
-// With c common vertices and s common edges in r runs, c >= s + r, and more where the contours also
-// touch at a vertex alone. So c = s + 1 and s > 0 say: one run, nothing beside it.
+// Let the contours have c common vertices, and s common edges in r runs. Then c >= s + r, and c is
+// greater if they also touch at a vertex that is in no run. So c = s + 1 with s > 0 means that
+// there is one run and nothing beside it.
 Contour ContourUnion::join(Contour a, Contour b) {
   joined_.clear();
   for (std::size_t i = 0; i < a.size(); ++i) place_[at(a[i])] = static_cast<std::int32_t>(i);
-  std::size_t vertices = 0, edges = 0, run_end = 0;  // of b: the first vertex past the run
-  const auto follows = [&](std::size_t j) {          // the edge of b from j is one of a, backward
+  std::size_t vertices = 0, edges = 0, run_end = 0;  // run_end: where in b the run ends
+  const auto follows = [&](std::size_t j) {  // whether b's edge from place j is one of a, backward
     const auto p = place_[at(b[j])], q = place_[at(b[j + 1 == b.size() ? 0 : j + 1])];
     return p != none && q != none && p == (at(q) + 1 == a.size() ? 0 : q + 1);
   };
@@ -106,7 +107,7 @@ Contour ContourUnion::join(Contour a, Contour b) {
     after_shared = shared;
   }
   if (edges > 0 && vertices == edges + 1) {
-    // b from the run's end round to its start, then a onward from there to b's run_end.
+    // First b from the run's end round to its start, then a from there on to the run's end.
     for (std::size_t i = 0; i < b.size() - edges; ++i) {
       joined_.push_back(b[(run_end + i) % b.size()]);
     }

@@ -1,10 +1,10 @@
 // The contour of a patch: the boundary of its triangles as one closed walk of vertices.
 //
-// The boundary of a set of triangles are its directed edges, with opposite ones cancelled. A patch
-// has a contour when that boundary is one walk that passes no vertex twice. So a set that is not
-// connected through its edges has none (each part would bring its own walk, see moving_contour.h),
-// nor have a closed surface, a set with a hole, one that is pinched at a vertex, or one with an
-// edge passed twice in one direction.
+// The boundary of a set of triangles consists of their directed edges after opposite ones have
+// cancelled. A patch has a contour if this boundary is one walk that passes no vertex twice. So
+// the following have no contour: a set that is not connected through its edges (each part would
+// bring its own walk, see moving_contour.h), a closed surface, a set with a hole, one that is
+// pinched at a vertex, and one that passes an edge twice in one direction.
 #pragma once
 
 #include <span>
@@ -14,19 +14,21 @@
 
 namespace assay::detector {
 
-// Vertices in the order of the walk, which is that of the triangles' own edges.
+// The vertices of a contour in the order of the walk, which runs along the triangles' own edges in
+// their direction. Empty if a patch has no contour.
 using Contour = std::span<const std::int32_t>;
 
-// A directed edge: 2 times its number, and 1 when it runs from the higher vertex to the lower.
+// A directed edge: 2 times the number of the edge, plus 1 if it runs from the higher vertex to the
+// lower.
 using DirectedEdge = std::int32_t;
 
-// From the boundary of a set to its contour.
+// Makes the contour of a set of triangles from its boundary.
 class ContourMaker {
  public:
   explicit ContourMaker(const Topology& mesh)
       : mesh_(mesh), next_(mesh.vertex_triangles.starts.size(), none) {}
   virtual ~ContourMaker() = default;
-  // Appends the contour to `out`, or nothing where there is none.
+  // Appends the contour to `out`, or nothing if there is none.
   virtual void append(std::span<const DirectedEdge> boundary, std::vector<std::int32_t>& out);
 
  protected:
@@ -39,14 +41,15 @@ class ContourMaker {
   std::vector<std::int32_t> next_;  // by vertex
 };
 
-// Of the triangles below each node of a tree. Memory: about 50 bytes a triangle on even meshes.
+// The contours of all nodes of a tree, where a node stands for the patch of the triangles below
+// it. Memory: about 50 bytes a triangle on even meshes.
 class PatchContours {
  public:
-  // O(M log M), more where partial boundaries are long. Of no use where `pace` was stopped.
+  // O(M log M); more if partial boundaries are long. If `pace` was stopped they are of no use.
   PatchContours(const Topology& mesh, const BoundingVolumeTree& tree, ContourMaker& maker,
                 PacedStop* pace = nullptr);
 
-  // Empty where the node has none.
+  // The contour of the node, empty if it has none.
   Contour of(std::int32_t node) const {
     const Range& range = ranges_[static_cast<std::size_t>(node)];
     return {vertices_.data() + range.begin, static_cast<std::size_t>(range.count)};
@@ -61,12 +64,13 @@ class PatchContours {
   std::vector<std::int32_t> vertices_;
 };
 
-// Two contours joined along what they share.
+// Joins the contours of two patches along the edges that they share.
 class ContourUnion {
  public:
   explicit ContourUnion(std::size_t vertex_count) : place_(vertex_count, none) {}
-  // The contour of both patches together, empty when they have none: they must share one run of
-  // edges, oppositely directed, and no vertex beside it. Valid until the next call. O(length).
+  // The contour of both patches together, empty if they have none. They have one if they share one
+  // run of edges, oppositely directed, and no vertex beside it. Valid until the next call.
+  // O(length).
   Contour join(Contour a, Contour b);
 
  private:

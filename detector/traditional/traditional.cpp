@@ -1,6 +1,7 @@
 // Algorithm 2 of the thesis, self-collision detection with the traditional approach [VMT94]. The
-// excerpt states it in words (3.7.1) and prints no listing: all lines are reconstructed, + marks
-// one that is added or put in its place here. On the right, who does it.
+// excerpt states it in words (3.7.1) and prints no listing, so all lines below are reconstructed.
+// A line marked + is added here, or replaces the one above it. On the right stands the class or
+// function that does it.
 //
 //   in preprocessing
 //       build a BVH of the mesh                                    BoundingVolumeTree
@@ -25,15 +26,16 @@
 //         if both are leaves: elementary tests
 //         else pair-test their children with each other
 //
-// What the classical form gets wrong (each a planted fault, but for the last):
-// - Normals and contours are looked at when the step is over. A triangle that turns over and back,
-//   or an end of the sheet that passes through another in between, is not seen.
-// - The contour test is left out, as dear and almost never needed. A ramp that winds around an axis
-//   has a normal cone, about that axis, and may meet itself after one turn.
-// - Patches count as adjacent that have a vertex in common. They may lie one over the other.
-// - N.V >= 0 is taken for N.V > 0. Triangles seen edge-on may hide others.
-// - Edges of one triangle are taken for the contour. An edge with three triangles is on it too:
-//   here it is wherever its triangles do not cancel, and L13 counts with that.
+// What the classical form gets wrong (each is a planted fault, except the last):
+// - It looks at normals and contours only when the step is over. So it does not see a triangle
+//   that turns over and back, or an end of the sheet that passes through another in between.
+// - It leaves the contour test out, as too dear and almost never needed. But a ramp that winds
+//   around an axis has a normal cone, about that axis, and may meet itself after one turn.
+// - It takes patches that have a vertex in common for adjacent. But one may lie over the other.
+// - It takes N.V >= 0 for N.V > 0. But triangles seen edge-on may hide others.
+// - It takes the edges that have one triangle for the contour. But an edge with three triangles is
+//   on the contour too. Here an edge is on it wherever its triangles do not cancel, and L13 relies
+//   on that.
 #include "detector/traditional/traditional.h"
 
 #include <algorithm>
@@ -43,13 +45,14 @@
 namespace assay::detector {
 namespace {
 
-// In box tests: the cone of a triangle, at half of all nodes; a vertex of a contour.
+// In box tests: the work at a node (half of all nodes are leaves, with the cone of a triangle), on
+// a vertex of a contour that is tested, and on one of a contour that is joined.
 constexpr std::uint64_t work_of_cone = 12, work_of_vertex = 6, work_to_join = 3;
 
 struct Kept : KeptBySearch {
   PatchContours contours;
-  std::vector<ContourUnion> joined;  // by lane
-  std::vector<DirectionSet> cones;   // by node, of the step at hand
+  std::vector<ContourUnion> joined;  // working memory of each lane
+  std::vector<DirectionSet> cones;   // by node, for the present step
   Kept(PatchContours of, const Topology& mesh, const BoundingVolumeTree& tree)
       : contours(std::move(of)),
         joined(1, ContourUnion(mesh.vertex_triangles.starts.size())),
@@ -106,7 +109,7 @@ class PatchCones : public PatchProofs {
     moving_.ask(pace_);
   }
 
-  // Triangles below the node, as far as it matters: 1, 2 or more.
+  // The number of triangles below the node: 1, 2, or 4 for any number above 2.
   int size(std::int32_t node) const {
     if (tree_.is_leaf(node)) return 1;
     const auto child = tree_.child(node);
@@ -116,7 +119,7 @@ class PatchCones : public PatchProofs {
     return triangles >= 4 || scheme_.asked() == NormalConeSearch::Asked::all;
   }
 
-  // False when it was stopped.
+  // Finds the cones of all nodes. False if it was stopped.
   bool merge_cones(const Topology& mesh, const BoundingVolumeTree& tree) {
     return tree.for_each_upward(work_of_cone, pace_, [&](std::int32_t node) {
       auto& cone = kept_.cones[at(node)];
@@ -154,8 +157,9 @@ class PatchCones : public PatchProofs {
   SearchCounts& counts_;
 };
 
-// Triangles around `seed`, across edges, as many as `most`. The same for every tree: what a step
-// decides by them does not depend on where the detector was made.
+// A patch of at most `most` triangles, found from `seed` across edges. It does not depend on the
+// tree, so what a step decides by it does not depend on the positions that the detector was made
+// with.
 std::vector<std::int32_t> patch_around(const Topology& mesh, std::int32_t seed, std::size_t most) {
   std::vector<std::int32_t> patch = {seed};
   for (std::size_t i = 0; i < patch.size(); ++i) {
@@ -169,7 +173,7 @@ std::vector<std::int32_t> patch_around(const Topology& mesh, std::int32_t seed, 
   return patch;
 }
 
-// The directed edges of the triangles, opposite ones cancelled.
+// The directed edges of the triangles after opposite ones have cancelled.
 std::vector<DirectedEdge> boundary_of(const Topology& mesh, std::span<const std::int32_t> patch) {
   std::vector<DirectedEdge> boundary;
   for (const auto t : patch) {
@@ -188,7 +192,7 @@ std::vector<DirectedEdge> boundary_of(const Topology& mesh, std::span<const std:
   return boundary;
 }
 
-// The boundary as one walk that passes no vertex twice, or nothing.
+// The boundary as one walk that passes no vertex twice, or nothing if it is no such walk.
 std::vector<std::int32_t> walk_along(const Topology& mesh, std::vector<DirectedEdge> boundary) {
   const auto end_of = [&](DirectedEdge e, bool last) {
     return mesh.edges[at(e / 2)][(e % 2 != 0) != last ? 1 : 0];

@@ -1,14 +1,17 @@
 // The traditional scheme [VMT94]: normal cones and contour tests on the BVH, made sound over a
 // step.
 //
-// A search that leaves out what L13 (moving_contour.h) proves free: the pairs below a node whose
-// triangles have a normal cone and a contour that stays simple, and those of two nodes that share
-// edges and have both together. All else is told apart by boxes and by the pair rule, as in
-// TreeSearch, so its candidates are some of those. With culling normal_cone the rule asks for every
-// pair: no views, no state, every step stands alone. With culling automatic it asks for K (L14).
-// Either way what L3 and L7 promise is found, for no pair that is left out is in contact. A feature
-// pair is tested at one pair of triangles that hold it (feature_pairs.h); where that pair is left
-// out, the features lie in one patch and do not meet.
+// It is a search that leaves out the pairs that L13 (moving_contour.h) proves free. These are all
+// pairs below a node, if its triangles have a normal cone and a contour that stays simple, and all
+// pairs between two nodes that share edges, if the triangles of both nodes together have such a
+// cone and contour. Other pairs are told apart by boxes and by the pair rule, as in TreeSearch. So
+// the candidates are a subset of those of TreeSearch.
+//
+// With culling normal_cone the pair rule asks for every pair: there are no views and no state, and
+// every step stands alone. With culling automatic the rule asks for K (L14). Either way the search
+// finds what L3 and L7 promise, because no pair that it leaves out is in contact. A feature pair
+// is tested at one of the pairs of triangles that hold it (feature_pairs.h). If that pair of
+// triangles is left out, the features lie in one patch and do not meet.
 #pragma once
 
 #include "detector/search/pair_search.h"
@@ -18,21 +21,22 @@ namespace assay::detector {
 
 class NormalConeSearch : public TreeSearch {
  public:
-  // Patches of which proofs are asked. A proof costs about what four candidates cost and, of so few
-  // triangles, leaves out fewer.
+  // The patches for which proofs are attempted. A proof costs about what four candidates cost, and
+  // in a patch of fewer than four triangles it leaves out fewer than that.
   enum class Asked : std::uint8_t { all, of_four_triangles_or_more };
   explicit NormalConeSearch(Asked asked = Asked::all) : asked_(asked) {}
   Asked asked() const { return asked_; }
 
-  // The contours of all nodes: they are of the mesh alone.
+  // Finds the contours of all nodes. They depend on the mesh and the tree alone, not on a step.
   std::unique_ptr<KeptBySearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
                                         PacedStop& pace) const override;
-  // 0.1 us a triangle for the cones, besides the descent; a TreeSearch where proofs are not used.
+  // Takes 0.1 us a triangle for the cones, beside the descent. If the input says that proofs are
+  // not used, this is a TreeSearch.
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
-  // Of 4 to 32 patches of 12 triangles, 3 us each, and of 1 to 8 of 96 triangles, 25 us each.
+  // Tries 4 to 32 patches of 12 triangles, 3 us each, and 1 to 8 of 96 triangles, 25 us each.
   ProvableShares provable_shares(const SearchInput& input) const override;
 
-  // The tests that the scheme rests on, each replaceable.
+  // The tests that the scheme rests on. Each can be overridden.
   virtual DirectionSet faced(const std::array<MovingPoint, 3>& triangle) const {
     return faced_directions(triangle);
   }

@@ -13,7 +13,8 @@ namespace {
 
 using Row = std::array<double, 5>;  // four unknowns and the right side
 
-// Gauss with full pivoting; unknowns whose pivot is below `least` times the first become 0.
+// Gaussian elimination with full pivoting. Unknowns whose pivot is below `least` times the first
+// pivot become 0.
 std::array<double, 4> solve(std::array<Row, 4> rows, double least) {
   std::array<std::size_t, 4> column = {0, 1, 2, 3};
   std::size_t rank = 0;
@@ -49,7 +50,8 @@ std::array<double, 4> solve(std::array<Row, 4> rows, double least) {
 
 constexpr std::size_t direction_count = 54;
 
-// The cell of the unit cube's surface, 3 x 3 on each face, that the offset points to.
+// The number of the cell that the offset points to, on the surface of a cube with 3 x 3 cells on
+// each face.
 std::size_t direction_of(const Point& y) {
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k) {
@@ -132,7 +134,8 @@ AffineWeights affine_weights(std::span<const std::int32_t> vertices, std::span<c
 }
 
 Point combine(const AffineWeights& affine, const PositionsView& x) {
-  // Offsets from one vertex: translating all translates the point, as far as doubles go.
+  // The sum is one of offsets from one vertex, so that translating all vertices translates the
+  // point, as far as doubles go.
   const Point base = point_of(x, affine.vertices[0]);
   Point q = base;
   for (std::size_t k = 0; k < 3; ++k) {

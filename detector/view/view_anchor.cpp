@@ -8,9 +8,9 @@
 namespace assay::detector {
 namespace {
 
-// A search looks at some of the planes, for points at half of them and for lines at an eighth, and
-// at no fewer than these; what it finds is then held against all. On all of them lines alone would
-// take three to ten steps of culling bvh.
+// A search looks at some of the planes only: for points at a half, for lines at an eighth, but at
+// least at `least`. The best places that it finds are then scored among all planes. If the search
+// looked at all planes, lines alone would take as long as three to ten steps of culling bvh.
 struct Thinning {
   std::size_t divisor, least;
   ViewPlanes of(const ViewPlanes& planes) const {
@@ -64,8 +64,9 @@ class AnchorChoice {
   }
 
  private:
-  // A place that sees all that was looked at and misses some of the rest is no reason to end: one
-  // that sees all makes steps free (L5), so it is looked for among all planes then.
+  // A place from which all triangles are positive makes steps free (L5). If one was found for the
+  // few planes but it misses some of the others, all planes are searched for a place that sees
+  // all.
   std::vector<ScoredPoint> find_points() const {
     auto points = search_points(few_, pace_);
     const bool is_promised = points.front().score == perfect(few_);
@@ -75,7 +76,7 @@ class AnchorChoice {
     return points;
   }
 
-  // The best of a search, by their scores among all planes.
+  // The best places of a search, ranked by their scores among all planes.
   template <class Scored, class Score>
   std::vector<Scored> held_against_all(const std::vector<Scored>& ranked, Score score,
                                        std::uint64_t work) const {
@@ -110,7 +111,7 @@ class AnchorChoice {
     });
   }
 
-  // Scores of points and of lines are comparable when both are scored as lines.
+  // The score as a line, for points too. Only so the scores of points and lines are comparable.
   std::int64_t score_as_line(const ViewAnchor& anchor) const {
     const int last = anchor.kind == ViewKind::line ? 1 : 0;
     return planes_.score(placed(anchor, 0), placed(anchor, last));
@@ -127,7 +128,8 @@ class AnchorChoice {
                           q);
   }
 
-  // Where the anchor really is: what its vertices do not span is lost.
+  // Where the anchor really is. It may not be the place that was asked for if the anchor's
+  // vertices do not span all directions.
   Point placed(const ViewAnchor& anchor, int end) const {
     return planes_.to_unit(combine(anchor.ends[end], x_));
   }
@@ -136,10 +138,11 @@ class AnchorChoice {
     return winding_number(mesh_, component_.triangles, x_, combine(anchor.ends[0], x_)) == 1;
   }
 
-  // A look at each triangle and each vertex.
+  // Counts the work of one look at each triangle and each vertex.
   bool has_to_end() const { return pace_ && pace_->after(8 * component_.triangles.size()); }
 
-  // The best of the first few as they are really placed; of those nearly as good, one inside.
+  // The best of the first few, scored where they are really placed. If one that is nearly as good
+  // is inside the mesh, that one.
   template <class Scored, class Make>
   ViewAnchor choose(const std::vector<Scored>& ranked, Make make) {
     constexpr std::size_t most_placed = 4;
@@ -151,7 +154,7 @@ class AnchorChoice {
     const std::size_t first_left = placed.size();
     std::stable_sort(placed.begin(), placed.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
-    // Where no point was found inside, no line is looked for there.
+    // If no point was found inside, no line inside is looked for.
     if (is_outside_) return placed[0].second;
     const std::int64_t least = placed[0].first - lost_for_inside();
     for (const auto& [score, anchor] : placed) {
@@ -175,7 +178,7 @@ class AnchorChoice {
   const Component& component_;
   const PositionsView& x_;
   PacedStop* pace_;
-  ViewPlanes planes_;  // of all triangles, as far as the effort goes
+  ViewPlanes planes_;  // of as many triangles as the effort allows
   ViewPlanes few_, fewer_;
   bool is_outside_ = false;
   std::size_t own_ = 0;

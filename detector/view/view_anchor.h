@@ -1,7 +1,8 @@
-// Where a component is viewed from: one or two fixed affine combinations of its own vertices, so
-// that the view primitive moves with the mesh, linearly over a step.
+// Where a component is viewed from: one or two fixed affine combinations of its own vertices. So
+// the view primitive moves with the mesh, linearly over a step.
 //
-// The primitive may be anywhere (L3 holds wherever it is); a good place only makes V+ large.
+// The primitive may be anywhere, because L3 holds wherever it is. A good place only makes V+
+// large.
 #pragma once
 
 #include "detector/mesh/paced_stop.h"
@@ -15,40 +16,45 @@ enum class ViewKind : std::uint8_t { point, line };
 
 struct ViewAnchor {
   ViewKind kind = ViewKind::point;
-  AffineWeights ends[2];  // point: the first
+  AffineWeights ends[2];  // a point uses the first only
 };
 
-// How much is looked at to find a place.
+// How many triangles are looked at to find a place.
 enum class Effort : std::uint8_t {
   thorough,  // at most 20,000 triangles
   quick,     // every eighth triangle, 64 to 1,000 of them
-  least,     // none: the mean of the vertices, and halfway to one of them, 2 us
+  // None. The place is the mean of the vertices; a line goes from there halfway to one of the
+  // vertices. 2 us.
+  least,
 };
 
-// A search takes 0.1 ms and more, however small the component. Where components are many and small,
-// as in a soup of triangles, that is more than their steps take: such are not searched for a place,
-// so that the searches take at most 6 us a triangle beside what large components take. `wanted`:
-// for all others.
+// The effort for a component: `least` for a small one if the mesh has many components, as a soup
+// of triangles has, `wanted` for all others. A search takes 0.1 ms and more, however small the
+// component is. For many small components that would be more than their steps take. In this way
+// the searches take at most 6 us a triangle beside what large components take.
 Effort effort_for(const Component& component, const Topology& mesh, Effort wanted);
 
-// The best place found by search (view_search.h) for the component of `mesh` (its ghosts too) at
-// these positions. A point of winding number 1 is taken where one is found that costs at most 5 %
-// of the triangles. Uses vertices below `vertex_count` (apexes are above). Hundreds of passes
-// over at most 10,000 triangles for a point and 2,500 for a line, a few dozen over at most 20,000:
-// less than two steps of culling bvh take. Some place, soon, once `pace` says to end.
+// The best place that a search (view_search.h) finds for the component of `mesh`, ghosts included,
+// at these positions. A place of winding number 1 is preferred if it makes at most 5 % fewer of
+// the triangles positive than the best one. The place is combined of vertices below `vertex_count`
+// (apexes are above). Cost: hundreds of passes over at most 10,000 triangles for a point and 2,500
+// for a line, and a few dozen over at most 20,000. That is less than two steps of culling bvh
+// take. Once `pace` says to end, it soon returns some place.
 ViewAnchor make_view_anchor(ViewKind kind, const Topology& mesh, const Component& component,
                             Eigen::Index vertex_count, const PositionsView& x,
                             Effort effort = Effort::thorough, PacedStop* pace = nullptr);
 
-// A point or a line, whichever is better. The test of a line takes about eight times as long as
-// that of a point (60 ns against 7 ns a triangle, where a step with contacts takes 1.4 us and
-// more), some 3 % of a step: a line is taken only where it makes a sixteenth of the triangles
-// positive that the point does not, or all of them, which alone makes steps free (L5).
+// A point or a line, whichever is better. The view test of a line takes about eight times as long
+// as that of a point: 60 ns against 7 ns a triangle. That is some 3 % of a step, because a step
+// with contacts takes 1.4 us a triangle and more. So a line is taken only if it makes a sixteenth
+// of the triangles positive that the point does not, or if it makes all of them positive, because
+// only that makes steps free (L5).
 ViewAnchor choose_view_anchor(const Topology& mesh, const Component& component,
                               Eigen::Index vertex_count, const PositionsView& x,
                               Effort effort = Effort::thorough, PacedStop* pace = nullptr);
 
-// In double: the same bytes on every machine.
+// The view primitive over a step from x_t0 to x_t1. Computed in double, with the same bytes on
+// every machine.
 ViewPrimitive place_view(const ViewAnchor& anchor, const PositionsView& x_t0,
                          const PositionsView& x_t1);
 

@@ -1,4 +1,4 @@
-// The view test as a stage of the detector: signs over a step, and at an instant.
+// The view test as a stage of the detector: the signs of triangles over a step.
 #pragma once
 
 #include "detector/view/view_signs.h"
@@ -9,10 +9,10 @@ class ViewClassifier {
  public:
   explicit ViewClassifier(Arithmetic arithmetic = Arithmetic::exact) : arithmetic_(arithmetic) {}
   virtual ~ViewClassifier() = default;
-  // Signs of the triangles of a component of `surface`, ghosts too, over the step (L1, L2), written
-  // to signs[triangle]. A triangle may be called zero at the cost of time; never wrongly positive
-  // or negative.
-  // False when stopped; then the signs are of no use.
+  // Writes the signs over the step (L1, L2) of the triangles of a component of `surface`, ghosts
+  // included, to signs[triangle]. REQUIRES of overriding functions that no triangle is wrongly
+  // called positive or negative. It may be wrongly called zero, which only costs time. False if
+  // stopped: then the signs are of no use.
   virtual bool classify(const Topology& surface, const Component& component,
                         const PositionsView& x_t0, const PositionsView& x_t1,
                         const ViewPrimitive& primitive, std::vector<ViewSign>& signs,

@@ -1,14 +1,17 @@
 // For one vertex p the view value over time is, up to positive factors, the active one of
 //   h0 where g0 <= 0,   h1 where g1 >= 0,   hm = h0 |d|^2 - g0 (d.N) in between,
 // with h0 = (p0-q0).N, h1 = (p0-q1).N, d = q1-q0, g0 = (p-q0).d, g1 = (p-q1).d. The value is
-// continuous (at d = 0 both ends of the line coincide and h0 = h1). So the triangle has a sign over
-// the step if and only if the three vertices agree at t=0 and no vertex's active piece has a zero.
+// continuous (at d = 0 both ends of the line coincide and h0 = h1). So the triangle has a sign
+// over the step if and only if the values at the three vertices agree in sign at t=0 and no
+// vertex's active piece has a zero.
 //
 // Pieces that vanish identically, given that the value at t=0 does not vanish:
-//   h0 == 0: its region g0 <= 0 must stay empty: g0 has no root (at t=0 it is empty already).
+//   h0 == 0: the region g0 <= 0, in which h0 is active, must stay empty. At t=0 it is empty, so
+//            it stays empty if g0 has no root.
 //   h1 == 0: likewise with g1.
-//   hm == 0: its region is open and not the whole step; where it begins or ends the value, which
-//            is continuous, vanishes and h0 or h1 is active there: they show it.
+//   hm == 0: the region in which hm is active is open and not the whole step. Where it begins or
+//            ends, the value vanishes, because it is continuous. There h0 or h1 is active and
+//            shows the zero, so hm need not be looked at.
 #include "detector/view/view_exact.h"
 
 #include <algorithm>
@@ -94,14 +97,15 @@ class ExactView {
     return middle(i).sign_at_zero();
   }
 
-  // At a vertex that is nearest to the end q0 or q1.
+  // Whether the value vanishes at a vertex that is nearest to the end q0 or q1.
   bool vanishes_at_an_end() const {
     const auto negative = [](int sign) { return sign <= 0; };
     const auto positive = [](int sign) { return sign >= 0; };
     return vanishes_where(h0_, g0_, negative) || vanishes_where(h1_, g1_, positive);
   }
 
-  // h where some g has a sign that is asked for. The roots of h serve all vertices.
+  // Whether h vanishes at a time when some g has a sign that is asked for. The roots of h serve
+  // all three vertices.
   template <class SignIsAsked>
   static bool vanishes_where(const Polynomial& h, const std::array<Polynomial, 3>& g,
                              SignIsAsked is_asked) {
@@ -118,8 +122,9 @@ class ExactView {
     return false;
   }
 
-  // At a vertex that is nearest to a point between the ends: g0 > 0 and g1 < 0. Where one of them
-  // has the other sign over the step, that is nowhere, and the middle piece is not looked at.
+  // Whether the value vanishes at a vertex that is nearest to a point between the ends, which
+  // means g0 > 0 and g1 < 0. If one of them has the other sign over the whole step, the vertex is
+  // never nearest to such a point, and its middle piece is not looked at.
   bool vanishes_between() const {
     for (std::size_t i = 0; i < 3; ++i) {
       const Polynomial &g0 = g0_[i], &g1 = g1_[i];
@@ -133,7 +138,8 @@ class ExactView {
     return false;
   }
 
-  // Whether f surely has that sign nowhere in (0,1), and so, being continuous, not at 0 or 1.
+  // True only if f surely has that sign nowhere in (0,1), and so, because it is continuous, not at
+  // 0 or 1 either.
   static bool is_never(int sign, const Polynomial& f) {
     if (f.is_zero()) return true;
     const SignChanges changes = sign_changes_over_unit(f);

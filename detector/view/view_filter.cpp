@@ -5,8 +5,8 @@
 // three vertices, each with its own s. So the triangle is positive when the value is positive at
 // the three vertices; h0, h1 > 0 together suffice.
 // L2: h0 and h1 are cubics in t. Over a piece of time this file bounds them by their Bernstein
-// coefficients, bounds each vertex's s likewise, and bounds the value from these; pieces that stay
-// open are halved. Moving ends need no other treatment.
+// coefficients, bounds each vertex's s likewise, and bounds the value from these. Pieces that stay
+// open are halved. Ends of the segment that move need no other treatment.
 //
 // Error bounds, in the notation of bernstein.h. Over both ends of the step E_k bounds coordinate k
 // of the edges p1-p0 and p2-p0, W_k that of p-q, and D_k that of d.
@@ -22,7 +22,7 @@
 //   d.d               | x . y, middle               | 6 L                | L
 //   d.d halved        | a quadratic with B = L      | as before + 2 L    | L
 //
-// view_cubic_error and view_axial_error are these and two u more.
+// view_cubic_error and view_axial_error are these with two u more.
 #include "detector/view/view_filter.h"
 
 #include <algorithm>
@@ -49,8 +49,9 @@ Range<T> around(T value, T error) {
   return {value - error, value + error};
 }
 
-// Sign of (1-s) h0 + s h1 for all values in the ranges, 0 when it is not sure. The sums of ranges
-// above were rounded once more and these are rounded four times: `slack` covers that.
+// The sign of (1-s) h0 + s h1 if it is surely the same for all values in the ranges, else 0. The
+// sums of ranges above were rounded once more, and these values are rounded four times: `slack`
+// covers that.
 template <class Bounds, class T>
 int sure_value_sign(const Range<T>& h0, const Range<T>& h1, const Range<T>& s) {
   constexpr T slack = 16 * Bounds::unit;
@@ -139,7 +140,8 @@ class ViewFilter {
     return usable(reach) && usable(line);
   }
 
-  // Marks what is sure of the piece; true: two signs were seen, nothing more to learn.
+  // Notes the signs that are sure in the piece. True if both signs were seen, so that there is
+  // nothing more to learn.
   bool visit(const Piece& piece, int depth) {
     if (settle(piece, depth)) return seen_positive_ && seen_negative_;
     note_end_values(piece, depth);

@@ -5,7 +5,8 @@
 
 namespace assay::detector {
 
-// Defined by the files of these names; null where the compiler does not make code for the set.
+// Defined in view_lanes_avx2.cpp and view_lanes_avx512.cpp. Null if the compiler does not make
+// code for the set.
 extern const LaneKernels* const avx2_lane_kernels;
 extern const LaneKernels* const avx512_lane_kernels;
 
@@ -13,7 +14,7 @@ namespace {
 
 bool machine_has(InstructionSet set) {
 #if defined(__x86_64__) || defined(__i386__)
-  // Whether the operating system keeps the wide registers is part of the answer.
+  // The answers include whether the operating system saves the wide registers.
   if (set == InstructionSet::avx2) return __builtin_cpu_supports("avx2");
   if (set == InstructionSet::avx512) {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&

@@ -1,6 +1,6 @@
-// The first rungs of the view test, for many triangles at once: one triangle a lane, in double,
-// with proved bounds. What a lane does is the same sequence of roundings whatever the instruction
-// set and the number of lanes, so results are the same bytes on every machine.
+// The first rungs of the view test, for many triangles at once: one triangle in each lane, in
+// double, with proved bounds. A lane makes the same sequence of roundings whatever the instruction
+// set and the number of lanes are, so results are the same bytes on every machine.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace assay::detector {
 
-// What all lanes share. The constants are derived in view_bounds.cpp.
+// What all lanes share. view_bounds.cpp derives the error bounds.
 struct LaneInput {
   const double *x_t0, *x_t1;            // rows of three coordinates
   std::ptrdiff_t stride_t0, stride_t1;  // doubles from row to row
@@ -16,38 +16,38 @@ struct LaneInput {
   double q0_t0[3], q0_t1[3];
   double q1_t0[3], q1_t1[3];
 
-  // A point: coefficients of the cubic, the middle two times 3, are off by less than this.
+  // Coefficients of a cubic, the middle two times 3, are off by less than this.
   double cubic_error;
-  // A line, d = q1 - q0.
+  // For a line, with d = q1 - q0.
   double d_t0[3], d_t1[3];
-  double length2_reciprocals[3];  // of the coefficients of d.d, the middle one times 2
-  double axial_error;             // of a ratio of coefficients (p-q0).d / d.d
-  double value_error;             // of (1-s) h0 + s h1 at a given s
-  double end_error;               // of the same at t=0 or 1, at a computed s
+  double length2_reciprocals[3];  // 1 / coefficient of d.d; the middle coefficient times 2
+  double axial_error;             // error of a ratio of coefficients (p-q0).d / d.d
+  double value_error;             // error of (1-s) h0 + s h1 at a given s
+  double end_error;               // error of the same at t=0 or 1, at a computed s
 };
 
-// A sign as in ViewSign, or what doubles could not tell.
+// A lane writes a sign with the values of ViewSign, or this if doubles could not tell it.
 inline constexpr std::int8_t lane_open = 2;
 
-// Writes signs[i] for triangles[i], i < count. No allocation.
+// Writes signs[i] for triangles[i], for all i < count. No allocation.
 using LaneKernel = void (*)(const LaneInput& input, const std::int32_t* triangles,
                             std::size_t count, std::int8_t* signs);
 
 struct LaneKernels {
   std::size_t lanes;        // triangles at once
-  LaneKernel point;         // the cubic of L1, L2; signs at both ends
-  LaneKernel two_cubics;    // a line: h0 and h1 of one strict sign
-  LaneKernel middle_piece;  // a line: (1-s) h0 + s h1 with s bounded over the step
+  LaneKernel point;         // for a point: the cubic of L1, L2, and its signs at both ends
+  LaneKernel two_cubics;    // for a line: h0 and h1, if both have the same strict sign
+  LaneKernel middle_piece;  // for a line: (1-s) h0 + s h1, with s bounded over the step
 };
 
-// Lanes: 2, 4, 8.
+// With 2, 4 and 8 lanes.
 enum class InstructionSet : std::uint8_t { baseline, avx2, avx512 };
 
-// Whether it was compiled in and this machine has it; the baseline always.
+// Whether the set was compiled in and this machine has it. The baseline is always available.
 bool is_available(InstructionSet set);
 InstructionSet best_instruction_set();
 
-// Those of the baseline where `set` is not available.
+// The kernels for `set`, or those of the baseline if `set` is not available.
 const LaneKernels& lane_kernels(InstructionSet set);
 
 }  // namespace assay::detector

@@ -1,14 +1,18 @@
-// The code of view_lanes.h, compiled once for each instruction set by a file that defines
-// ASSAY_LANES before it includes this. Everything here has internal linkage and no header with
-// inline functions is included: code for one instruction set must not reach the others.
+// The code of view_lanes.h. It is compiled once for each instruction set, by a file that defines
+// ASSAY_LANES before it includes this one. Everything here has internal linkage, and no header
+// with inline functions is included, because code for one instruction set must not reach the
+// others.
 //
-// One triangle a lane, with N = (p1-p0) x (p2-p0) and Bernstein coefficients over the step:
+// Each lane has one triangle, with N = (p1-p0) x (p2-p0) and Bernstein coefficients over the step:
 //
-// - h = (p0-q).N is kept as h[0], 3 h[1], 3 h[2], h[3]: one sign of all four is the cubic's sign.
-// - s = (p-q0).d / d.d is a ratio of quadratics: a mean of the ratios of their coefficients, whose
-//   weights are the coefficients of d.d, all positive. It lies between the least and the greatest.
-// - (1-s) h0 + s h1 is, for s at one time, a mean of its values at h0[j], h1[j]. It is linear in s,
-//   so its least and greatest are at the ends of s's range over the step and the corners.
+// - h = (p0-q).N is kept as h[0], 3 h[1], 3 h[2], h[3]. If all four have one sign, the cubic has
+//   that sign.
+// - s = (p-q0).d / d.d is a ratio of quadratics. It is a mean of the ratios of their coefficients,
+//   with the coefficients of d.d, all positive, as weights. So it lies between the least and the
+//   greatest of these ratios.
+// - (1-s) h0 + s h1 is, for the s of one time, a mean of its values at h0[j], h1[j]. It is linear
+//   in s, so its least and greatest values are at the ends of the range of s over the step and the
+//   corners.
 #include <cstddef>
 #include <cstdint>
 
@@ -102,7 +106,7 @@ ASSAY_INLINE void load(LaneTriangle& out, const LaneInput& in, const std::int32_
   subtract(out.e2.t1, p, out.p0.t1);
 }
 
-// N: its coefficients, the middle one times 2.
+// The coefficients of N, the middle one times 2.
 struct LaneNormal {
   LaneVector b0, b1, b2;
 };
@@ -139,7 +143,7 @@ ASSAY_INLINE void range(Lanes& least, Lanes& greatest, const LaneCubic& h) {
   greater(greatest, h.b3);
 }
 
-// At most one of the three is true in a lane.
+// Writes the signs. REQUIRES that at most one of the three masks is true in a lane.
 ASSAY_INLINE void write(std::int8_t* signs, const Mask& positive, const Mask& negative,
                         const Mask& zero) {
   const Mask sign = lane_open + positive + 3 * negative + 2 * zero;
@@ -203,12 +207,12 @@ ASSAY_INLINE void middle_group(const LaneInput& in, const std::int32_t* triangle
   const LaneCubic &h0 = line.h0, &h1 = line.h1;
   const Lanes d0 = h1.b0 - h0.b0, d1 = h1.b1 - h0.b1, d2 = h1.b2 - h0.b2, d3 = h1.b3 - h0.b3;
   const Lanes zero = {}, one = all(1);
-  Lanes s_least = one, s_greatest = zero;  // over the step and the corners
-  Lanes end_least, end_greatest;           // values of the corners at t=0 and t=1
+  Lanes s_least = one, s_greatest = zero;  // the range of s over the step and the corners
+  Lanes end_least, end_greatest;           // the range of the corners' values at t=0 and t=1
   for (int corner = 0; corner < 3; ++corner) {
     LaneMotion w = line.w;
     if (corner > 0) {
-      // (p1-p0) + (p0-q0) would be rounded twice: from the corner itself, p - q0.
+      // p - q0 is computed from the corner itself: (p1-p0) + (p0-q0) would be rounded twice.
       std::int32_t rows[lane_count];
       for (std::size_t i = 0; i < lane_count; ++i) {
         rows[i] = in.corners[3 * static_cast<std::ptrdiff_t>(triangles[i]) + corner];
@@ -270,7 +274,7 @@ void kernel(const LaneInput& input, const std::int32_t* triangles, std::size_t c
   std::size_t i = 0;
   for (; i + lane_count <= count; i += lane_count) group(input, triangles + i, signs + i);
   if (i == count) return;
-  // The last ones, the very last repeated.
+  // The rest do not fill the lanes, so the last triangle is repeated.
   std::int32_t rest[lane_count];
   std::int8_t rest_signs[lane_count];
   for (std::size_t k = 0; k < lane_count; ++k) {

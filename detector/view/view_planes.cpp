@@ -8,9 +8,9 @@ namespace {
 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Halves of the least doubles are 0 or lose a bit. Differences in a component that is as small as
-// this do not overflow, and are enlarged in place of being halved; where the component lies along
-// an axis does not matter to them.
+// Halves of the least doubles are 0 or lose a bit. So in a component that is not wider than this,
+// differences are enlarged in place of being halved. They cannot overflow, wherever the component
+// lies along an axis.
 constexpr double greatest_tiny_span = 0x1p-500, enlarged = 0x1p600;
 
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -30,7 +30,7 @@ ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const P
       hi[k] = std::max(hi[k], x(v, static_cast<Eigen::Index>(k)));
     }
   }
-  // Halves, so that nothing overflows.
+  // Coordinates are halved before they are subtracted, so that nothing overflows.
   double span = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     centre_[k] = 0.5 * lo[k] + 0.5 * hi[k];
@@ -42,7 +42,7 @@ ViewPlanes::ViewPlanes(const Topology& mesh, const Component& component, const P
   points_.reserve(component.vertices.size());
   for (const auto v : component.vertices) points_.push_back(to_unit(point_of(x, v)));
   const std::size_t count = std::min(component.triangles.size(), most);
-  // Grown by doubling they would be the largest memory of all preprocessing.
+  // If these grew by doubling they would take more memory than all other preprocessing.
   for (auto* row : {&nx_, &ny_, &nz_, &offset_}) row->reserve(count);
   corners_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {

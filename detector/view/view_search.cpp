@@ -16,14 +16,14 @@ double squared_distance(const Point& a, const Point& b) {
   return x * x + y * y + z * z;
 }
 
-// Best first, earlier first among equals.
+// Sorts the best to the front; equals stay in their order.
 template <class Scored>
 void rank(std::vector<Scored>& all) {
   std::stable_sort(all.begin(), all.end(),
                    [](const Scored& a, const Scored& b) { return a.score > b.score; });
 }
 
-// The means of the vertices in each octant around `centre`, and of all.
+// The mean of all vertices, then the means of the vertices in each octant around `centre`.
 std::vector<Point> vertex_means(std::span<const Point> points, const Point& centre) {
   std::array<Point, 9> sums{};
   std::array<double, 9> counts{};
@@ -48,7 +48,8 @@ Point mean_of_triangles(const ViewPlanes& planes) {
   return along({0, 0, 0}, sum, planes.size() > 0 ? 1.0 / static_cast<double>(planes.size()) : 0);
 }
 
-// Behind triangles chosen evenly, at several depths: for a thin solid, places inside it.
+// Adds places behind triangles, which are chosen evenly, at several depths. In a thin solid these
+// are places inside.
 void add_points_behind_triangles(const ViewPlanes& planes, std::vector<Point>& places) {
   constexpr std::size_t most = 24;
   const std::size_t count = std::min(planes.size(), most);
@@ -60,7 +61,8 @@ void add_points_behind_triangles(const ViewPlanes& planes, std::vector<Point>& p
   }
 }
 
-// Evenly over the cube: multiples of the roots of x^4 = x + 1, less whole numbers.
+// Adds places spread evenly over the box of the points: the fractional parts of multiples of 1/r,
+// 1/r^2 and 1/r^3, where r is the positive root of x^4 = x + 1.
 void add_points_of_box(std::span<const Point> points, std::vector<Point>& places) {
   Point lo = {1, 1, 1}, hi = {-1, -1, -1};
   for (const auto& p : points) {
@@ -104,8 +106,8 @@ Point longest_direction(std::span<const Point> points, const Point& mean) {
   return v;
 }
 
-// Steps along the axes while one improves the score, then smaller ones. `move(n, step)` makes the
-// neighbour n of the best so far.
+// Takes the best step along the axes as long as one improves the score, then tries smaller steps.
+// move(best, n, step) makes the neighbour n of the best so far.
 template <class Scored, class Move, class HasToEnd>
 void descend(std::vector<Scored>& tried, Scored best, int neighbours, Move move,
              HasToEnd has_to_end) {
@@ -136,7 +138,7 @@ Point neighbour(const Point& q, int n, double step) {
 
 constexpr std::size_t descents = 3;
 
-// The best ones that are apart from each other.
+// The best `count` places that are more than `distance` apart from each other.
 std::vector<Point> spread(const std::vector<ScoredPoint>& ranked, std::size_t count,
                           double distance) {
   std::vector<Point> chosen;
@@ -155,8 +157,8 @@ bool is_perfect(const ViewPlanes& planes, std::int64_t score) {
                       static_cast<std::int64_t>(planes.size());
 }
 
-// To be asked before a score: of a triangle it takes a fifth of a box test from a point, and as
-// long as one from a line.
+// Makes the function that is asked before each score whether to end. For each triangle a score
+// takes a fifth of a box test from a point, and as long as a box test from a line.
 auto asker(const ViewPlanes& planes, PacedStop* pace, bool of_lines) {
   const std::uint64_t work = planes.size() / (of_lines ? 1 : 5) + 1;
   return [pace, work] { return pace && pace->after(work); };

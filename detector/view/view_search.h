@@ -18,15 +18,17 @@ struct ScoredLine {
   std::int64_t score;
 };
 
-// The searches end early, with what was tried so far and at least one place, when `pace`, where
-// given, says so.
+// If `pace` is given and says to end, a search ends early. It returns the places tried so far, one
+// at least.
 
-// All places tried, best first; among equals the earlier tried: means of vertices and triangles
-// come first. From the best ones a descent in ever smaller steps along the axes.
+// Tries places, then descends from the best ones along the axes, in ever smaller steps. Returns
+// all places tried, best first; among equals the one tried first, where means of vertices and
+// triangles are tried before all others.
 std::vector<ScoredPoint> search_points(const ViewPlanes& planes, PacedStop* pace = nullptr);
 
-// The same for lines: along the long thin direction, and between points that are good by
-// themselves. Never empty; the ends differ unless the component is one point.
+// The same for lines. It tries lines along the direction in which the component extends most, and
+// lines between points that are good by themselves. Never empty; the ends differ unless the
+// component is one point.
 std::vector<ScoredLine> search_lines(const ViewPlanes& planes,
                                      const std::vector<ScoredPoint>& points,
                                      PacedStop* pace = nullptr);

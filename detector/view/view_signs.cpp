@@ -20,7 +20,8 @@ MovingTriangle moving_triangle(const Topology& mesh, std::int32_t triangle,
 
 constexpr std::size_t block_size = 512;
 
-// Block by block, a rung sees only what the ones before left open.
+// Finds signs block by block. In each block a rung gets only the triangles that the rungs before
+// it left open.
 class Rungs {
  public:
   Rungs(const Topology& mesh, std::span<const std::int32_t> vertices, const PositionsView& x_t0,
@@ -43,7 +44,8 @@ class Rungs {
     }
   }
 
-  // At most block_size triangles; `put` takes each with its sign. False when stopped.
+  // Calls put(triangle, sign) for each triangle of a block. REQUIRES at most block_size triangles.
+  // False if stopped.
   template <class Put>
   bool run(std::span<const std::int32_t> block, Put put) {
     std::span<const std::int32_t> left = block;
@@ -65,11 +67,12 @@ class Rungs {
   }
 
   const ViewCounts& counts() const { return counts_; }
-  // Who is asked in the runs to come.
+  // Sets the pace that later runs ask.
   void ask(PacedStop* pace) { pace_ = pace; }
 
  private:
-  // What stays open, in open_, which may hold `triangles`.
+  // Calls `put` for the triangles whose signs the kernel tells. Returns the others, in open_;
+  // `triangles` may be in open_ too.
   template <class Put>
   std::span<const std::int32_t> rung(LaneKernel kernel, std::span<const std::int32_t> triangles,
                                      const Put& put) {
@@ -86,8 +89,8 @@ class Rungs {
     return std::span(open_).first(left);
   }
 
-  // In box tests, of 5 ns. What integers decide takes 3 us, and up to milliseconds where roots lie
-  // close together.
+  // In box tests of 5 ns. A triangle that integers decide takes 3 us, and up to milliseconds if
+  // roots lie close together.
   static constexpr std::uint64_t work_in_lanes = 12, work_of_filter = 40, work_of_exact = 40'000;
 
   PacedStop* pace_;
@@ -181,7 +184,8 @@ bool all_positive_at(const Topology& mesh, const Component& component, const Pos
   const std::span<const std::int32_t> triangles = component.triangles;
   for (std::size_t begin = 0; begin < triangles.size(); begin += block_size) {
     const auto block = triangles.subspan(begin, std::min(block_size, triangles.size() - begin));
-    // No list by triangle of the mesh: of many small components that would be quadratic.
+    // No list over all triangles of the mesh is made here: with many small components that would
+    // take quadratic time.
     bool positive = true;
     const bool completed = rungs.run(
         block, [&](std::int32_t, ViewSign sign) { positive &= sign == ViewSign::positive; });

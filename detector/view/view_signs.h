@@ -14,23 +14,24 @@
 
 namespace assay::detector {
 
-// Sign over the step: the filter, then, for what it leaves open, integers (exact) or zero (bounded:
-// never wrongly positive or negative). double, float: as computed, without promise.
+// The sign of a triangle over the step. The filter comes first. What it leaves open is decided by
+// integers in exact arithmetic, and is zero in bounded arithmetic, so that it is never wrongly
+// positive or negative. In double and float the sign is as computed, and nothing is promised.
 ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitive,
                    ViewCounts& counts, Arithmetic arithmetic = Arithmetic::exact);
 
-// Signs over the step of the component's triangles, written to signs[triangle]: lanes first (none
-// in float), then view_sign for what they leave open. Counts and signs do not depend on `set`. By
-// the workers of `pace` where it has some; false when it was stopped.
+// Writes the signs over the step of the component's triangles to signs[triangle]. Lanes come first
+// (except in float), then view_sign for what they leave open. Counts and signs do not depend on
+// `set`. The workers of `pace` share the work if it has some. False if it was stopped.
 bool classify(const Topology& mesh, const Component& component, const PositionsView& x_t0,
               const PositionsView& x_t1, const ViewPrimitive& primitive,
               std::vector<ViewSign>& signs, ViewCounts& counts,
               InstructionSet set = best_instruction_set(),
               Arithmetic arithmetic = Arithmetic::exact, PacedStop* pace = nullptr);
 
-// Whether all triangles of the component are positive at one instant. Stops soon after the first
-// that is not; also false once `pace` says to end. Bounded arithmetic says so only where it is
-// certain.
+// Whether all triangles of the component are positive at one instant, seen from the segment q0 q1.
+// It ends soon after the first triangle that is not. Also false once `pace` says to end. In
+// bounded arithmetic true is certain, and false may mean that doubles cannot tell.
 bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,
                      const Point& q0, const Point& q1, Arithmetic arithmetic = Arithmetic::exact,
                      PacedStop* pace = nullptr);
