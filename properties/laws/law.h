@@ -30,9 +30,10 @@ struct Law {
   std::string_view name;       // "L4_AllPositiveIsCollisionFree_Line"
   std::string_view number;     // "L1" .. "L15"; "sets", "claim", "change" for what has no number
   std::string_view statement;  // in one or two sentences
-  std::string_view needs;      // of the oracle
+  std::string_view needs;      // what the law asks of the oracle
   void (*check)(CaseFacts&, LawTally&);  // adds what it met in this case
-  // A LawTable asks it of one case in so many: laws that run the case again are dear.
+  // A LawTable checks the law on one case in so many, because laws that run the case again are
+  // dear.
   int one_in = 1;
 };
 

@@ -29,9 +29,9 @@ struct GateRule {
 // When each gate holds:
 //
 // - harness: every canary was found, and of the planted faults the share that the plan's policy
-//   asks for; no equivalent fault was found. The self-test met no contradiction. If all trials took
-//   place, every law's premise held as often as asked, and was close in a quarter of these steps.
-//   Every defect of a trial was stored as a failure. Without a canary nothing is judged.
+//   asks for; no equivalent fault was found. The self-test met no contradiction. If all trials
+//   took place, every law's premise held as often as asked, and was close in a quarter of these
+//   steps. Every defect of a trial was stored as a failure. Without a canary nothing is judged.
 // - corpus: the shipped cases, scenes and the owner's cases hold, and no waiver is expired.
 // - claims: no claim and no law is broken in any trial, and no world has a counterexample. A
 //   certificate leaves waived failures aside.

@@ -2,9 +2,9 @@
 //
 // A patch is certified when L13's premise is proved of it: all of its triangles face one direction
 // throughout the step, and its contour, projected along that direction, stays a simple polygon.
-// Looked at are the nodes of the detector's tree, from the root down to the largest ones that are
-// certified, and the unions of two of these patches that share an edge. A scheme that is wrong in
-// one of its tests certifies too much here as well, and L13 shows it.
+// The patches looked at are nodes of the detector's tree, from the root down to the largest ones
+// that are certified, and unions of two of these that share an edge. A scheme that is wrong in one
+// of its tests certifies too much here as well, and L13 shows it.
 #pragma once
 
 #include <memory>
@@ -46,7 +46,7 @@ class TraditionalScheme {
   CertifiedPatches certify(const detector::PositionsView& x_t0,
                            const detector::PositionsView& x_t1) const;
 
-  // The pairs of triangles that the scheme's search of the step does not leave out.
+  // The pairs of triangles that the scheme's search of this step does not leave out.
   std::set<detector::TrianglePair> candidates(const detector::PositionsView& x_t0,
                                               const detector::PositionsView& x_t1);
 
