@@ -1,5 +1,5 @@
-// The suites of `assay bench`. Each takes at most four minutes at its default size on one core, all
-// together fifteen.
+// The suites of `assay bench`. Each takes at most four minutes at its default size on one core,
+// all of them together fifteen.
 #pragma once
 
 #include <functional>

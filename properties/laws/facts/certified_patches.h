@@ -25,8 +25,8 @@ struct CertifiedPatches {
   // How many triangles the largest patch or union has. From 2 on L13 says something.
   std::size_t largest = 0;
   // A triangle faces d when the three Bernstein coefficients of N.d over the step are positive (N
-  // its normal, twice its area long). These are the sizes of the coefficients, for the direction of
-  // the patch and all of its triangles, over all patches and unions of two triangles or more.
+  // its normal, twice its area long). These are the sizes of the coefficients, for the direction
+  // of the patch and all of its triangles, over all patches and unions of two triangles or more.
   ValueRange facing;
 
   // Whether both triangles are in one patch, or in one union of two.
@@ -36,7 +36,7 @@ struct CertifiedPatches {
 // The traditional scheme on one mesh.
 class TraditionalScheme {
  public:
-  // Null when the search of these stages is not one of normal cones. `x` are the positions that the
+  // Null if the search of these stages is not one of normal cones. `x` are the positions that the
   // detector is made from: they shape the tree. `mesh` must outlive the result.
   static std::unique_ptr<TraditionalScheme> make(const detector::Stages& stages,
                                                  const detector::Topology& mesh,
