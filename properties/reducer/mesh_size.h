@@ -1,4 +1,4 @@
-// How large a case is: the order in which the reducer prefers one case to another.
+// How large a case is. The reducer prefers smaller cases in this order.
 #pragma once
 
 #include <compare>
@@ -10,8 +10,8 @@
 
 namespace assay::properties {
 
-// Smaller = shorter first, then simpler: compared field by field in this order. Every field is a
-// count that is bounded from below, so a search that only ever goes to smaller sizes ends.
+// Shorter counts first, then simpler: the fields are compared one by one in this order. Every
+// field is a count that is bounded from below, so a search that only goes to smaller sizes ends.
 struct MeshSize {
   std::size_t steps = 0, triangles = 0, vertices = 0;
   std::size_t frames = 0;
@@ -22,8 +22,9 @@ struct MeshSize {
   friend auto operator<=>(const MeshSize&, const MeshSize&) = default;
 };
 
-// 0 for 0, the magnitude for -9 to 9, 10 for each digit of a longer integer; for others 100 and 10
-// for each character of the shortest decimal that reads back to the same double.
+// The cost of a number: 0 for 0, the magnitude for -9 to 9, 10 for each digit of a longer integer;
+// for other numbers 100, and 10 for each character of the shortest decimal that reads back to the
+// same double.
 std::uint64_t number_cost(double value);
 
 // O(size of the case).
