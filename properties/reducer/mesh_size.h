@@ -15,8 +15,9 @@ namespace assay::properties {
 struct MeshSize {
   std::size_t steps = 0, triangles = 0, vertices = 0;
   std::size_t frames = 0;
-  std::size_t moving = 0;     // vertices that move, summed over the steps
-  int view = 0;               // 0 none given, 1 fixed point, 2 moving point, 3 fixed line, 4 moving
+  std::size_t moving = 0;  // vertices that move, summed over the steps
+  // 0: no view is given; 1: a fixed point; 2: a moving point; 3: a fixed line; 4: a moving line.
+  int view = 0;
   std::size_t ghosts = 0;     // ghost triangles given
   std::uint64_t numbers = 0;  // sum of number_cost over all coordinates, view and apexes included
   friend auto operator<=>(const MeshSize&, const MeshSize&) = default;
