@@ -24,7 +24,7 @@ std::optional<std::filesystem::path> owner_waivers(const std::filesystem::path& 
 corpus::Expected<std::vector<corpus::Case>> read_cases(
     const std::vector<std::filesystem::path>& files);
 
-// SHA-256 over their names and bytes.
+// SHA-256 over the names and bytes of these files.
 std::string digest_of_files(const std::vector<std::filesystem::path>& files);
 
 }  // namespace assay::reports

@@ -17,7 +17,8 @@ struct Timed {
 
 class TimedOracle {
  public:
-  // `jobs` threads. Where memory fails, the limits remember it and the answer is not complete.
+  // Judges in `jobs` threads. If memory fails, the limits remember it and the answer is not
+  // complete.
   TimedOracle(int jobs, oracle::AskedFeatures asked, Limits& limits)
       : jobs_(jobs), asked_(asked), limits_(limits) {}
 
@@ -26,7 +27,7 @@ class TimedOracle {
                                      const detector::Triangles& triangles,
                                      const detector::StopFunction& stop) const;
 
-  // Other methods on that share of the questions behind a judgement.
+  // Asks other methods this share of the questions behind a judgement.
   Timed<oracle::SecondOpinion> second_opinion(const detector::Positions& x_t0,
                                               const detector::Positions& x_t1,
                                               const detector::Triangles& triangles,

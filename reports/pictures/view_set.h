@@ -21,8 +21,8 @@ inline constexpr std::array<const char*, 6> view_set_names = {"none", "V+",    "
 inline constexpr std::array<const char*, 6> view_set_colours = {"#9aa0a6", "#56b4e9", "#e69f00",
                                                                 "#f0e442", "#cc79a7", "#d55e00"};
 
-// The set of a triangle. One that a ghost touches and that also carries another doubt counts as
-// violated. `none` if the step has no view sets.
+// The set of a triangle; `none` if the step has no view sets. A triangle that is both touched by a
+// ghost and dirty counts as violated.
 inline ViewSet view_set(const detector::StepResult& result, std::size_t triangle) {
   if (triangle >= result.signs.size()) return ViewSet::none;
   const std::uint8_t doubt = triangle < result.doubts.size() ? result.doubts[triangle] : 0;

@@ -12,7 +12,7 @@ namespace assay::reports {
 struct QuerySelfTest {
   DetectorWords detector;
   std::uint64_t seed = 1;
-  std::uint64_t queries = 20'000;  // random small-integer queries; sets the size of the others too
+  std::uint64_t queries = 20'000;    // random small-integer queries; others follow from it
   std::optional<double> time_limit;  // seconds
   std::string replay;                // "family:seed:index"; empty: all
 };

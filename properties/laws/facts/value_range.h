@@ -6,7 +6,7 @@
 
 namespace assay::properties {
 
-// Of the sizes of values; of none at all, as it is made.
+// The range of the sizes of values. At first it holds no value.
 struct ValueRange {
   double smallest = std::numeric_limits<double>::infinity();
   double largest = 0;
