@@ -61,7 +61,7 @@ struct HardOutcome {
   bool early = false;        // the first time ends before t*
   bool wrong_signs = false;  // a triangle is V+ or V- that really is not
   // If both collide: the first time minus t*, for the end of its interval that is wrong, else 0.
-  // As a share of the step, and in ulps of the greater of the two times.
+  // Given as a share of the step, and in ulps of the greater of the two times.
   double time_error = 0, time_error_ulps = 0;
 };
 
