@@ -13,9 +13,10 @@ inline constexpr double family_confidence = 0.95;
 // trials.
 double upper_bound(std::uint64_t failures, std::uint64_t trials, double risk);
 
-// The interval in which a share lies with confidence 95 %. `of` in `in` had the property, but only
-// `independent` of them are worth counting, because the others depend on these. It is the interval
-// of Clopper and Pearson with both ends; the numbers may be fractions. [0, 1] if there are none.
+// The interval in which a share lies with confidence 95 %. `of` out of `in` trials count for the
+// share, but only `independent` of the `in` are worth counting, because the others depend on
+// these. It is the interval of Clopper and Pearson with both ends; the numbers may be fractions.
+// [0, 1] if there are none.
 struct ShareInterval {
   double lo = 0, hi = 1;
 };

@@ -25,8 +25,8 @@ inline constexpr const char* merged_shard = "merged";
 inline constexpr const char* checks_shard = "checks";
 inline constexpr const char* power_shard = "power";
 
-// A planted fault that every run must find. It goes through the same worker processes as the
-// detector under test.
+// A planted fault that every run must find. It is tried through a worker process, in the same way
+// as the detector under test.
 struct Canary {
   std::string fault, shard;
   std::optional<std::uint64_t> found_after;  // in cases; nothing: it was not found
@@ -229,8 +229,8 @@ Evidence to_row(const Issued& issued);
 enum class DroppedKind { fault, waiver, corpus, self_test, times };
 void drop(Store& store, DroppedKind kind);
 
-// Whether two runs of one campaign may differ in this row, because it holds times, or paths of
-// files.
+// Whether two runs of one campaign may differ in this row. It then holds times, paths of files, a
+// World or a SlowCase.
 bool may_differ(const Evidence& row);
 
 }  // namespace assay::properties

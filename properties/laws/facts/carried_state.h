@@ -43,7 +43,8 @@ TriangleFlags dirty_at_a_new_start(CaseFacts& facts, std::size_t s);
 // doubt; in a component without any, it is the layer of most untouched triangles.
 //
 // A step without views releases nothing. At a new start all of its triangles are dirty, unless the
-// caller vouched for the start; otherwise those that were in doubt after the step before.
+// caller vouched for the start; otherwise those that were in doubt after the step before. REQUIRES
+// has_account(s).
 TriangleFlags account_of_dirty(CaseFacts& facts, std::size_t s);
 // The triangles that are in doubt after step s: those that were dirty at its start, were touched
 // by a ghost, or were in contact with their own component. After a collision in a step with views
