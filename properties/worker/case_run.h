@@ -66,11 +66,8 @@ struct CaseRun {
   // The members below tell the circumstances of the run. The host fills them in, and
   // same_answers() looks neither at them nor at times.
   //
-  // How often the worker was killed from outside before this run began or while it was under way;
-  // the run was repeated then.
-
-  // How often the worker was killed from outside while this run was under way, which was then
-  // repeated, or before it began.
+  // How often the worker was killed from outside while this run was under way (it was then
+  // repeated), or before it began.
   std::uint64_t disturbances = 0;
   // The processor time of the last attempt: that of the worker with its threads, and that of the
   // processes that it started if the run was long enough to look at them (processor_time.h).

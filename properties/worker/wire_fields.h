@@ -258,7 +258,7 @@ bool decode(const std::string& bytes, T& message) {
   return reader.complete();
 }
 
-// Differs where the two ends were built from sources with other plain data.
+// Differs if the two ends were built from sources with other plain data.
 constexpr std::uint64_t wire_version() {
   std::uint64_t hash = 1;
   for (const std::size_t size :

@@ -2,11 +2,9 @@
 // that turn it into a store's row and back. Only evidence.cpp names the kinds and the keys of
 // their facts.
 //
-// Facts hold no times, so that two runs of one campaign have equal rows. Times have kinds of their
-// own (SpeedFigure, Issued). A World is an exception, because the time may end it early.
-//
-// Facts hold no times, so that two runs of one campaign have equal rows: times have kinds of their
-// own (SpeedFigure, Issued), and so has a World, which may end by its time.
+// Facts hold no times, so that two runs of one campaign have equal rows. What may differ between
+// two runs has kinds of its own: times (SpeedFigure, Issued), a World, which its limit of time may
+// end early, and a SlowCase.
 #pragma once
 
 #include <optional>
