@@ -22,7 +22,7 @@ struct TollRow {
 };
 
 struct TollTable {
-  std::uint64_t cases = 0, steps = 0, colliding = 0, pairs = 0;  // by the oracle
+  std::uint64_t cases = 0, steps = 0, colliding = 0, pairs = 0;  // counted by the oracle
   std::vector<TollRow> rows;  // the right detector, each deviation alone, all of them together
 };
 

@@ -14,8 +14,8 @@ class RunClock {
   // Begins to time the making of the detector.
   explicit RunClock(bool is_on);
   void created();
-  void begin();     // of a step
-  void answered();  // the step that began last
+  void begin();     // a step begins
+  void answered();  // the step that began last has its answer
   std::optional<RunTimes> take();
 
  private:

@@ -30,7 +30,7 @@ struct WorkerLimits {
   // if it sleeps or does not end (worker_watch.h). Loading a plug-in has the same limit, or
   // longest_loading if that is less.
   double seconds = 10;
-  std::uint64_t bytes = 0;  // of address space; 0: no limit
+  std::uint64_t bytes = 0;  // address space of a process; 0: no limit
   // How the process of a plug-in is to be isolated. If that is `required` and the system does not
   // offer all of it, the problem is not_isolated.
   IsolationMode isolation = IsolationMode::best;

@@ -17,8 +17,8 @@
 namespace assay::properties {
 
 // The wider limits, as multiples of the limit of processor time.
-inline constexpr double asleep_limit = 10;  // of wall clock in which the worker only slept
-inline constexpr double wall_limit = 100;   // of wall clock in all
+inline constexpr double asleep_limit = 10;  // wall clock in which the worker only slept
+inline constexpr double wall_limit = 100;   // wall clock in all
 
 class WorkerWatch {
  public:
@@ -56,7 +56,7 @@ class WorkerWatch {
   Clock::time_point last_look_, next_look_;
   double used_ = 0;     // processor seconds at the last look
   double watched_ = 0;  // seconds of wall clock until the last look
-  double asleep_ = 0;   // of these, slept
+  double asleep_ = 0;   // seconds of these in which it slept
   End end_ = End::none;
 };
 

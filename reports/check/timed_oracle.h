@@ -12,7 +12,7 @@ namespace assay::reports {
 template <class Answer>
 struct Timed {
   Answer answer;
-  double milliseconds = 0;  // by the clock
+  double milliseconds = 0;  // wall clock
 };
 
 class TimedOracle {

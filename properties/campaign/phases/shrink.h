@@ -17,8 +17,9 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
                       const Configuration& configuration, WorkerProcess& worker,
                       const ReduceLimits& limits, const OnBetter& on_better = {});
 
-// Shrinks one failure of each signature of which none is shrunk yet, and stores each better mesh
-// as soon as it is found. At most `limits` for each, and not beyond the deadline. Throws
+// Shrinks one failure of each signature, unless that has been done before; flaky failures are left
+// out. One whose shrinking was interrupted goes on from its smallest mesh so far. Each better mesh
+// is stored as soon as it is found. At most `limits` for each, and not beyond the deadline. Throws
 // StoreProblem; so it is for campaign/ alone.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const std::function<void(const std::string&)>& progress);

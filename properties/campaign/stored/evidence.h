@@ -27,7 +27,7 @@ inline constexpr const char* power_shard = "power";
 // as the detector under test.
 struct Canary {
   std::string fault, shard;
-  std::optional<std::uint64_t> found_after;  // in cases; nothing: it was not found
+  std::optional<std::uint64_t> found_after;  // how many cases that took; nothing: it was not found
 };
 
 // What kept the harness itself from going on, after `trials` trials had been stored. `what` is
@@ -42,7 +42,7 @@ struct MeshCounts {
 };
 struct ShrunkFault {
   MeshCounts before, after;
-  std::uint64_t calls = 0;  // of the reducer's judge: cases that were run
+  std::uint64_t calls = 0;  // calls of the reducer's judge
 };
 
 // What it took to find a planted fault.
@@ -55,7 +55,7 @@ struct FaultProof {
   std::vector<std::optional<std::uint64_t>> needed;
   std::uint64_t cases = 0;
   bool time_over = false;            // the hunt was ended by a limit of time
-  std::uint64_t known_vertices = 0;  // of the smallest mesh known that shows it; 0: none is known
+  std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows it; 0: unknown
   std::optional<ShrunkFault> shrunk;
 
   bool found() const;  // by its curated case, or by a random one under any seed
@@ -109,7 +109,7 @@ struct Repetition {
   std::string input, configuration, shard;
   std::uint64_t triangles = 0, steps = 0;
   std::uint64_t runs = 0;              // runs that ended by themselves
-  std::vector<std::uint64_t> threads;  // that it was allowed, in the order of the runs
+  std::vector<std::uint64_t> threads;  // how many it might use, run by run
   std::string what;                    // how two runs differ, or one ended early
   bool broken = false;                 // `what` breaks a claim
 };
@@ -132,8 +132,8 @@ struct Paths {
   std::string data{};       // folder of the public sequences; empty: none
 };
 struct InputDigests {
-  std::string corpus;                  // of all cases, the owner's too: names and bytes
-  std::optional<std::string> waivers;  // of corpus/known.json and the owner's file of waivers
+  std::string corpus;                  // SHA-256 over names and bytes of all cases, own cases too
+  std::optional<std::string> waivers;  // of corpus/known.json and the owner's waivers
 };
 
 // A known failure that a certificate excuses until the day on which the waiver expires.

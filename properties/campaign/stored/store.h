@@ -66,7 +66,7 @@ struct KeptFailures {
 struct Evidence {
   std::string kind, name;
   std::string shard;           // the shard that found it out, such as "1/4"
-  std::uint64_t progress = 0;  // of two rows of one shard the one with more counts
+  std::uint64_t progress = 0;  // how far it came; the row that came farther stays
   std::string facts;           // a JSON object; without times, unless the kind is one of times
 };
 

@@ -20,7 +20,7 @@ namespace assay::properties {
 struct KeptPlugin {
   IsolationMode mode = IsolationMode::best;
   std::string scratch;      // a folder, unless the mode is none
-  std::uint64_t bytes = 0;  // of address space; 0: no limit
+  std::uint64_t bytes = 0;  // address space; 0: no limit
 };
 
 // What the keeper tells the host first, before the plug-in is loaded.

@@ -33,8 +33,8 @@ struct PeerTimes {
 struct PeerCounts {
   std::uint64_t steps = 0;
   std::uint64_t left_out = 0;   // steps that it does not take
-  std::uint64_t contact = 0;    // with a contact that counts
-  std::uint64_t undecided = 0;  // without an answer: undecided, an error, hung, crashed
+  std::uint64_t contact = 0;    // steps with a contact that counts
+  std::uint64_t undecided = 0;  // steps without an answer: undecided, an error, hung, crashed
   // The answer is `free` although there is a contact, the first time is late by more than is
   // tolerated, or a pair is missing although pairs are asked for.
   std::uint64_t unsafe = 0;

@@ -34,7 +34,7 @@ struct PeerRow {
   std::vector<std::string> contract;
   std::string answers;                // what it answers at all: "answer, time, pairs"
   std::optional<Estimate> over;       // median over families, interval by drawing families
-  std::optional<double> create_over;  // of preprocessing; median over families
+  std::optional<double> create_over;  // the same for preprocessing: median over families
   std::uint64_t families = 0;         // families that have times
   PeerCounts counts;
   std::uint64_t slow = 0, ended = 0;
