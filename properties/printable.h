@@ -1,4 +1,4 @@
-// Words from outside, such as a plug-in's name, as text that may stand anywhere.
+// Makes words from outside, such as a plug-in's name, safe to print anywhere.
 #pragma once
 
 #include <string>

@@ -31,7 +31,7 @@ struct Claims {
   friend bool operator==(const Claims&, const Claims&) = default;
 };
 
-// The words of reports and certificates: "free-sound".
+// The word of a claim in reports and certificates, such as "free-sound".
 const char* name_of(Claim claim);
 
 // In the order of Claim.

@@ -44,7 +44,8 @@ struct Contract {
   double margin = 0;  // above 0: no-spurious is not judged
   StartRule start = StartRule::any;
   double start_distance = 0;  // for StartRule::apart
-  // Every coordinate is 0 or of a magnitude from least_nonzero to largest; both 0: any.
+  // Every coordinate is 0 or has a magnitude from least_nonzero to largest. Both 0: any
+  // coordinate.
   double least_nonzero = 0, largest = 0;
   TestedFeatures features = TestedFeatures::both;
   double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
@@ -54,7 +55,8 @@ struct Contract {
   bool has_range() const { return largest > 0; }
 };
 
-// The words of reports and certificates: "not-edge-sharing", "float32", "free", "vertex-face".
+// The words in reports and certificates, such as "not-edge-sharing", "float32", "free",
+// "vertex-face".
 const char* name_of(Adjacency adjacency);
 const char* name_of(Coordinates coordinates);
 const char* name_of(StartRule start);

@@ -22,7 +22,8 @@ struct Motion {
 
 std::span<const Motion> motions();
 
-// `count` of the motions, each at most once, so that a case is made of few (swarm weights).
+// Chooses `count` of the motions, each at most once, so that a case is made of few of them (swarm
+// weights).
 std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too, bool dear_too);
 
 // Moves every vertex a little aside, by up to amount / 32.

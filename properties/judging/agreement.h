@@ -1,4 +1,4 @@
-// The diff of one step: what a detector answered against what the oracle found.
+// Compares one step of a detector with the oracle: the diff says how their answers differ.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// A planted fault on a case of the corpus, judged by the oracle.
+// Runs a planted fault on a case of the corpus, judged by the oracle.
 #pragma once
 
 #include <optional>

@@ -30,7 +30,7 @@ class SelfTestFamily {
                                            QueryTally& tally) const = 0;
   // The query of the case, if it is one; nothing for whole steps.
   virtual std::optional<Query> query_at(std::uint64_t seed, std::uint64_t index) const = 0;
-  // The case, exactly, and what each method says of it.
+  // The case with its exact numbers, and what each method says of it.
   virtual std::string text(std::uint64_t seed, std::uint64_t index) const = 0;
 
  private:

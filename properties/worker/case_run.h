@@ -47,7 +47,7 @@ using CandidatePairs = std::optional<std::vector<detector::TrianglePair>>;
 
 struct CaseRun {
   RunEnd end = RunEnd::completed;
-  // One line: the signal, the refusal, or the first step's error. Empty when nothing is wrong.
+  // One line: the signal, the refusal, or the first step's error. Empty if nothing is wrong.
   std::string what;
   // One result for each step of the case if the run completed, else none. If a plug-in does not
   // state the time of a pair, or the first time, it is [0, 1].

@@ -1,4 +1,4 @@
-// The detector that `check` has before it: the built-in one, or a plug-in.
+// The detector that `check` runs and judges: the built-in one, or a plug-in.
 #pragma once
 
 #include <memory>

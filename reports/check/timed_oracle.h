@@ -1,4 +1,4 @@
-// The oracle as `check` asks it: within the user's limits, and timed.
+// Asks the oracle for `check`, within the user's limits, and measures the time that it takes.
 #pragma once
 
 #include <optional>

@@ -30,7 +30,7 @@ inline constexpr const char *blue = "#0072B2", *orange = "#E69F00", *green = "#0
 // The head of a script: terminal, size in pixels, fonts, a quiet grid.
 std::string picture_head(int width, int height);
 
-// Words between double quotes; with `noenhanced` behind it gnuplot takes them as they are.
+// The words between double quotes. If `noenhanced` follows, gnuplot takes them as they are.
 std::string quoted_for_gnuplot(const std::string& words);
 
 }  // namespace assay::reports

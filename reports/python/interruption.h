@@ -1,4 +1,4 @@
-// Ctrl-C during work that does not hold the interpreter.
+// Handles ctrl-C during work that does not hold the interpreter.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -35,7 +35,7 @@ class Interruption {
     const pybind11::gil_scoped_acquire interpreter;
     last_ = std::chrono::steady_clock::now();
     if (PyErr_CheckSignals() == 0) return false;
-    // Kept apart, for what is called until the work has ended must not find it.
+    // It is kept here, because what is called until the work has ended must not find it.
     raised_ = std::make_unique<pybind11::error_already_set>();
     return has_come_ = true;
   }

@@ -1,4 +1,4 @@
-// How the programs that are exported for the owner of a plug-in begin: they load it.
+// The code with which the programs exported for a plug-in's owner begin: it loads the plug-in.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Ctrl-C in the middle of work that keeps what it has and can go on later.
+// Handles ctrl-C in the middle of work that keeps what it has and can go on later.
 #pragma once
 
 #include <string>

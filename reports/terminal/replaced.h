@@ -1,4 +1,4 @@
-// Characters that mean something to a reader of a format, as that format writes them.
+// Writes characters that have a meaning in a format in the way in which that format wants them.
 #pragma once
 
 #include <map>

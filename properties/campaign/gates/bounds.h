@@ -10,7 +10,7 @@ namespace assay::properties {
 // of its claims. Each claim is counted all the same, which only widens the bounds.
 std::uint64_t number_of_bounds(const BoundRun& run);
 
-// The risk of each bound, all of them together at family_confidence.
+// The risk of each bound, so that all of them hold together with family_confidence.
 double risk_of_each(const BoundRun& run);
 
 // The bound on the share of cases on which one configuration does not hold.

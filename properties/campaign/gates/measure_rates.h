@@ -1,4 +1,4 @@
-// Rates and quantiles of what is counted of a plug-in whatever it claims.
+// Rates and quantiles of what is counted of a plug-in's steps, whatever it claims.
 #pragma once
 
 #include "properties/campaign/gates/statistics.h"

@@ -49,7 +49,7 @@ std::vector<FaultResult> hunt_faults(const FaultHunt& hunt, RunDeadline deadline
 std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& c,
                                         const std::vector<oracle::StepJudgement>& truth);
 
-// The reducer's judge for a fault, its own oracle included.
+// The reducer's judge for a fault. It asks the oracle by itself.
 Judge judge_of_fault(const Fault& fault);
 
 // Shrinks `shown_by` of each result that has one, and notes in its proof how small it became.

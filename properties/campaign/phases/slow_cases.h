@@ -1,4 +1,4 @@
-// The cases on which a detector takes longest: kept with their meshes, and shrunk.
+// Keeps the cases on which a detector takes longest with their meshes, and shrinks them.
 #pragma once
 
 #include <functional>

@@ -43,7 +43,7 @@ struct BoundRun {
   BoundDetector detector;
   BoundDigests digests;
 };
-// As they stand in a binding, and in a certificate.
+// The JSON of these in a binding and in a certificate.
 nlohmann::json json_of(const BoundDetector& detector);
 nlohmann::json json_of(const BoundDigests& digests);
 
@@ -51,7 +51,7 @@ nlohmann::json json_of(const BoundDigests& digests);
 // problem.
 Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file);
 
-// The same binding, of another shard; nothing for a text that is no binding.
+// The same binding for another shard; nothing if the text is no binding.
 std::optional<std::string> with_shard(const std::string& binding, const std::string& shard);
 
 // How two bindings differ, leaving their shards aside: "seed 1 and 2". Empty if they do not.

@@ -1,4 +1,5 @@
-// checks.sqlite: what `assay certify` finds out by itself, stored as it becomes known.
+// checks.sqlite, in which `assay certify` stores what it finds out by itself as soon as it is
+// known.
 //
 // It is used like an output stream: after the first problem nothing more is stored. Whoever writes
 // asks problem() before starting work that would then be in vain.
@@ -18,7 +19,7 @@ namespace assay::properties {
 
 class Checks {
  public:
-  // OUT/checks.sqlite, bound to the request; the problems are those of Store::open.
+  // Opens OUT/checks.sqlite, bound to the request; the problems are those of Store::open.
   static Expected<Checks> open(const std::filesystem::path& out, const CampaignRequest& request);
 
   // Stores a struct of evidence.h.

@@ -1,4 +1,4 @@
-// Stores of several shards of one campaign become one.
+// Makes one store of the stores of several shards of one campaign.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What a campaign keeps of each trial, and sums of it.
+// What a campaign keeps of each trial, and the sums over trials.
 #pragma once
 
 #include <cstdint>

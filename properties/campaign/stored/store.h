@@ -1,4 +1,4 @@
-// The trials and failures of one shard, in one file: SQLite, safe under a kill at any moment.
+// The trials and failures of one shard in one SQLite file, which survives a kill at any moment.
 //
 // Every row carries a hash (campaign/database/rows.h), which is checked whenever the row is read.
 // A store that is open for writing also knows all of its rows: those that it found and those that
@@ -124,7 +124,7 @@ class Store {
   std::optional<std::string> note(const std::string& key) const;
   void for_each_trial(const std::function<void(const TrialRecord&)>& visit) const;
   std::vector<StoredFailure> failures() const;  // by signature, then id
-  // How many failures of each signature were met, kept or not.
+  // How many failures of each signature were met, whether their mesh was kept or not.
   Counts signatures() const;
   std::vector<Evidence> evidence() const;  // by kind, name, shard
 

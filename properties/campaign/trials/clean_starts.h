@@ -18,7 +18,7 @@ bool starts_clean(const corpus::Case& c);
 // built-in detector, in every second one of the trials that may.
 bool is_vouched_for(const DetectorUnderTest& detector, const corpus::Case& c, std::uint64_t index);
 
-// The same configurations with the start vouched for instead of verified.
+// The same configurations, with start clean in place of start verified.
 std::vector<Configuration> with_clean_start(std::vector<Configuration> configurations);
 
 }  // namespace assay::properties

@@ -97,7 +97,7 @@ class CaseFacts {
   // The patches that this scheme's own tests certify. REQUIRES traditional_scheme().
   const CertifiedPatches& certified_patches(std::size_t s);
 
-  // Rows: vertices of the mesh, then apexes at the step's start or end.
+  // Positions at the step's start and end. Rows: vertices of the mesh, then apexes.
   detector::Positions all_t0(std::size_t s) const;
   detector::Positions all_t1(std::size_t s) const;
   const detector::Triangles& ghosts() const { return ghosts_; }

@@ -42,7 +42,8 @@ class TraditionalScheme {
                                                  const detector::Topology& mesh,
                                                  const detector::PositionsView& x);
 
-  // As dear as a step of the scheme: 10 us for 20 triangles.
+  // The patches that are certified in this step. As dear as a step of the scheme: 10 us for 20
+  // triangles.
   CertifiedPatches certify(const detector::PositionsView& x_t0,
                            const detector::PositionsView& x_t1) const;
 

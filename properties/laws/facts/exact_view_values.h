@@ -23,7 +23,7 @@ enum class Region : std::uint8_t {
 
 class ExactView {
  public:
-  // A triangle and its primitive at t = eighths / 8. REQUIRES finite coordinates.
+  // Takes a triangle and its primitive at t = eighths / 8. REQUIRES finite coordinates.
   ExactView(const std::array<detector::MovingPoint, 3>& triangle,
             const detector::ViewPrimitive& primitive, int eighths);
 

@@ -1,4 +1,5 @@
-// The smallest and the largest of the values that a law rests on, in one step: how close it came.
+// The smallest and the largest of the values that a law rests on in one step. They tell how close
+// it came.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The smallest and the largest view value of a step, in doubles: how close it came.
+// The smallest and the largest view value of a step, in doubles. They tell how close it came.
 #pragma once
 
 #include <span>

@@ -37,7 +37,8 @@ struct Isolation {
 // Whether `more` holds at least what `less` holds.
 bool covers(const Isolation& more, const Isolation& less);
 
-// "none", "best", "required"; "full", "none", "partial: lacks files, calls".
+// The words of a mode ("none", "best", "required"), and of an isolation ("full", "none", "partial:
+// lacks files, calls").
 const char* name_of(IsolationMode mode);
 std::optional<IsolationMode> isolation_mode_of(std::string_view word);
 std::string text_of(const Isolation& isolation);

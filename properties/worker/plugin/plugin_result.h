@@ -22,7 +22,8 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
 // there is no answer, undecided if memory failed.
 QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw);
 
-// Pairs a < b, ascending, each once; broken_result for an index that is none.
+// The candidate pairs a < b, ascending, each once; broken_result if an index is none of a
+// triangle.
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
                                                               std::int32_t triangle_count);
 

@@ -1,4 +1,4 @@
-// What the cases of suite `peers` come to: by detector and family, and by detector.
+// Sums up the cases of suite `peers`: by detector and family, and by detector.
 #pragma once
 
 #include <optional>
