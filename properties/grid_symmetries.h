@@ -1,5 +1,5 @@
-// Grids of side^dimensions points, numbered along the first axis first, and the maps of one onto
-// itself: axes exchanged and mirrored.
+// Grids of side^dimensions points, numbered along the first axis first, and the maps of a grid
+// onto itself: axes exchanged and mirrored.
 #pragma once
 
 #include <functional>
@@ -7,12 +7,13 @@
 
 namespace assay::properties {
 
-// Whole numbers, exponent >= 0.
+// base^exponent in whole numbers. REQUIRES exponent >= 0.
 int power(int base, int exponent);
 
-// `image_of(side)` gives, by point, its image on the grid of that side under one and the same map.
+// `image_of(side)` gives the image of each point, by point, on the grid of that side. It is the
+// same map for all sides.
 using ImageOfGrid = std::function<std::vector<int>(int side)>;
-// Calls visit for each exchange of axes with each choice of mirrored ones, the identity first.
+// Calls `visit` for each exchange of axes with each choice of mirrored axes, the identity first.
 void for_each_symmetry(int dimensions, const std::function<void(const ImageOfGrid&)>& visit);
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-// Numbers of vertices and triangles: as places of arrays, in order, shuffled, exchanged.
+// Lists of the numbers of vertices or triangles: in order, shuffled, exchanged.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ List shuffled(Random& random, List list) {
   return list;
 }
 
-// The pairs, sorted, when triangle t becomes new_number[t].
+// The pairs after triangle t has become new_number[t], sorted.
 inline std::vector<detector::PairContact> renumbered(std::vector<detector::PairContact> pairs,
                                                      std::span<const std::int32_t> new_number) {
   for (auto& [pair, time, feature] : pairs) {

@@ -1,4 +1,4 @@
-// Words from outside, such as a plug-in's name, as text that may stand anywhere.
+// Makes words from outside, such as a plug-in's name, safe to print anywhere.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace assay::properties {
 
-// UTF-8 without control characters: each of these becomes '?', each byte that is no part of a
-// character U+FFFD. JSON, XML and a terminal then take it as it is.
+// The text as UTF-8 without control characters: each of these becomes '?', and each byte that is
+// no part of a character becomes U+FFFD. JSON, XML and a terminal then take it as it is.
 std::string printable(std::string_view text);
 
 }  // namespace assay::properties

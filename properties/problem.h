@@ -1,6 +1,6 @@
-// What may keep this room from doing what it was asked, as a value: a named kind for code that
-// wants to tell problems apart, and one line for the user. No exception leaves this room, but for
-// std::bad_alloc.
+// A Problem is what kept this room from doing what it was asked, as a value: a named kind, for
+// code that tells problems apart, and one line for the user. The only exception that leaves this
+// room is std::bad_alloc.
 #pragma once
 
 #include <boost/outcome/basic_result.hpp>
@@ -12,7 +12,7 @@
 
 namespace assay::properties {
 
-// Numbers are stable. Add at the end.
+// The numbers are stable. Add new kinds at the end.
 enum class ProblemKind : std::uint8_t {
   // Files and folders.
   not_found = 1,     // there is no such file

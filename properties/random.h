@@ -1,4 +1,4 @@
-// Integer-only random numbers: the standard distributions differ between libraries.
+// Integer-only random numbers, because the standard distributions differ between libraries.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ class Random {
     next();
     next();
   }
-  // The stream of a name, such as a case's id: FNV-1a, 64 bits.
+  // The random numbers of a name, such as a case's id, hashed by FNV-1a, 64 bits.
   explicit Random(std::string_view id) : Random(hash(id), 0) {}
   static constexpr std::uint64_t hash(std::string_view text) {
     std::uint64_t h = 0xcbf29ce484222325u;

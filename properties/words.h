@@ -1,4 +1,4 @@
-// The words of an enum: a table in the order of its values, which count from 0.
+// The words of an enum, as a table in the order of its values, which count from 0.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,14 @@
 
 namespace assay::properties {
 
-// "unknown" for a value that the enum does not have.
+// The word of a value; "unknown" for a value that the enum does not have.
 template <class Enum, std::size_t n>
 constexpr const char* word_of(const char* const (&words)[n], Enum value) {
   const auto place = static_cast<std::size_t>(value);
   return place < n ? words[place] : "unknown";
 }
 
-// The way back; nothing for an unknown word.
+// The value of a word; nothing for an unknown word.
 template <class Enum, std::size_t n>
 constexpr std::optional<Enum> value_of(const char* const (&words)[n], std::string_view word) {
   for (std::size_t place = 0; place < n; ++place) {

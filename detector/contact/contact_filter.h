@@ -8,9 +8,9 @@
 
 namespace assay::detector {
 
-// Rung 0. Whether the two groups are strictly ordered along an axis, in the same sense at t=0 and
-// at t=1. Then there is no contact, because every point moves linearly. Exact, because it only
-// compares inputs. About 10 ns.
+// The axis rung. Whether the two groups are strictly ordered along an axis, in the same sense at
+// t=0 and at t=1. Then there is no contact, because every point moves linearly. Exact, because it
+// only compares inputs. About 10 ns.
 bool separated_along_an_axis(const FourPoints& query);
 
 struct FilterResult {
@@ -23,7 +23,8 @@ struct FilterResult {
   double time_guess = 0;  // a double near that root
 };
 
-// Rung 1. Looks at Bernstein coefficients over pieces of [0,1] in time order. 0.1 to 1.5 us.
+// The filter rung. Looks at Bernstein coefficients over pieces of [0,1] in time order. 0.1 to 1.5
+// us.
 FilterResult filter_contact(const FourPoints& query, Want want);
 
 // How often pieces are halved. No more, because integers (contact_fixed.h) cost about as much as

@@ -1,4 +1,4 @@
-// What tells one plug-in from another.
+// Distinguishes one plug-in from another.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace assay::properties {
 
-// SHA-256 of a library's bytes; of a detector in Python, of the file of its module and of the
+// SHA-256 of a library's bytes; for a detector in Python, of the file of its module and of the
 // library that serves it (python_word.h). cannot_open, with the reason.
 corpus::Expected<std::string> digest_of_plugin(const std::filesystem::path& plugin,
                                                const std::filesystem::path& worker);

@@ -1,18 +1,18 @@
-// A campaign of elementary queries: the strata of a campaign of meshes, put to a detector's query.
+// Turns a campaign of meshes into one of elementary queries, which is put to a detector's query.
 #pragma once
 
 #include "properties/campaign/plan.h"
 
 namespace assay::properties {
 
-// Whether a stratum is one of queries (queries/query_families.h).
+// Whether some stratum is one of queries (queries/query_families.h).
 bool asks_queries(const CampaignPlan& plan);
-// Whether all are.
+// Whether all strata are.
 bool asks_queries_alone(const CampaignPlan& plan);
 
-// The same campaign with every family of queries in place of its strata, each with as many cases as
-// the largest of them and the bound that is wanted there: no laws and no worlds, for these are of
-// meshes. One that asks queries alone stays as it is.
+// The same campaign with every family of queries in place of its strata. Each has as many cases as
+// the largest stratum, and the bound that is wanted there. There are no laws and no worlds,
+// because these are about meshes. A plan that asks queries alone stays as it is.
 CampaignPlan query_plan(CampaignPlan plan);
 
 }  // namespace assay::properties

@@ -15,7 +15,7 @@
 
 namespace assay::properties {
 
-// A part of a campaign that is run by itself. Together its shards hold each case once.
+// A part of a campaign that is run by itself. Together the shards hold each case once.
 struct Shard {
   std::uint64_t index = 1, count = 1;  // 1-based
   bool holds(std::uint64_t place) const { return place % count == index - 1; }
@@ -36,36 +36,37 @@ struct CampaignRequest {
   Shard shard;
   DetectorUnderTest detector;
   std::optional<std::filesystem::path> plugin;
-  IsolationMode isolation = IsolationMode::best;  // as asked for, of the plug-in's process
-  Isolation isolated;                             // as it turned out
-  std::uint64_t threads = 1;                      // that the plug-in may use
-  bool takes_threads = false;                     // whether it asks for that number
+  IsolationMode isolation = IsolationMode::best;  // as asked for the plug-in's process
+  Isolation isolated;                             // the isolation that the process has
+  std::uint64_t threads = 1;                      // threads that the plug-in may use
+  bool takes_threads = false;                     // the plug-in asks for that number
   std::filesystem::path worker;                   // the program assay-worker
-  // Where another run of this build has shown its planted faults found, its rows: then no fault is
-  // planted here.
+  // The proof of another run of this build that planted faults are found. If it is given, no fault
+  // is planted in this run.
   std::optional<PowerProof> power;
-  // Cases of whoever owns the detector, judged beside what is shipped.
+  // Cases of the detector's owner, which are judged beside the shipped ones.
   std::optional<OwnCases> own_cases;
-  // Sequences on which a plug-in is run again and again, besides the scenes (phases/repetitions.h).
+  // Sequences on which a plug-in is run again and again, besides the scenes
+  // (phases/repetitions.h).
   std::vector<corpus::Case> repeated;
 
-  // Of the workers that run its cases.
+  // The limits of the workers that run the campaign's cases.
   WorkerLimits worker_limits() const {
     return {plan.case_seconds, plan.case_bytes, isolation, isolated, threads};
   }
 };
 
-// When a phase of the run must be over. Only what the user asked for by --time, or a campaign file
-// by `seconds`, is such a limit: it makes the run incomplete and decides no trial.
+// The time by which a phase of the run must be over. Only the user sets such a limit, by --time or
+// by `seconds` of a campaign file. It may make the run incomplete; it never decides a trial.
 using RunDeadline = std::chrono::steady_clock::time_point;
 
-// So many seconds after `begin`; never, where that is more than three years: a clock of nanoseconds
+// `seconds` after `begin`, or never, if that is more than three years: a clock of nanoseconds
 // would overflow.
 RunDeadline deadline_in(RunDeadline begin, double seconds);
-// `share` of the plan's seconds after `begin`; never, where the plan has no limit.
+// This share of the plan's seconds after `begin`, or never, if the plan has no limit.
 RunDeadline deadline_after(RunDeadline begin, const CampaignPlan& plan, double share);
 
-// How many of a family's cases the shard holds, and of all families.
+// How many cases the shard holds: of one family, and of all families.
 std::uint64_t planned_cases(const StratumPlan& stratum, const Shard& shard);
 std::uint64_t planned_trial_count(const CampaignPlan& plan, const Shard& shard);
 

@@ -1,5 +1,5 @@
-// The contract under which a detector claims what it claims: which steps, coordinates and features
-// it takes, and how its times are read.
+// The contract under which a detector's claims hold: which steps, coordinates and features it
+// takes, and how its times are read.
 #pragma once
 
 #include <cstdint>
@@ -18,30 +18,34 @@ enum class Adjacency : std::uint8_t {
   no_shared_vertex,  // pairs that share nothing
 };
 
-// Inputs of a float32 detector are rounded to the nearest float32 before it, and the oracle, see
-// them.
+// The coordinates that the detector computes with. Inputs of a float32 detector are rounded to the
+// nearest float32 before the detector and the oracle see them.
 enum class Coordinates : std::uint8_t { float64, float32 };
 
-// Which steps it takes, by how the mesh lies at t = 0; the others are left out, and counted.
+// Which steps the detector takes, by how the mesh lies at t = 0. The others are left out, and
+// counted.
 enum class StartRule : std::uint8_t {
   any,    // every step
   free,   // steps that start without a contact
   apart,  // steps that start with all features at least start_distance apart
 };
 
-// Which features it tests against each other. Contacts of the others are not held against it.
+// Which features the detector tests against each other. Contacts of the others are not held
+// against it.
 enum class TestedFeatures : std::uint8_t { both, vertex_face, edge_edge };
 
 inline constexpr double widest_time_tolerance = 1e-3;
 
-// Units of length are the user's; times are shares of the step. The default leaves nothing out.
+// Lengths are in the user's units; times are shares of the step. The default contract leaves
+// nothing out.
 struct Contract {
   Adjacency adjacency = Adjacency::all;
   Coordinates coordinates = Coordinates::float64;
-  double margin = 0;  // above 0 no-spurious is not judged
+  double margin = 0;  // above 0: no-spurious is not judged
   StartRule start = StartRule::any;
-  double start_distance = 0;  // of StartRule::apart
-  // Every coordinate is 0 or of a magnitude from least_nonzero to largest; both 0: any.
+  double start_distance = 0;  // for StartRule::apart
+  // Every coordinate is 0 or has a magnitude from least_nonzero to largest. Both 0: any
+  // coordinate.
   double least_nonzero = 0, largest = 0;
   TestedFeatures features = TestedFeatures::both;
   double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
@@ -51,17 +55,19 @@ struct Contract {
   bool has_range() const { return largest > 0; }
 };
 
-// The words of reports and certificates: "not-edge-sharing", "float32", "free", "vertex-face".
+// The words in reports and certificates, such as "not-edge-sharing", "float32", "free",
+// "vertex-face".
 const char* name_of(Adjacency adjacency);
 const char* name_of(Coordinates coordinates);
 const char* name_of(StartRule start);
 const char* name_of(TestedFeatures features);
 
-// What is wrong with it, without a subject ("its margin is no length"); empty: nothing.
+// What is wrong with the contract, without a subject ("its margin is no length"); empty if nothing
+// is.
 std::string fault_of(const Contract& contract);
 
-// What it leaves out or changes, a phrase each: "starts free", "coordinates from 1e-06 to 1e+06",
-// "times within 1e-09". None for the contract that leaves nothing out.
+// What the contract leaves out or changes, one phrase each: "starts free", "coordinates from 1e-06
+// to 1e+06", "times within 1e-09". Empty for the contract that leaves nothing out.
 std::vector<std::string> phrases_of(const Contract& contract);
 
 int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);
@@ -70,8 +76,8 @@ int shared_vertices(const detector::TrianglesView& triangles, detector::Triangle
 bool leaves_out(const Contract& contract, const detector::TrianglesView& triangles,
                 detector::TrianglePair pair);
 
-// The positions that detector and oracle are both given; infinite where a coordinate has no
-// float32.
+// The positions that the detector and the oracle are both given. A coordinate that has no float32
+// becomes infinite.
 detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates);
 
 // Whether every coordinate is in the contract's range.

@@ -1,4 +1,4 @@
-// What the modules of planted faults share: how a wrong stage gets into a detector.
+// What the modules of planted faults share: it puts a wrong stage into a detector.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace assay::properties {
 
-// Where a stage of this kind stands in a detector, and its name in the registry.
+// Where a stage of this kind is kept in detector::Stages, and its name in the registry.
 template <class Stage>
 struct StagePlace {
   std::shared_ptr<const Stage> detector::Stages::*stage;
@@ -39,7 +39,7 @@ constexpr StagePlace<detector::ReleaseRule> place_of(const detector::ReleaseRule
 template <class Wrong>
 inline constexpr auto place = place_of(static_cast<const Wrong*>(nullptr));
 
-// The standard stages, but for the one that `Wrong` derives from.
+// The standard stages, except that `Wrong` replaces the stage from which it derives.
 template <class Wrong>
 detector::Stages with(const detector::Options& options) {
   detector::Stages stages = detector::standard_stages(options);
@@ -54,7 +54,7 @@ inline constexpr detector::Options with_lines = {detector::Culling::view_line,
 inline constexpr detector::Options with_cones = {detector::Culling::normal_cone,
                                                  detector::Start::verified, detector::Pairs::all};
 
-// A row of the registry: this wrong stage, in a detector of these options.
+// A row of the registry: this wrong stage, planted in a detector with these options.
 template <class Wrong>
 Fault planted(std::string_view name, std::string_view about, std::string_view law,
               std::string_view curated, int vertices,
@@ -63,7 +63,7 @@ Fault planted(std::string_view name, std::string_view about, std::string_view la
           options, curated, vertices, place<Wrong>.name,    with<Wrong>};
 }
 
-// A row of one that is not known to show, or never does, and why.
+// A row for a fault that is not known to show (open), or never does (equivalent), with the reason.
 template <class Wrong>
 Fault unseen(FaultStatus status, std::string_view name, std::string_view about,
              std::string_view law, std::string_view reason,

@@ -1,5 +1,5 @@
-// The view test of one triangle as exact polynomials in the step's time, for wrong ways to use
-// them.
+// The view test of one triangle as exact polynomials in the time of the step. Planted faults use
+// them in wrong ways.
 #pragma once
 
 #include <type_traits>
@@ -13,7 +13,8 @@ using PolynomialVector = std::array<detector::Polynomial, 3>;
 
 detector::Polynomial dot(const PolynomialVector& x, const PolynomialVector& y);
 
-// Scaled by a common positive factor, which changes no sign. With q0, q1 the primitive's ends:
+// The polynomials of one triangle (corners p0, p1, p2, normal N) and one primitive (ends q0, q1).
+// All have a common positive factor, which changes no sign.
 struct ViewPolynomials {
   PolynomialVector to_corner;                  // p0 - q0
   PolynomialVector normal;                     // N
@@ -25,36 +26,36 @@ struct ViewPolynomials {
 ViewPolynomials view_polynomials(const detector::MovingTriangle& triangle,
                                  const detector::ViewPrimitive& primitive);
 
-// The sign that f keeps, without a zero, over [0,1]; else zero.
+// The sign of f if f keeps it over [0,1] and has no zero there; else zero.
 detector::ViewSign strict_sign(const detector::Polynomial& f);
 
-// The value of f at t=0, at t=1, and the line through both.
+// f replaced by its value at t=0, by its value at t=1, or by the line through both values.
 detector::Polynomial at_start(const detector::Polynomial& f);
 detector::Polynomial at_end(const detector::Polynomial& f);
 detector::Polynomial linear_between_ends(const detector::Polynomial& f);
 PolynomialVector at_start(const PolynomialVector& x);
 PolynomialVector linear_between_ends(const PolynomialVector& x);
 
-// What decides the view value of one point of the triangle: h0 where g0 <= 0, h1 where g1 >= 0,
-// middle in between.
+// What decides the view value of one point of the triangle: it is h0 where g0 <= 0, h1 where g1 >=
+// 0, and `middle` in between.
 struct ViewPieces {
   detector::Polynomial h0, h1, middle, g0, g1;
 };
 ViewPieces pieces_of_corner(const ViewPolynomials& view, std::size_t corner);
-// The strict sign of that value over [0,1]; else zero.
+// The strict sign of the view value over [0,1]; else zero.
 detector::ViewSign sign_of(const ViewPieces& pieces);
 
-// Sign of the triangle, and of the primitive, held still at t=0, 1/2 or 1 (exact where the middle
-// of two coordinates is a double).
+// The sign of the triangle if it and the primitive are held still at t=0, 1/2 or 1 (exact if the
+// middle of two coordinates is a double), and a point held still in that way.
 enum class Sample { start, middle, end };
 detector::ViewSign sign_at(Sample sample, const detector::MovingTriangle& triangle,
                            const detector::ViewPrimitive& primitive);
 detector::MovingPoint still(Sample sample, const detector::MovingPoint& point);
 
-// The common sign, zero where they differ.
+// The common sign of all; zero if they differ.
 detector::ViewSign common_sign(std::initializer_list<detector::ViewSign> signs);
 
-// The sign at some times, taken for that of the step.
+// The common sign at some times, wrongly taken for the sign of the whole step.
 template <Sample... samples>
 detector::ViewSign sampled(const detector::MovingTriangle& triangle,
                            const detector::ViewPrimitive& primitive) {
@@ -72,7 +73,8 @@ class TriangleSigns : public detector::ViewClassifier {
                                   const detector::ViewPrimitive& primitive) const = 0;
 };
 
-// That classifier by a function, of the step's polynomials or of the triangle itself.
+// A TriangleSigns whose sign is the function `look`, of the step's polynomials or of the triangle
+// itself.
 template <auto look>
 struct Signs : TriangleSigns {
   detector::ViewSign sign(const detector::MovingTriangle& triangle,
@@ -85,7 +87,7 @@ struct Signs : TriangleSigns {
   }
 };
 
-// The right sign.
+// The sign that the detector's own view test gives.
 detector::ViewSign right_sign(const detector::MovingTriangle& triangle,
                               const detector::ViewPrimitive& primitive);
 

@@ -1,5 +1,5 @@
 // A deforming mesh in the making: generators of shapes, motions, aims and primitives work on it in
-// turn. Coordinates are of the order of 1 until the last of them scales or moves the whole.
+// turn. Coordinates are of the order of 1 until the last of them scales or moves the whole mesh.
 #pragma once
 
 #include <array>
@@ -18,14 +18,15 @@ using Face = std::array<std::int32_t, 3>;
 struct Draft {
   std::vector<Face> faces;
   std::vector<Points> frames;  // one until a motion adds more
-  // All triangles are positive from the origin at the start, or nearly: convex and star shapes.
+  // All triangles are positive from the origin at the start, or nearly so. True for convex and
+  // star shapes.
   bool star_shaped = false;
   // A segment along the middle of the shape: a good view-line.
   std::array<Point, 2> axis = {{{0, 0, -0.5}, {0, 0, 0.5}}};
-  // Vertices from here on belong to a second piece; 0 when there is one.
+  // Vertices from this index on belong to a second piece; 0 if there is one piece only.
   std::int32_t second_piece = 0;
   Points holes;               // centres of holes at the start
-  std::vector<Point> q0, q1;  // view primitive, by frame; q1 empty for a point, both for none
+  std::vector<Point> q0, q1;  // view primitive by frame; q1 empty: a point; both: none
   std::vector<std::string> tags;
 
   Points& rest() { return frames.front(); }
@@ -35,7 +36,8 @@ struct Draft {
     rest().push_back(x);
     return vertices() - 1;
   }
-  // Corners counter-clockwise seen from outside; split along ac.
+  // Adds two triangles for the quad whose corners are given counter-clockwise as seen from
+  // outside. It is split along ac.
   void quad(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     faces.push_back({a, b, c});
     faces.push_back({a, c, d});
@@ -57,13 +59,14 @@ auto& any_of(Random& random, List& list) {
 // Drops vertices that no face uses, and numbers the rest in their order.
 void drop_unused_vertices(Draft& draft);
 
-// Drops all but the first of the faces with the same three vertices, and those that repeat one.
+// Drops faces that repeat a vertex, and of the faces with the same three vertices all but the
+// first.
 void drop_invalid_faces(Draft& draft);
 
-// Each edge (u,v) as often as (v,u).
+// Whether each edge (u,v) occurs as often as (v,u).
 bool is_cycle(const std::vector<Face>& faces);
 
-// The case; tags sorted, each once.
+// Turns the draft into a case. Its tags are sorted, each once.
 GeneratedCase finished(Draft draft, std::string id);
 
 }  // namespace assay::properties

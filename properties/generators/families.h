@@ -3,11 +3,11 @@
 // Every case is valid input: coordinates finite, no index repeated in a triangle, no two triangles
 // with the same three vertices. Options are left empty and no facts are stated.
 //
-// Sizes in triangles: half of the cases 4..12, 30 % 12..40, 15 % 40..100, 5 % 100..200; degenerate
-// and far families, where a step takes the oracle longest, 42 %, 6 % and 2 % after the first half.
-// (Shapes come as near as they can; what is broken or has pieces may have a few more.) Steps: 60 %
-// of the cases have 1, 20 % 2, 12 % 3, 8 % 4..8; those above 40 triangles at most 3, those made to
-// be positive at most 2.
+// Sizes in triangles: half of the cases 4..12, 30 % 12..40, 15 % 40..100, 5 % 100..200. In
+// degenerate and far families, where a step takes the oracle longest, the last three are 42 %, 6 %
+// and 2 %. (Shapes come as near to a size as they can; what is broken or has pieces may have a few
+// triangles more.) Steps: 60 % of the cases have 1, 20 % 2, 12 % 3, 8 % 4..8; cases above 40
+// triangles have at most 3, those made to be positive at most 2.
 #pragma once
 
 #include <span>
@@ -22,16 +22,16 @@ struct Family {
   std::string_view name;  // of the stratum
   std::string_view about;
   bool closed = false;      // every case is a cycle
-  bool degenerate = false;  // exact coincidences are frequent: the oracle needs its dear rungs
+  bool degenerate = false;  // exact coincidences are frequent: the oracle needs dear rungs
   GeneratedCase (*make)(Random&, std::string id);
 };
 
 // The strata's families in a fixed order.
 std::span<const Family> families();
 
-// The case of an id "campaign:seed:stratum:index". The id's hash is the only source of randomness:
-// any case can be made alone, with the same bytes on every machine. 10 us; a tenth of the cases has
-// a response (response.h), which costs some judgements of the oracle more.
+// Makes the case of an id "campaign:seed:stratum:index". The id's hash is the only source of
+// randomness, so any case can be made alone, with the same bytes on every machine. Takes 10 us. A
+// tenth of the cases has a response (response.h), which costs some judgements of the oracle more.
 GeneratedCase make_case(const Family& family, std::string_view id);
 
 }  // namespace assay::properties

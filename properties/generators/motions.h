@@ -1,4 +1,4 @@
-// Motions: what takes all vertices of one frame to the next.
+// A motion takes all vertices of one frame to the next.
 #pragma once
 
 #include <span>
@@ -9,27 +9,28 @@ namespace assay::properties {
 
 struct Motion {
   const char* name;
-  // Moves x, which starts as the last frame of the draft. `amount` in (0, 1]: at 1 the motion is of
-  // the size of the mesh, so that most shapes collide.
+  // Moves x, which is the last frame of the draft at first. `amount` is in (0, 1]; at 1 the motion
+  // is as large as the mesh, so that most shapes collide.
   void (*move)(Random& random, const Draft& draft, Points& x, double amount);
   int weight;
   bool exact;  // makes coincidences: for degenerate families only
   bool dear;   // brings all triangles into contact: for small meshes only
   // Takes many vertices through one plane or line at the same time, so that all contacts are
-  // degenerate: wanted in degenerate families only, roughened elsewhere.
+  // degenerate. That is wanted in degenerate families only; elsewhere the motion is roughened.
   bool level = false;
 };
 
 std::span<const Motion> motions();
 
-// `count` of the motions, each at most once, so that a case is made of few (swarm weights).
+// Chooses `count` of the motions, each at most once, so that a case is made of few of them (swarm
+// weights).
 std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too, bool dear_too);
 
-// Every vertex a little aside, by up to amount / 32.
+// Moves every vertex a little aside, by up to amount / 32.
 void roughen(Random& random, Points& x, double amount);
 
-// Each vertex along its own ray from `centre`, by up to a half: keeps every positive triangle
-// positive from there, between the frames too.
+// Moves each vertex along its own ray from `centre`, by up to a half. Every triangle that is
+// positive from `centre` stays positive from there, between the frames too.
 void breathe(Random& random, const Point& centre, Points& x, double amount);
 
 }  // namespace assay::properties

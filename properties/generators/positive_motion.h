@@ -1,4 +1,4 @@
-// Motions that keep a star shape positive from within: the premise of L4 and L5.
+// Motions that keep a star shape positive from within, which is the premise of L4 and L5.
 #pragma once
 
 #include "properties/generators/draft.h"

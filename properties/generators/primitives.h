@@ -8,8 +8,8 @@ namespace assay::properties {
 // Sets q0, q1 for all frames; tags "view:...". A third of the cases gets none.
 void choose_view(Random& random, Draft& draft);
 
-// For meshes that are positive from `drift`, a place for each frame: none, a point there or a short
-// segment about it.
+// For meshes that are positive from `drift`, which has a place for each frame. The view is none, a
+// point there, or a short segment about it.
 void choose_inner_view(Random& random, Draft& draft, const Points& drift);
 
 }  // namespace assay::properties

@@ -10,7 +10,8 @@ struct Recipe {
   bool exact = false;  // small integers and dyadics, exact aims and collapses
   bool near = false;   // ulp neighbours, slivers, aims just missed
   bool far = false;    // far from the origin, scales, denormals, large steps
-  // Percent of the cases: all positive by construction; with an aimed contact.
+  // Percentages of the cases that are positive by construction, and of those with an aimed
+  // contact.
   int positive = 0, aimed = 0;
 };
 

@@ -1,4 +1,5 @@
-// How often each tag and each block of set pairs occurs in a run: what the generators reached.
+// Counts how often each tag and each block of set pairs occurs in a run, which shows what the
+// generators reached.
 #pragma once
 
 #include <array>
@@ -13,15 +14,16 @@
 
 namespace assay::properties {
 
-// The view sets of a pair's two triangles (L3, detector/README.md); Vv goes before the signs.
+// The view sets of a pair's two triangles (L3, detector/README.md). A triangle in Vv counts as
+// violated, whatever its sign.
 enum class PairBlock : std::uint8_t {
   positive_negative,
   positive_zero,
   negative_zero,
   zero_zero,
-  violated,  // one of them at least
+  violated,  // at least one triangle is in Vv
   positive_positive,
-  negative_negative,  // the last two are outside K, unless of two groups
+  negative_negative,  // the last two are outside K, unless in two groups
 };
 inline constexpr std::size_t kPairBlocks = 7;
 
@@ -30,9 +32,10 @@ PairBlock block_of(detector::ViewSign a, detector::ViewSign b, bool either_viola
 
 class TagTable {
  public:
-  // One case, and how many of its steps collide.
+  // Adds one case, and how many of its steps collide.
   void add(const std::vector<std::string>& tags, std::uint64_t steps, std::uint64_t collisions);
-  // The contacts of one step. By triangle: signs of all; Vv as 0 or 1, or empty for none.
+  // Adds the contacts of one step. Both spans are by triangle: the signs of all, and Vv as 0 or 1,
+  // or empty if no triangle is in Vv.
   void add_contacts(const detector::TrianglesView& triangles,
                     const oracle::StepJudgement& judgement,
                     std::span<const detector::ViewSign> signs,
@@ -42,7 +45,7 @@ class TagTable {
   struct TagCount {
     std::uint64_t cases = 0, steps = 0, collisions = 0;
   };
-  // Pairs by number of shared vertices: 0, 1, 2.
+  // Each array is by the number of vertices that a pair shares: 0, 1, 2.
   struct BlockCount {
     std::array<std::uint64_t, 3> contacts = {}, first_contacts = {};
   };

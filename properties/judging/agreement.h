@@ -1,4 +1,4 @@
-// The diff of one step: what a detector answered against what the oracle found.
+// Compares one step of a detector with the oracle: the diff says how their answers differ.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace assay::properties {
 enum class Outcome : std::uint8_t { holds, defect, undecided, error };
 
 const char* name_of(Outcome outcome);
-using corpus::name_of;  // of detector::Answer
+using corpus::name_of;  // the words of detector::Answer
 const char* name_of(detector::FeatureKind kind);
 
 // A pair whose first time the detector has wrong.
@@ -25,87 +25,106 @@ struct WrongTime {
   detector::TimeEnclosure detector, oracle;
 };
 
-// Two first times, and by which share of the step the detector's interval begins after the exact
-// time or ends before it: 0 where it does neither.
+// The first time of the detector and of the oracle. `late_by` is the share of the step by which
+// the detector's interval begins after the exact time, `early_by` the share by which it ends
+// before it; both are 0 if the interval does neither.
 struct FirstTimes {
   detector::TimeEnclosure detector, oracle;
   double late_by = 0, early_by = 0;
 };
 
-// How many candidate pairs there are, and how many pairs that count are in contact: the least
-// possible.
+// How many candidate pairs the detector gave, and the least possible number: the pairs in contact
+// that count.
 struct CandidateCount {
   std::uint64_t given = 0, least = 0;
 };
 
 struct StepDiff {
   Outcome outcome = Outcome::holds;
-  std::vector<Claim> broken;   // claimed, and refuted by this step
-  bool partial = false;        // detector or oracle was stopped: only what both reached is compared
-  bool answered_free = false;  // against a contact that counts
-  bool answered_collision = false;               // against none at all
-  bool late_first = false, early_first = false;  // collision at both, by more than the tolerance
-  // Of the oracle, not of the detector. Empty for a detector that reports no pairs.
+  std::vector<Claim> broken;  // claims of the detector that this step refutes
+  // The detector or the oracle was stopped: only what both reached is compared.
+  bool partial = false;
+  bool answered_free = false;       // `free`, although there is a contact that counts
+  bool answered_collision = false;  // `collision`, and there is no contact at all
+  // Both answer collision, and the detector's first time is off by more than the tolerance.
+  bool late_first = false, early_first = false;
+  // Pairs of the oracle that the detector does not report. Empty for a detector that reports no
+  // pairs.
   std::vector<detector::PairContact> missing;
-  std::vector<detector::PairContact> excused;   // missing, but outside of what is claimed
-  std::vector<detector::PairContact> spurious;  // of the detector, not of the oracle
-  std::vector<WrongTime> late, early;           // late is unsafe
+  std::vector<detector::PairContact> excused;   // missing, but not claimed
+  std::vector<detector::PairContact> spurious;  // reported, but not in contact
+  // Pairs whose time is late, which is unsafe, or early.
+  std::vector<WrongTime> late, early;
 
-  // Of what counts, the earliest contact; nothing where there is none.
+  // The earliest contact that counts; nothing if there is none.
   std::optional<detector::PairContact> first_contact;
-  // The detector's first time and the exact one of what counts, where both answer collision.
+  // The detector's first time, and the exact one of the contacts that count, if both answer
+  // collision.
   std::optional<FirstTimes> first;
 
-  // Whether it is a wrong answer, whatever is claimed.
+  // The answer is wrong, whatever the detector claims.
   bool wrong_answer() const { return answered_free || answered_collision; }
   bool wrong_first_time() const { return late_first || early_first; }
 
-  // Pairs in contact that the contract lets the detector leave out, and whether the leave is what
-  // saves the step from being a miss: else `free`, or the first time, would be wrong.
+  // Pairs in contact that the contract lets the detector leave out. `left_out_missed`: only
+  // because of that leave is the step no miss. If these pairs counted, the answer `free`, or the
+  // first time, would be wrong.
   std::vector<detector::PairContact> left_out;
   bool left_out_missed = false;
 
-  // Of a detector that claims candidates (candidate_check.h); nothing where it failed to give them.
+  // Only for a detector that claims candidates (candidate_check.h); nothing if it failed to give
+  // them.
   std::optional<CandidateCount> candidates;
   std::vector<detector::PairContact> missing_candidates;
-  bool has_answer = true;  // false: of a library of candidates alone
+  bool has_answer = true;  // false: the library gives candidates alone, no answers
 };
 
-// Judges a step by what its detector claims. The oracle's pairs outside of the contract's
-// adjacency and features do not count against the detector, and its first time t* is that of the
-// others; a reported one of them is not spurious. The detector's times are intervals: right when
-// they hold the oracle's time, late when they begin after it, each by more than the contract's
-// tolerance (compared in doubles: a tolerance of 0 exactly, another to 1e-16). A missing pair is
-// excused, where all-pairs is not claimed, when it is later than t* or when its part of the
-// contact graph at t* (triangles as nodes, pairs in contact at t* as edges) holds a reported pair.
-// With a margin no-spurious is not judged. A step that was answered by an error breaks `total`, or
-// is Outcome::error where that is not claimed. `deterministic` needs two runs: same_answers. O(n
-// log n) in the number of pairs.
+// Judges a step by what its detector claims. Pairs of the oracle that lie outside of the
+// contract's adjacency and features do not count against the detector: its first time is compared
+// with t*, the first time of the other pairs. If the detector does report such a pair, it is not
+// spurious.
 //
-// What breaks a claim. free-sound: `free` against a contact. not-late: a first time that is late.
-// first-time: a first time that is wrong. first-pairs: a missing pair without excuse. all-pairs: a
-// missing or late pair. no-spurious: `collision` against none, a spurious or an early pair.
+// The detector's times are intervals. An interval is right if it holds the oracle's time, late if
+// it begins after that time, and early if it ends before it, each by more than the contract's
+// tolerance (compared in doubles: a tolerance of 0 exactly, another to 1e-16).
 //
-// REQUIRES a judgement by asked_features(contract).
+// A missing pair is excused if all-pairs is not claimed and one of two things holds: the pair is
+// in contact later than t* only, or its part of the contact graph at t* (triangles as nodes, pairs
+// in contact at t* as edges) holds a reported pair.
+//
+// If the contract has a margin, no-spurious is not judged. A step that was answered by an error
+// breaks `total`, or is Outcome::error if `total` is not claimed. `deterministic` is not judged
+// here, because it needs two runs: same_answers. O(n log n) in the number of pairs.
+//
+// What breaks a claim:
+// - free-sound: the answer `free`, although there is a contact.
+// - not-late: a first time that is late.
+// - first-time: a first time that is late or early.
+// - first-pairs: a missing pair without excuse.
+// - all-pairs: a missing pair, or a late one.
+// - no-spurious: `collision` although there is no contact, a spurious pair, or an early one.
+//
+// REQUIRES a judgement of the oracle that was asked for asked_features(contract).
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const Claims& claims, const Contract& contract,
                  const detector::TrianglesView& triangles);
 
-// What the oracle is asked for under this contract.
+// The features that the oracle is to be asked for under this contract.
 oracle::AskedFeatures asked_features(const Contract& contract);
 
-// The built-in detector, by claims_of(options): in exact arithmetic its times are unique
-// enclosures, so each must agree in every bit; in others they are intervals. An input error is
-// Outcome::error.
+// Judges a step of the built-in detector by claims_of(options). In exact arithmetic its times are
+// unique enclosures, so each must agree with the oracle's in every bit; in the other arithmetics
+// they are intervals. An input error is Outcome::error.
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const detector::Options& options);
-// The same in exact arithmetic.
+// The same for the built-in detector in exact arithmetic.
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  detector::Pairs claimed);
 
-// At which stage of the detector a pair that it misses was lost, found by running the step with
-// less culling: "view sets" when culling bvh finds it, "pair search" when only culling none does
-// (tried for meshes of up to 2,000 triangles), "elementary test" when neither does.
+// The stage of the detector at which a missed pair was lost. It is found by running the step with
+// less culling: "view sets" if culling bvh finds the pair, "pair search" if only culling none
+// does, "elementary test" if neither does. Culling none is tried for meshes of up to 2,000
+// triangles; for a larger one the answer is "pair search or elementary test".
 std::string stage_that_lost(const detector::TrianglesView& triangles,
                             const detector::PositionsView& x_t0,
                             const detector::PositionsView& x_t1, detector::TrianglePair pair);

@@ -1,4 +1,5 @@
-// Runs a case of the corpus through detector and oracle and compares both with its expected facts.
+// Runs a case of the corpus through detector and oracle, and compares both with its expected
+// facts.
 #pragma once
 
 #include <string>
@@ -23,11 +24,13 @@ struct CaseReport {
   std::vector<CaseStepReport> steps;
 };
 
-// Detector options from the case's own (case_options.h), with `culling` and `arithmetic` in place
-// of the case's when given. The case's view primitive is used where the culling is one of views.
-// Facts compared: refusal or answer, first time, pair set (detector and oracle), view signs
-// (detector where it tested the triangle, oracle always), agreement of detector and oracle. The
-// detector's answer, pairs and signs are held to what its arithmetic claims.
+// Runs the case with its own options (case_options.h); `culling` and `arithmetic` replace the
+// case's if they are given. The case's view primitive is used if the culling uses views.
+//
+// The facts compared are: refusal or answer, first time, pair set (of detector and oracle), view
+// signs (of the detector if it tested the triangle, always of the oracle), and the agreement of
+// detector and oracle. The detector's answer, pairs and signs are held to what its arithmetic
+// claims.
 CaseReport check_case(const corpus::Case& c, std::optional<detector::Culling> culling = {},
                       int jobs = 1, std::optional<detector::Arithmetic> arithmetic = {});
 

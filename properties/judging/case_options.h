@@ -1,5 +1,5 @@
-// The detector's options in words: those of a case file, and of the command line for the first
-// four.
+// The words for the detector's options in case files. The command line has words for the first
+// four options.
 #pragma once
 
 #include <map>
@@ -13,13 +13,13 @@
 
 namespace assay::properties {
 
-// Nothing for an unknown word.
+// The option that a word stands for; nothing for an unknown word.
 std::optional<detector::Culling> culling_named(std::string_view word);
 std::optional<detector::Start> start_named(std::string_view word);
 std::optional<detector::Pairs> pairs_named(std::string_view word);
 std::optional<detector::Arithmetic> arithmetic_named(std::string_view word);
-// The coarse forms, each as sound as the default: in a case file alone, for they are there to be
-// compared on a mesh, not to be chosen in daily use.
+// These two have coarse forms, each as sound as the default. Only case files can choose them,
+// because they are there to be compared on a mesh and not for daily use.
 std::optional<detector::Release> release_named(std::string_view word);
 std::optional<detector::GhostTest> ghost_test_named(std::string_view word);
 
@@ -30,15 +30,16 @@ const char* name_of(detector::Arithmetic arithmetic);
 const char* name_of(detector::Release release);
 const char* name_of(detector::GhostTest ghost_test);
 
-// The options that a case states, the others as they are by default. unknown_option for a name or a
-// word that is none; the case's file is not named.
+// The options that a case states; the others are the defaults. unknown_option for an unknown name
+// or word; the problem does not name the case's file.
 Expected<detector::Options> read_options(const corpus::Case& c);
 
-// The same for a case whose options are known to be understood. What is not understood is left out.
+// The same for a case whose options are known to be understood. Options that are not understood
+// are ignored.
 detector::Options options_of(const corpus::Case& c);
 
-// Options as a case states them: culling, start and pairs always, the others where they are not the
-// default.
+// The words with which a case states these options: culling, start and pairs always, the others if
+// they are not the default.
 std::map<std::string, std::string, std::less<>> options_text(const detector::Options& options);
 
 }  // namespace assay::properties

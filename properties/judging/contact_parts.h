@@ -1,4 +1,4 @@
-// The places of contact at a time: parts of the contact graph.
+// The places of contact at one time, as parts of the contact graph.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@ namespace assay::properties {
 
 using ContactPart = std::vector<detector::PairContact>;
 
-// Triangles are nodes and the pairs whose first time is `time` are edges; the connected parts, each
-// with its pairs. Two times that share an enclosure count as one: parts may then be joined, never
-// split. O(n log n).
+// The connected parts of the contact graph, each with its pairs. Triangles are nodes, and the
+// pairs whose first time is `time` are edges. Two times that share an enclosure count as one;
+// parts may then be joined, but never split. O(n log n).
 std::vector<ContactPart> contact_parts(const std::vector<detector::PairContact>& pairs,
                                        const detector::TimeEnclosure& time);
 

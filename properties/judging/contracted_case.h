@@ -1,4 +1,4 @@
-// A case as a detector's contract has it: what detector and oracle are both given.
+// A case as a detector's contract has it. Both the detector and the oracle are given this case.
 #pragma once
 
 #include <optional>
@@ -8,15 +8,16 @@
 
 namespace assay::properties {
 
-// Coordinates rounded, and without the steps that the contract leaves out: those that start in
-// contact, or too near to it. The frame at which the first of the others starts is the first
-// frame, for a detector is made there. Nothing when a coordinate is beyond what the contract can
-// hold, or no step is left: then the case is none for this detector. A query (query_case.h) is
-// taken or not as a whole; what says that it is one and is none is not taken.
+// The case with coordinates rounded, and without the steps that the contract leaves out because
+// they start in contact, or too near to it. The frame at which the first remaining step starts
+// becomes the first frame, because the detector is made there. Nothing if a coordinate is beyond
+// what the contract can hold, or if no step is left: the case is then not for this detector. A
+// query (query_case.h) is taken or left out as a whole; a case that says that it is a query and is
+// none is not taken.
 std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& contract);
 
-// The same case with the steps of these places alone, ascending, and the frames that they use.
-// REQUIRES at least one place.
+// The case with only the steps at these places, ascending, and the frames that they use. REQUIRES
+// at least one place.
 corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places);
 
 }  // namespace assay::properties

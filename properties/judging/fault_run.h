@@ -1,4 +1,4 @@
-// A planted fault on a case of the corpus, judged by the oracle.
+// Runs a planted fault on a case of the corpus, judged by the oracle.
 #pragma once
 
 #include <optional>
@@ -14,24 +14,25 @@
 
 namespace assay::properties {
 
-// The case's script through a detector of these stages, one result a step. The case's own view
-// primitive is used where the culling is one of views. A mesh that is refused gives the answer
-// `error` in every step.
+// Runs the case's script through a detector of these stages, and returns one result for each step.
+// The case's own view primitive is used if the culling uses views. If the mesh is refused, every
+// step has the answer `error`.
 std::vector<detector::StepResult> run_case(const corpus::Case& c, const detector::Options& options,
                                            const detector::Stages& stages);
 std::vector<detector::StepResult> run_case(const corpus::Case& c, const Fault& fault);
 
-// The same run disturbed: each step is first evaluated and stopped, at one asking after the other,
-// and evaluated whole behind each stop; then taken while a second detector of such stages works on
-// the same step in between. A detector takes no notice: undecided evaluations change nothing, and
-// two detectors share nothing. Of a step one result is given, one that differs from `undisturbed`
-// where there is one.
+// Runs the case in the same way, but disturbed. Each step is first evaluated with a stop: at the
+// first time that the detector asks, then at the second and so on; after each stopped evaluation
+// it is evaluated whole. Then it is taken while a second detector of the same stages works on the
+// same step in between. A right detector gives the same results as undisturbed, because undecided
+// evaluations change nothing and two detectors share nothing. One result is returned for each
+// step: one that differs from `undisturbed`, if there is one.
 using MakeStages = detector::Stages (*)(const detector::Options&);
 std::vector<detector::StepResult> run_disturbed(const corpus::Case& c,
                                                 const detector::Options& options, MakeStages stages,
                                                 std::span<const detector::StepResult> undisturbed);
-// To compare the two: without the counts of marking, which rest on the marking before, be its step
-// committed or not.
+// The results as a run that can be compared with another: without the counts of marking, because
+// these depend on the marking before, whether its step was committed or not.
 CaseRun without_marking_counts(std::vector<detector::StepResult> results);
 
 // A step at which a detector does not keep what its options claim.
@@ -40,15 +41,16 @@ struct StepDefect {
   StepDiff diff;
 };
 
-// The first one; judgements: of judge_case. Of a fault that shows in a disturbed run, also the
-// first step at which that run differs.
+// The first step with a defect. `judgements` are those of judge_case. For a fault that shows only
+// in a disturbed run, the first step in which that run differs counts too.
 std::optional<StepDefect> first_defect(std::span<const detector::StepResult> results,
                                        std::span<const oracle::StepJudgement> judgements,
                                        detector::Pairs claimed);
 std::optional<StepDefect> first_defect(const corpus::Case& c, const Fault& fault,
                                        std::span<const oracle::StepJudgement> judgements);
 
-// The detector itself, with the options of the fault: it must hold where the fault does not.
+// The same for the right detector with the options of the fault. It must hold where the fault does
+// not.
 std::optional<StepDefect> first_defect_without(const corpus::Case& c, const Fault& fault,
                                                std::span<const oracle::StepJudgement> judgements);
 

@@ -7,14 +7,17 @@
 
 namespace assay::properties {
 
-// The exact answer to the query alone, as the judgement of its case (query_case.h): a contact is
-// one of triangles 0 and 1, by the two features that are asked. Cost: oracle/query/contact.h.
+// The exact answer to the query alone, in the form of a judgement of its case (query_case.h). A
+// contact is one of triangles 0 and 1, by the two features that are asked. Cost:
+// oracle/query/contact.h.
 oracle::StepJudgement judge_query(const detector::FourPoints& query);
 
-// Whether a contract takes it: the kind of its features, and how these lie at t = 0.
+// Whether a contract takes the query. This depends on the kind of its features, and on how they
+// lie at t = 0.
 bool takes(const Contract& contract, const detector::FourPoints& query);
 
-// The contract under which an answer is judged: two features of a query are no neighbours.
+// The contract under which an answer to a query is judged. Adjacency leaves nothing out of it,
+// because the two features of a query are no neighbours.
 Contract on_queries(const Contract& contract);
 
 }  // namespace assay::properties

@@ -15,17 +15,17 @@ namespace assay::properties {
 struct JudgedRun {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> broken;        // in the order of Claim, each once
-  std::string what;                 // how the run ended, where it did not complete
-  std::uint64_t disturbances = 0;   // how often it was killed from outside, and began anew
-  std::vector<StepDiff> steps;      // of a completed run
+  std::string what;                 // how the run ended, if it did not complete
+  std::uint64_t disturbances = 0;   // how often it was killed from outside and repeated
+  std::vector<StepDiff> steps;      // only of a completed run
   std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss
 };
 
-// The oracle on every step of a case.
+// The judgement of the oracle on every step of a case.
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
                                               const oracle::JudgeOptions& options = {});
-// The same, asked for what the contract takes; of a query (query_case.h) it alone. REQUIRES a
-// contracted case.
+// The same, for what the contract takes; for a query (query_case.h) only the query is judged.
+// REQUIRES a contracted case.
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contract& contract,
                                               int jobs = 1);
 
@@ -35,11 +35,14 @@ StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudge
                       const Claims& claims, const Contract& contract,
                       const detector::TrianglesView& triangles);
 
-// REQUIRES judgements of the same case, contracted. A crash or a refusal of a case that is not
-// expected to be refused breaks `total` (where that is not claimed: Outcome::error); a hang, or the
-// want of memory, is undecided; `again`, a second run, breaks `total` when it crashes and
-// `deterministic` when it differs. A run that did not take place is Outcome::error. Without
-// judgements only these are judged.
+// Judges a run. How it ended decides first:
+// - A crash breaks `total`, and so does a refusal, unless the case is expected to be refused. If
+//   `total` is not claimed they are Outcome::error.
+// - A hang, or a lack of memory, is undecided.
+// - A run that did not take place is Outcome::error.
+// - `again` is a second run. It breaks `total` if it crashes, and `deterministic` if it differs.
+//
+// Without judgements only these are judged. REQUIRES judgements of the same contracted case.
 JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
                     std::span<const oracle::StepJudgement> judgements, const Claims& claims,
                     const Contract& contract, const CaseRun* again = nullptr);

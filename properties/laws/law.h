@@ -18,8 +18,8 @@ class CaseFacts;
 
 struct LawTally {
   std::uint64_t premise = 0;  // steps in which the premise held
-  std::uint64_t close = 0;    // of these, the close ones
-  std::uint64_t broken = 0;   // of these, the ones that refute the law
+  std::uint64_t close = 0;    // steps of these that were close
+  std::uint64_t broken = 0;   // steps of these that refute the law
   std::string first_broken;   // case id, step, what; of several tallies the least text
 
   LawTally& operator+=(const LawTally& other);
@@ -29,10 +29,11 @@ struct LawTally {
 struct Law {
   std::string_view name;       // "L4_AllPositiveIsCollisionFree_Line"
   std::string_view number;     // "L1" .. "L15"; "sets", "claim", "change" for what has no number
-  std::string_view statement;  // in one or two sentences
-  std::string_view needs;      // of the oracle
+  std::string_view statement;  // the law in one or two sentences
+  std::string_view needs;      // what the law asks of the oracle
   void (*check)(CaseFacts&, LawTally&);  // adds what it met in this case
-  // A LawTable asks it of one case in so many: laws that run the case again are dear.
+  // A LawTable checks the law on one case in so many, because laws that run the case again are
+  // dear.
   int one_in = 1;
 };
 

@@ -1,4 +1,4 @@
-// The files that laws are written in; each holds a few that speak of one thing.
+// One function for each file in which laws are written. A file holds a few laws about one thing.
 #pragma once
 
 #include <span>

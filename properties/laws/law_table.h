@@ -1,4 +1,4 @@
-// How often each law was met over many cases, and whether it held.
+// Counts how often each law was met over many cases, and whether it held.
 #pragma once
 
 #include <string>
@@ -8,12 +8,14 @@
 
 namespace assay::properties {
 
-// Adding cases and merging tables give the same in any order: shards and threads may have one each.
+// The order in which cases are added and tables are merged does not matter, so shards and threads
+// may have one each.
 class LawTable {
  public:
   LawTable();
 
-  // Puts every law to the case, a dear one to its share of the cases, chosen by the case's id.
+  // Checks every law on the case. A dear law is checked on its share of the cases, chosen by the
+  // case's id.
   void add(CaseFacts& facts);
   void merge(const LawTable& other);
 
@@ -23,7 +25,8 @@ class LawTable {
   // The laws met less often than `premises`, or close in a smaller share than `least_close`.
   std::vector<const Law*> starved(std::uint64_t premises, double least_close) const;
 
-  // One line a law: name, premise, share of close ones, broken; below it what first broke it.
+  // One line for each law: name, premise, share of close ones, broken; below it what first broke
+  // it.
   std::string text() const;
 
  private:

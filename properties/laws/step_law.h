@@ -1,4 +1,4 @@
-// How a law is written: a function that looks at one step (or at a whole case).
+// How a law is written: as a function that looks at one step (or at a whole case).
 #pragma once
 
 #include <optional>
@@ -9,7 +9,8 @@
 
 namespace assay::properties {
 
-// Nothing where the premise does not hold; else what is wrong, empty when the law holds.
+// What a law observes: nothing if its premise does not hold; else what is wrong, as a text that is
+// empty if the law holds.
 using Observation = std::optional<std::string>;
 
 inline Observation not_met() { return std::nullopt; }
@@ -18,7 +19,7 @@ inline Observation holds_if(bool condition, std::string_view otherwise) {
   return condition ? holds() : Observation(otherwise);
 }
 
-// Share of the cases for laws that run the case again.
+// A law that runs the case again is checked on one case in this many.
 inline constexpr int dear = 16;
 
 // Whether the law was close in a step in which its premise held (law.h).

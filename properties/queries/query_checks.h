@@ -1,4 +1,4 @@
-// One query through all methods and one invariance; what contradicts what.
+// Puts one query to all methods and tries one invariance, and tells what contradicts what.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,20 @@ struct QueryTally {
   std::uint64_t contradictions = 0;
   std::uint64_t open = 0;         // a method could not tell
   std::uint64_t invariances = 0;  // changes of a query that could be applied
-  oracle::RungCounts rungs;       // of the oracle's timed answer
+  oracle::RungCounts rungs;       // the rungs of the oracle's timed answer
   QueryTally& operator+=(const QueryTally& other);
 };
 
-// Compares every method and the invariance that `pick` chooses (the next that can be applied) with
-// the oracle's timed answer: verdicts equal, times equal in every bit, a known contact found and
-// not late. Returns what contradicts, or nothing. Dearest part: the oracle, three to five times.
+// Compares every method, and the invariance that `pick` chooses (or the next one that can be
+// applied), with the oracle's timed answer: verdicts are equal, times are equal in every bit, and
+// a known contact is found and is not late. Returns what contradicts, or nothing. The dearest part
+// is the oracle, which is asked three to five times.
 std::optional<std::string> check_query(const GeneratedQuery& made, std::uint64_t pick,
                                        QueryTally& tally);
 
 // The kind and all coordinates as hexadecimal doubles, one point a line.
 std::string exact_text(const Query& query);
-// "contact at [0x1p-1, 0x1p-1]"; the oracle's answer and those of all methods, one a line.
+// "contact at [0x1p-1, 0x1p-1]": the answers of the oracle and of all methods, one a line.
 std::string answers_text(const Query& query);
 
 }  // namespace assay::properties

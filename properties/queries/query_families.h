@@ -8,11 +8,11 @@
 
 namespace assay::properties {
 
-// "query-small-int" and so on, a family for each generator of query_generators.h, and
+// One family for each generator of query_generators.h, "query-small-int" and so on, and
 // "query-extreme". make_case (families.h) makes their cases, each from its id alone.
 std::span<const Family> query_families();
 
-// Of meshes or queries; null where there is none of this name.
+// The family of this name, be it of meshes or of queries; null if there is none.
 const Family* find_family(std::string_view name);
 bool is_query_family(std::string_view name);
 

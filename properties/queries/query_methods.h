@@ -1,5 +1,4 @@
-// The methods that answer an elementary contact query, as a list: what one says of a query all
-// others must say too.
+// A list of the methods that answer an elementary contact query. They must all agree.
 #pragma once
 
 #include <optional>
@@ -16,7 +15,7 @@ using Query = detector::FourPoints;
 
 struct MethodAnswer {
   detector::Decision decision = detector::Decision::open;  // open: the method cannot tell
-  std::optional<detector::TimeEnclosure> first;            // set when it answers with a time
+  std::optional<detector::TimeEnclosure> first;            // set if the method answers with a time
 };
 
 struct QueryMethod {
@@ -24,9 +23,9 @@ struct QueryMethod {
   MethodAnswer (*answer)(const Query& query);
 };
 
-// All but the oracle's timed answer, which they are compared with: the oracle asked for yes or no,
-// the detector's ladder (yes or no, and timed), the detector's integers alone, and the second
-// referee, which has no times and leaves touches open.
+// All methods but the oracle's timed answer, with which they are compared: the oracle asked for
+// yes or no, the detector's ladder (yes or no, and timed), the detector's integers alone, and the
+// second referee, which has no times and leaves touches open.
 std::span<const QueryMethod> query_methods();
 
 oracle::ContactAnswer ask_oracle(const Query& query, detector::Want want);

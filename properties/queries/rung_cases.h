@@ -1,5 +1,6 @@
-// Named queries, each with the answer, the first time and the rung of the oracle that must decide:
-// a rung that gave up its share would still answer rightly, only slowly.
+// Named queries, each with the answer, the first time, and the rung of the oracle that must decide
+// it. The rung is checked because a rung that left its share to the next one would still answer
+// rightly, only more slowly.
 #pragma once
 
 #include <span>

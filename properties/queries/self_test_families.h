@@ -22,22 +22,24 @@ class SelfTestFamily {
 
   const std::string& name() const { return name_; }
   const std::string& about() const { return about_; }
-  // Indices to check when `queries` random small-integer queries are asked for.
+  // How many indices to check if `queries` random small-integer queries are asked for.
   virtual std::uint64_t indices(std::uint64_t queries) const = 0;
-  // Checks a case; what is wrong with it, or nothing. Some indices of a small world hold no case.
+  // Checks a case. Returns what is wrong with it, or nothing. Some indices of a small world hold
+  // no case.
   virtual std::optional<std::string> check(std::uint64_t seed, std::uint64_t index,
                                            QueryTally& tally) const = 0;
-  // Its query, where it is one; nothing for whole steps.
+  // The query of the case, if it is one; nothing for whole steps.
   virtual std::optional<Query> query_at(std::uint64_t seed, std::uint64_t index) const = 0;
-  // The case, exactly, and what each method says of it.
+  // The case with its exact numbers, and what each method says of it.
   virtual std::string text(std::uint64_t seed, std::uint64_t index) const = 0;
 
  private:
   std::string name_, about_;
 };
 
-// Cheap and most telling first: named queries with the rung that must decide them, small worlds,
-// whole small steps, random queries, then the larger worlds (only when many queries are asked for).
+// All families, the cheap and most telling ones first: named queries with the rung that must
+// decide them, small worlds, whole small steps, random queries, then the larger worlds (only if
+// many queries are asked for).
 const std::vector<std::unique_ptr<const SelfTestFamily>>& self_test_families();
 
 }  // namespace assay::properties

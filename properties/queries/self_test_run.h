@@ -1,4 +1,4 @@
-// The oracle's own check: families of queries by all methods, in several threads.
+// Runs the oracle's own check: families of queries go through all methods, in several threads.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace assay::properties {
 
 struct SelfTestOptions {
   std::uint64_t seed = 1;
-  std::uint64_t queries = 20'000;  // random small-integer queries; the other families follow it
+  std::uint64_t queries = 20'000;  // random small-integer queries; sets the size of the others too
   int jobs = 1;                    // threads; counts and failures do not depend on it
   std::function<bool()> stop;      // asked between cases, from any thread; may be empty
   bool stop_at_contradiction = false;
@@ -31,11 +31,11 @@ struct FamilyResult {
   std::vector<SelfTestFailure> failures;  // the first few, ascending by index
 };
 
-// `done` is told how many indices of the family are behind; from one thread at a time.
+// `progress` is told how many indices of the family are done, from one thread at a time.
 FamilyResult run_family(const SelfTestFamily& family, const SelfTestOptions& options,
                         const std::function<void(std::uint64_t done)>& progress);
 
-// A case by its name "family:seed:index"; nothing when there is no such case.
+// A case of the self-test, found by its name "family:seed:index"; nothing if there is none.
 struct SelfTestCase {
   const SelfTestFamily* family = nullptr;
   std::uint64_t seed = 0, index = 0;

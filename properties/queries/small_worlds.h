@@ -1,6 +1,7 @@
 // Small worlds, enumerated completely: all queries whose points lie on a tiny grid at t=0 and t=1,
-// one of each class under the symmetries that change neither the answer nor the time (order of the
-// vertices in a group, order of the two edges, axes exchanged, axes mirrored).
+// one of each class under the symmetries that change neither the answer nor the time. These are
+// the order of the vertices in a group, the order of the two edges, axes exchanged, and axes
+// mirrored.
 #pragma once
 
 #include <array>
@@ -17,12 +18,14 @@ enum class WorldMotion : std::uint8_t { every_point_moves, one_point_moves };
 
 class SmallWorld {
  public:
-  // Grid of side^dimensions points, coordinates 0..side-1 (-1..1 when side is 3), the other axes 0.
+  // A grid of side^dimensions points with coordinates 0..side-1 (-1..1 if side is 3); coordinates
+  // on the other axes are 0.
   SmallWorld(int side, int dimensions, WorldMotion motion);
 
-  // Places of the enumeration; most hold no query, as an equal one stands at another place.
+  // The number of places of the enumeration. Most hold no query, because an equal one stands at
+  // another place.
   std::uint64_t places() const;
-  // The query at a place, or nothing. 10 ns to 2 us.
+  // The query at a place, or nothing. Takes 10 ns to 2 us.
   std::optional<Query> at(std::uint64_t place) const;
 
  private:

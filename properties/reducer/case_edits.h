@@ -1,9 +1,10 @@
 // Changes of a case from which the reducer's passes are made. Each returns a new case with nothing
-// unused in it: vertices without a triangle and frames without a step go, indices are renumbered in
-// their old order, the expected facts (they were of the old case) are cleared.
+// unused in it: vertices without a triangle and frames without a step are dropped, indices are
+// renumbered in their old order, and the expected facts are cleared, because they were those of
+// the old case.
 //
-// Where a case has ghosts they are made anew from the unmatched edges of the new mesh; each fan
-// takes the apex of an old fan that it shares a vertex with, or else the mean of its loop.
+// If a case has ghosts, they are made anew from the unmatched edges of the new mesh. Each fan
+// takes the apex of an old fan with which it shares a vertex, or else the mean of its loop.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +15,9 @@
 
 namespace assay::properties {
 
-// At least one triangle, step and frame; indices in range, none twice in a triangle; no two
-// triangles with the same three vertices; coordinates finite; frames, view and apexes of equal
-// lengths. Only such cases are judged.
+// Whether the case is valid; only valid cases are judged. It has at least one triangle, step and
+// frame; indices are in range, none twice in a triangle; no two triangles have the same three
+// vertices; coordinates are finite; frames, view and apexes have equal lengths.
 bool is_valid(const corpus::Case& c);
 
 inline std::size_t vertex_count(const corpus::Case& c) {
@@ -28,21 +29,23 @@ corpus::Case with_triangles(const corpus::Case& c,
 
 std::vector<std::array<std::int32_t, 3>> triangles_of(const corpus::Case& c);
 
-// Triangles t with keep[t] != 0.
+// The case with the triangles t for which keep[t] != 0.
 corpus::Case keep_triangles(const corpus::Case& c, const std::vector<std::uint8_t>& keep);
 
-// Vertex v becomes target[v] (followed until it ends; no circles). Triangles that thereby repeat an
-// index go, and so do pairs of equal, oppositely oriented triangles: a cycle stays a cycle.
+// The case in which vertex v becomes target[v] (followed until it ends; REQUIRES no circles).
+// Triangles that thereby repeat an index are dropped, and so are pairs of equal, oppositely
+// oriented triangles, so that a cycle stays a cycle.
 corpus::Case merge_vertices(const corpus::Case& c, const std::vector<std::int32_t>& target);
 
-// Closes each loop of unmatched edges with a fan from the loop's vertex number `corner` (modulo its
-// length): no new vertex. A closed mesh is returned as it is.
+// Closes each loop of unmatched edges with a fan from the loop's vertex number `corner` (modulo
+// its length), without a new vertex. A closed mesh is returned as it is.
 corpus::Case close_loops(const corpus::Case& c, std::size_t corner);
 
-// Seen from a fixed point: the mean of all places of all vertices.
+// The case seen from a fixed point, the mean of all places of all vertices.
 corpus::Case seen_from_its_middle(const corpus::Case& c);
 
-// These steps only; the script is left out where it says no more than consecutive frames do.
+// The case with these steps only. The script is left out if it says no more than that consecutive
+// frames are the steps.
 corpus::Case with_steps(const corpus::Case& c, const std::vector<corpus::CaseStep>& steps);
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-// How large a case is: the order in which the reducer prefers one case to another.
+// How large a case is. The reducer prefers smaller cases in this order.
 #pragma once
 
 #include <compare>
@@ -10,20 +10,22 @@
 
 namespace assay::properties {
 
-// Smaller = shorter first, then simpler: compared field by field in this order. Every field is a
-// count that is bounded from below, so a search that only ever goes to smaller sizes ends.
+// Shorter counts first, then simpler: the fields are compared one by one in this order. Every
+// field is a count that is bounded from below, so a search that only goes to smaller sizes ends.
 struct MeshSize {
   std::size_t steps = 0, triangles = 0, vertices = 0;
   std::size_t frames = 0;
-  std::size_t moving = 0;     // vertices that move, summed over the steps
-  int view = 0;               // 0 none given, 1 fixed point, 2 moving point, 3 fixed line, 4 moving
+  std::size_t moving = 0;  // vertices that move, summed over the steps
+  // 0: no view is given; 1: a fixed point; 2: a moving point; 3: a fixed line; 4: a moving line.
+  int view = 0;
   std::size_t ghosts = 0;     // ghost triangles given
   std::uint64_t numbers = 0;  // sum of number_cost over all coordinates, view and apexes included
   friend auto operator<=>(const MeshSize&, const MeshSize&) = default;
 };
 
-// 0 for 0, the magnitude for -9 to 9, 10 for each digit of a longer integer; for others 100 and 10
-// for each character of the shortest decimal that reads back to the same double.
+// The cost of a number: 0 for 0, the magnitude for -9 to 9, 10 for each digit of a longer integer;
+// for other numbers 100, and 10 for each character of the shortest decimal that reads back to the
+// same double.
 std::uint64_t number_cost(double value);
 
 // O(size of the case).

@@ -16,7 +16,7 @@
 
 namespace assay::properties {
 
-// What a case shows.
+// What a case shows when it fails.
 struct Finding {
   // Claim, outcome, stage and feature type: "all-pairs/missing/view sets/vertex-face".
   std::string signature;
@@ -42,18 +42,18 @@ struct PassStatistics {
 
 struct Reduction {
   corpus::Case smallest;
-  Finding finding;  // of `smallest`; no signature when the judge found nothing in the case given
+  Finding finding;  // of `smallest`; without a signature if the given case did not fail
   std::uint64_t calls = 0;
   double seconds = 0;
-  bool fixed_point = false;  // no pass finds anything smaller; false when a limit ended the search
+  bool fixed_point = false;  // no pass finds anything smaller; false if a limit ended it
   std::vector<PassStatistics> passes;
 };
 
-// Hears of each smaller case as it is found: what is saved there is never lost.
+// Is called with each smaller case as soon as it is found, so that what it saves is never lost.
 using OnBetter = std::function<void(const corpus::Case&)>;
 
-// The case with the view primitive that the detector chose by itself written into it, if it chose
-// one: the mesh can then shrink without moving it.
+// Returns the case with the view primitive that the detector chose by itself written into it;
+// nothing if it chose none. The mesh can then shrink without moving the primitive.
 using MakeViewExplicit = std::function<std::optional<corpus::Case>(const corpus::Case&)>;
 
 // The result keeps the case's id, texts and options; expected facts are cleared.

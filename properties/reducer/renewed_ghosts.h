@@ -8,9 +8,9 @@
 
 namespace assay::properties {
 
-// Fans over the unmatched edges of `triangles`, which name vertices of `before`; a fan takes the
-// apex of the first old ghost that it shares a vertex with, or else the mean of its loop. Vertex v
-// of the old ghosts has become target[v]. REQUIRES before.ghosts.
+// Fans over the unmatched edges of `triangles`, which name vertices of `before`. A fan takes the
+// apex of the first old ghost with which it shares a vertex, or else the mean of its loop. Vertex
+// v of the old ghosts has become target[v]. REQUIRES before.ghosts.
 corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Triangles& triangles,
                                   const std::vector<std::int32_t>& target);
 

@@ -11,7 +11,7 @@ namespace assay::properties {
 
 class ReductionSearch {
  public:
-  // Judges `failing` once. found() tells whether there is anything to reduce.
+  // Judges `failing` once. found() tells whether it fails, so that there is something to reduce.
   ReductionSearch(const corpus::Case& failing, const Judge& judge, const ReduceLimits& limits,
                   const OnBetter& on_better);
 
@@ -20,14 +20,15 @@ class ReductionSearch {
   const Finding& finding() const { return finding_; }
   const MeshSize& size() const { return size_; }
 
-  // Keeps `candidate` as the best when it is valid, smaller and fails with the same signature.
+  // Makes `candidate` the best case if it is valid, is smaller, and fails with the same signature.
+  // Returns whether it did.
   bool offer(const corpus::Case& candidate);
 
-  // The same without the wish that it be smaller.
+  // The same, but `candidate` need not be smaller.
   bool replace(const corpus::Case& candidate);
 
-  // What the judge says of a case of any size: a finding of the signature searched for, or nothing.
-  // The best case is left alone.
+  // What the judge says of a case of any size: a finding with the signature searched for, or
+  // nothing. The best case stays as it is.
   std::optional<Finding> ask(const corpus::Case& candidate);
 
   // A limit is reached: nothing is judged any more.
@@ -35,7 +36,7 @@ class ReductionSearch {
   std::uint64_t calls() const { return calls_; }
   double seconds() const;
 
-  // Calls and successes from now on belong to this pass.
+  // Calls and successes from now on count for this pass.
   void begin_pass(const std::string& name);
   const std::vector<PassStatistics>& statistics() const { return statistics_; }
 
@@ -49,9 +50,10 @@ class ReductionSearch {
   corpus::Case best_;
   Finding finding_;
   MeshSize size_;
-  MeshSize reported_;  // the least that on_better_ heard of
+  MeshSize reported_;  // the least size that on_better_ was told
   std::uint64_t calls_ = 0;
-  // By hash of the content; holds findings of the signature only.
+  // The judged cases by the hash of their content. Findings of another signature are kept as
+  // nothing.
   std::unordered_map<std::uint64_t, std::optional<Finding>> judged_;
   std::vector<PassStatistics> statistics_;
   std::size_t pass_ = 0;

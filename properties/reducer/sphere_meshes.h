@@ -9,15 +9,17 @@ namespace assay::properties {
 
 using SphereMesh = std::vector<std::array<std::int32_t, 3>>;  // oriented alike; a cycle
 
-// Every triangulation of the sphere with the vertices 0 .. n-1 (labelled, no two triangles with the
-// same corners, mirror images not listed apart), 4 <= n <= 7: 1, 10, 195, 5712. Found by edge
-// flips, under which they are connected (Wagner 1936); made once.
+// Every triangulation of the sphere with the vertices 0 .. n-1, for 4 <= n <= 7: there are 1, 10,
+// 195 and 5712 (vertices labelled, no two triangles with the same corners, mirror images not
+// listed apart). They are found by edge flips, under which they are connected (Wagner 1936), and
+// are made once.
 const std::vector<SphereMesh>& sphere_meshes(int vertices);
 
 SphereMesh mirrored(SphereMesh mesh);
 
-// The mesh with the edge of corners i and i+1 of triangle t turned to join the two opposite
-// vertices; empty where that edge is not shared by exactly two triangles, or exists already.
+// The mesh with the edge of corners i and i+1 of triangle t flipped, so that it joins the two
+// opposite vertices. Empty if that edge is not shared by exactly two triangles, or if the new edge
+// exists already.
 SphereMesh flipped(const SphereMesh& mesh, std::size_t t, std::size_t i);
 
 }  // namespace assay::properties

@@ -12,23 +12,25 @@ namespace assay::properties {
 
 class CasePlayer {
  public:
-  // A new detector, made from the first frame: of these stages, or of the standard ones. The case
+  // Makes a new detector from the first frame, with these stages or the standard ones. The case
   // must outlive the player. Errors and cost are those of Detector::create.
   static detector::Expected<CasePlayer> make(const corpus::Case& c,
                                              const detector::Options& options,
                                              std::optional<detector::Stages> stages = {},
                                              const detector::StopFunction& stop = {});
 
-  // The steps of the case. REQUIRES s < steps() in all that follows.
+  // The number of steps of the case. All functions below REQUIRE s < steps().
   std::size_t steps() const { return script_.size(); }
   const corpus::CaseStep& step(std::size_t s) const { return script_[s]; }
   const detector::Positions& x_t0(std::size_t s) const { return start_of(*case_, script_[s]); }
   const detector::Positions& x_t1(std::size_t s) const { return end_of(*case_, script_[s]); }
 
-  // Step s as the script says: the state advances where the step commits and has an answer. Steps
-  // may be played in any order; the detector takes what does not continue its state as a new start.
+  // Plays step s as the script says: the state advances if the script commits the step and it has
+  // an answer. Steps may be played in any order; a step that does not continue the detector's
+  // state is a new start for it.
   detector::StepResult play(std::size_t s, const detector::StopFunction& stop = {});
-  // The same result, while the state stays as it is; detector().commit() can still advance it.
+  // Returns the same result, but the state stays as it is; detector().commit() can still advance
+  // it.
   detector::StepResult look(std::size_t s, const detector::StopFunction& stop = {});
 
   detector::Detector& detector() { return detector_; }
@@ -39,7 +41,8 @@ class CasePlayer {
 
   const corpus::Case* case_;
   std::vector<corpus::CaseStep> script_;
-  // By step, and found beforehand: who times a step times the detector alone.
+  // The view primitives given, by step. They are computed beforehand, so that whoever times a step
+  // times the detector alone.
   std::vector<std::vector<detector::ViewPrimitive>> given_;
   detector::Detector detector_;
 };

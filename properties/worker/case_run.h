@@ -1,4 +1,5 @@
-// One case through one configuration of a detector: every step of its script, state carried.
+// Runs one case through one configuration of a detector: every step of its script, with the state
+// carried from step to step.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace assay::properties {
 
-// The built-in detector with these options; of a plug-in only the name is used.
+// The built-in detector with these options. For a plug-in only the name is used.
 struct Configuration {
   std::string name;
   detector::Options options;
@@ -20,18 +21,19 @@ struct Configuration {
   bool is_timed = false;   // whether CaseRun::times is asked for
 };
 
-// Processor seconds of the process that ran a case, with all of its threads, by its own clock: for
-// benches. A plug-in shares that process and could say what it likes, so nothing is judged by it.
+// Processor seconds of the process that ran a case, with all of its threads, by that process's own
+// clock. They are for benches: a plug-in shares the process and could say what it likes, so
+// nothing is judged by them.
 struct RunTimes {
   double create = 0;
-  std::vector<double> steps;  // one for each: to its answer, and committed where the script says so
-  // Resident memory of that process at its highest, since it began; 0 where the system tells none.
+  std::vector<double> steps;  // one a step: up to its answer, and the commit if there is one
+  // The highest resident memory of that process since it began; 0 if the system does not tell it.
   std::uint64_t peak_bytes = 0;
 };
 
 enum class RunEnd : std::uint8_t {
   completed,      // every step has a result, which may be undecided or an error
-  crashed,        // the process ended under the detector
+  crashed,        // the process ended while the detector ran
   hung,           // stopped at a time limit: undecided
   refused,        // the mesh was refused by name when the detector was made
   out_of_memory,  // before the first step: undecided
@@ -40,53 +42,56 @@ enum class RunEnd : std::uint8_t {
 
 const char* name_of(RunEnd end);
 
-// Nothing where a detector failed to give them.
+// The candidate pairs of one step; nothing if the detector failed to give them.
 using CandidatePairs = std::optional<std::vector<detector::TrianglePair>>;
 
 struct CaseRun {
   RunEnd end = RunEnd::completed;
-  // One line: the signal, the refusal, or the first step's error. Empty when nothing is wrong.
+  // One line: the signal, the refusal, or the first step's error. Empty if nothing is wrong.
   std::string what;
-  // One for each step of the case when completed, else none. A pair or first time that a plug-in
-  // does not state is [0, 1].
+  // One result for each step of the case if the run completed, else none. If a plug-in does not
+  // state the time of a pair, or the first time, it is [0, 1].
   std::vector<detector::StepResult> steps;
-  // One for each step, of a plug-in that claims candidates: ascending, each pair once.
+  // Only for a plug-in that claims candidates: one list for each step, ascending, each pair once.
   std::vector<CandidatePairs> candidates = {};
-  // Why a step has no answer, "step 2: ..."; empty for one that has, and no list where all have.
+  // For each step why it has no answer ("step 2: ..."), or an empty text if it has one. The list
+  // is empty if all steps have answers.
   std::vector<std::string> errors = {};
-  // Whether its steps have answers. A library of candidates alone has none: a step of its is
+  // The steps have answers. False for a library of candidates alone: each of its steps is
   // undecided, or an error.
   bool has_answers = true;
-  // Of a completed run that was asked for it.
+  // Only if the run completed and its configuration asks for times.
   std::optional<RunTimes> times = {};
 
-  // Of the circumstances, filled in by the host; same_answers() looks neither at them nor at times.
-
-  // How often the worker was killed from outside while this run was under way, which was then
-  // repeated, or before it began.
+  // The members below tell the circumstances of the run. The host fills them in, and
+  // same_answers() looks neither at them nor at times.
+  //
+  // How often the worker was killed from outside while this run was under way (it was then
+  // repeated), or before it began.
   std::uint64_t disturbances = 0;
-  // What it took: processor time of the worker with its threads, and with the processes that it
-  // started where the run was long enough to look at them (processor_time.h). Of the last attempt.
+  // The processor time of the last attempt: that of the worker with its threads, and that of the
+  // processes that it started if the run was long enough to look at them (processor_time.h).
   double processor_seconds = 0;
-  // What a plug-in printed meanwhile, the last lines of it (isolation/printed_words.h); nothing
-  // with isolation none, nor of a query that was asked together with others.
+  // The last lines that a plug-in printed during the run (isolation/printed_words.h). Nothing with
+  // isolation none, nor for a query that was asked together with others.
   std::string printed = {};
 };
 
-// Steps of the case that commit advance the state. The case's view primitive is given where the
-// culling is one of views (its q0 alone for view-point). A step that runs out of memory is
-// undecided. Runs in this process: what the detector does to it, it does to the caller.
+// Runs the case in this process, so that whatever the detector does to the process, it does to the
+// caller. Steps that commit advance the state. The detector is given the case's view primitive if
+// its culling uses views (for view-point the primitive's q0 alone). A step that runs out of memory
+// is undecided.
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
 
-// Adds to the errors of step s, and to `what` where that says nothing yet.
+// Adds the text to the errors of step s, and makes it `what` if that is still empty.
 void note_error(CaseRun& run, std::size_t s, const std::string& what);
-// Why step s has no answer; empty where nothing is said of it.
+// Why step s has no answer; empty if nothing is said about it.
 std::string error_of(const CaseRun& run, std::size_t s);
 
-// The run of a case that did not fit into memory.
+// The run to report for a case that did not fit into memory.
 CaseRun out_of_memory();
 
-// Whether two runs of one case gave the same: all but times and circumstances.
+// Whether two runs of one case agree in everything but times and circumstances.
 bool same_answers(const CaseRun& a, const CaseRun& b);
 
 }  // namespace assay::properties

@@ -14,8 +14,8 @@ namespace assay::properties {
 // too_long: the other end began a message of more bytes than there may be.
 enum class Transfer { done, closed, timed_out, too_long };
 
-// Asked before each wait: how long to wait at most before asking again; nothing: no longer. An
-// empty function waits for ever.
+// Is asked before each wait how long to wait at most before asking again. If it returns nothing,
+// waiting is over. An empty function waits for ever.
 using Patience = std::function<std::optional<std::chrono::milliseconds>()>;
 
 class Channel {
@@ -26,12 +26,13 @@ class Channel {
   Channel& operator=(Channel&&) = delete;
   ~Channel();  // closes
 
-  // Two connected channels, both closed on exec; nothing when the system has no more.
+  // Two connected channels, both closed on exec; nothing if the system has no more.
   static std::optional<std::pair<Channel, Channel>> connected();
 
   int descriptor() const { return descriptor_; }
   Transfer send(const std::string& message, const Patience& patience = {});
-  // A message of at most `most` bytes. Takes memory for what has come, not for what was announced.
+  // Receives a message of at most `most` bytes. Memory is taken only for what has come, and not
+  // for what was announced.
   Transfer receive(std::string& message, const Patience& patience = {},
                    std::uint64_t most = ~std::uint64_t{0});
   // Whether the other end has closed, without waiting.
@@ -41,7 +42,7 @@ class Channel {
   Transfer wait_for(short events, const Patience& patience) const;
 
   int descriptor_;
-  std::string received_;  // beyond the message returned last
+  std::string received_;  // bytes received beyond the last message
 };
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-// A started process that is always waited for.
+// A started process, which is always waited for.
 #pragma once
 
 #include <sys/types.h>
@@ -13,32 +13,32 @@
 
 namespace assay::properties {
 
-// The descriptors under which the child finds its end of the channel, and where it tells what a
-// plug-in prints.
+// The descriptors under which the child finds its end of the channel, and the one into which it
+// writes what a plug-in prints.
 inline constexpr int child_descriptor = 3, printed_descriptor = 4;
 
 struct ChildEnd {
-  int signal = 0;        // that killed it; 0: it exited
-  int code = 0;          // that it exited with
-  bool by_host = false;  // the host killed it, for it did not end in time
+  int signal = 0;        // the signal that killed it; 0: it exited
+  int code = 0;          // the code that it exited with
+  bool by_host = false;  // the host killed it, because it did not end in time
   // "killed by signal 11 (Segmentation fault)", "exited with code 0"; empty when by_host.
   std::string text;
 };
 
-// Whether a signal killed it that nothing in a process brings about by going wrong, and that the
-// host did not send: SIGKILL and SIGTERM, as an administrator, a job queue or a machine short of
-// memory sends them; SIGINT, SIGHUP and SIGQUIT, as a terminal that is closed or interrupted does;
-// or the child itself, on purpose.
+// Whether the child was killed by a signal that no error in a process brings about, and that the
+// host did not send. These are SIGKILL and SIGTERM, which an administrator, a job queue or a
+// machine short of memory sends, and SIGINT, SIGHUP and SIGQUIT, which come from a terminal that
+// is closed or interrupted. The child may also send them to itself on purpose.
 bool was_killed_from_outside(const ChildEnd& end);
 
-// It leads a process group of its own: a terminal's ctrl-C is for the host alone. It starts with no
-// signal blocked or ignored, whichever of them the host, or the shell that started that, leaves
-// aside: else a detector could outlive a signal that would end it anywhere else.
+// The child leads a process group of its own, so that a terminal's ctrl-C reaches the host alone.
+// It starts with no signal blocked or ignored, even if the host, or the shell that started the
+// host, ignores some. Otherwise a detector could outlive a signal that would end it anywhere else.
 class ChildProcess {
  public:
-  // `descriptor` becomes child_descriptor of the child, and `printed`, where there is one and above
-  // both, printed_descriptor; its stdin is empty. cannot_start, with the system's reason, where it
-  // does not start.
+  // Starts the program with an empty stdin. `descriptor` becomes child_descriptor of the child.
+  // `printed` becomes printed_descriptor, if it is given and greater than both of these numbers.
+  // The problem is cannot_start, with the system's reason.
   static Expected<ChildProcess> start(const std::filesystem::path& program,
                                       const std::vector<std::string>& arguments, int descriptor,
                                       int printed = -1);
@@ -48,12 +48,13 @@ class ChildProcess {
 
   pid_t id() const { return id_; }
 
-  // Without waiting, and without waiting for it in the system's sense.
+  // Whether the child has ended. Does not wait, and does not reap the child.
   bool has_ended() const;
 
-  // Waits for its end, kills it when that takes longer than `patience` of wall clock. Then kills
-  // what is left of its process group: what it started would go on for nobody. REQUIRES that it was
-  // not called before; else says that it exited with code 0.
+  // Waits for the child's end, and kills it if that takes longer than `patience` of wall clock.
+  // Then kills what is left of its process group, because what the child started would go on for
+  // nobody. REQUIRES that it was not called before; a second call says that the child exited with
+  // code 0.
   ChildEnd finish(std::chrono::milliseconds patience);
 
  private:

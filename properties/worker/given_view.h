@@ -9,8 +9,8 @@
 
 namespace assay::properties {
 
-// As the detector takes it: the primitive that the case states for the step (corpus::view_of_step),
-// or none where it states none or the culling looks from none.
+// The primitive that the case states for the step (corpus::view_of_step), as the detector takes
+// it; none if the case states none, or if the culling uses no views.
 inline std::vector<detector::ViewPrimitive> given_view(
     std::optional<detector::ViewPrimitive> stated, detector::Culling culling) {
   if (!stated || !uses_views(culling)) return {};

@@ -1,5 +1,5 @@
-// The processor time that a process uses, with all its threads and all processes that it starts,
-// measured from outside, so that what runs in it has no say.
+// The processor time that a process uses, with all its threads and all processes that it starts.
+// It is measured from outside, so that what runs in the process has no influence on it.
 #pragma once
 
 #include <sys/types.h>
@@ -11,24 +11,28 @@
 
 namespace assay::properties {
 
-// Seconds of processor time since a beginning. The process' own threads, ended ones included, are
-// measured to the nanosecond; that takes 0.2 us. Where another process does the work for it (a
-// plug-in behind its keeper), that one is measured so, and it itself is not counted. The processes
-// that it started are measured only when look() is called. What they used before the first look
-// since the beginning is not counted, for it may be of work done before: the time is short by what
-// they use until then. It is further short by what process_tree.h says, and never too long.
+// Seconds of processor time since a beginning, which is the construction or the last lap().
+//
+// The threads of the process, ended ones included, are measured to the nanosecond; that takes 0.2
+// us. If another process does the work for it (a plug-in behind its keeper), that one is measured
+// in this way, and the process itself is not counted.
+//
+// The processes that it started are measured only when look() is called. What they used before the
+// first look() since the beginning is not counted, because it may be of work done before. So the
+// time is too short by what they use until then, and further by what process_tree.h says. It is
+// never too long.
 class ProcessorTime {
  public:
-  // REQUIRES a child of this process that leads its process group and was not waited for: one that
-  // has ended can still be read. Begins.
-  // `worker`: the one that does the work, a descendant of process; 0: process itself.
+  // Begins to measure `process`. `worker` is the one that does the work, a descendant of
+  // `process`; 0: `process` itself. REQUIRES that `process` is a child of this process that leads
+  // its process group and was not waited for; one that has ended can still be read.
   explicit ProcessorTime(pid_t process, pid_t worker = 0);
 
-  // Since the beginning; of other processes, as they were when last looked at.
+  // The seconds since the beginning. Other processes count as they were when last looked at.
   double seconds() const;
-  // The same, and begins anew at that point.
+  // Returns the same, and begins anew at that point.
   double lap();
-  // Measures the processes that it started too. About 5 us for each process of the machine.
+  // Also measures the processes that were started. About 5 us for each process of the machine.
   ProcessTree look();
 
  private:
@@ -37,8 +41,8 @@ class ProcessorTime {
   pid_t process_, worker_;
   std::optional<clockid_t> clock_;
   double begin_ = 0;                        // of own_seconds()
-  std::optional<double> of_others_before_;  // at the first look since the beginning
-  double of_others_ = 0;                    // since then
+  std::optional<double> of_others_before_;  // what they had used at the first look
+  double of_others_ = 0;                    // what they have used since then
 };
 
 }  // namespace assay::properties

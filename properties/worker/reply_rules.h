@@ -1,6 +1,6 @@
 // What a worker may reply. A plug-in shares its process with the code that replies, so it can send
-// whatever it likes: nothing of a reply is believed before it was looked at. What breaks a rule is
-// taken for a crash of the plug-in.
+// whatever it likes. So no part of a reply is believed before it has been checked. A reply that
+// breaks a rule counts as a crash of the plug-in.
 #pragma once
 
 #include <cstdint>
@@ -17,33 +17,40 @@ namespace assay::properties {
 // Bytes of the longest line of text in a reply.
 inline constexpr std::size_t longest_reply_text = 4096;
 
-// Bytes that a reply to this case may have at most: every pair of triangles in contact in each
-// step.
+// The most bytes that a reply to this case may have: that of a reply with every pair of triangles
+// in contact in each step.
 std::uint64_t longest_reply(const corpus::Case& c);
-// Bytes of the first message of a worker at most.
+// The most bytes that the first message of a worker may have.
 inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
 
-// Which rule a run of a plug-in on this case breaks; empty: none. The rules: it completed with a
-// result for each step, or was refused or ran out of memory without one; what only the host can
-// say (crashed, hung, not run) is not said; texts are one printable line; a result has an answer,
-// pairs of two triangles of the mesh, each once and ascending, only if it is not free, intervals
-// in [0, 1], and nothing of what plug-ins are not asked for, such as views; there are candidates
-// for each step, of such pairs, where the description claims them, and answers where it has steps;
-// times, where there are any, are such, and one for each step.
+// Which rule is broken by a run of a plug-in on this case; empty: none. The rules:
+// - A run that completed has a result for each step. One that was refused, or ran out of memory,
+//   has no results. No run claims an end that only the host can see (crashed, hung, not run).
+// - Every text is one printable line.
+// - A result states pairs only if its answer is neither `free` nor an error. Each is a pair of two
+//   triangles of the mesh; pairs ascend, each once.
+// - Intervals lie in [0, 1].
+// - A result states nothing that plug-ins are not asked for, such as views.
+// - If the description claims candidates, there is a list of such pairs for each step, and else
+//   none.
+// - There are answers if and only if the plug-in has the part of steps.
+// - Times, if there are any, are finite and not negative, one for each step.
 std::string broken_rule(const corpus::Case& c, const CaseRun& run,
                         const PluginDescription& description);
 
-// The same of answers to so many queries: as many, each with a known answer, an interval in [0, 1]
-// and one printable line at most.
+// The same for answers to so many queries: there is one answer for each, with a known answer, an
+// interval in [0, 1] and at most one printable line.
 std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& answers);
-// Bytes that they may have at most.
+// The most bytes that these answers may have.
 std::uint64_t longest_query_reply(std::size_t queries);
 
-// The same of a description: a name and a version in one printable line, a margin that is a
-// length, a part that can be judged, a claim on candidates where there are any and nowhere else.
+// The same for a description: a name and a version in one printable line each, a margin that is a
+// length, at least one part that can be judged, and a claim on candidates if and only if it has
+// them.
 std::string broken_rule(const PluginDescription& description);
 
-// The same of why a plug-in cannot be loaded: a problem of PluginHost::open in one printable line.
+// The same for the reason why a plug-in cannot be loaded: a problem of PluginHost::open, in one
+// printable line.
 std::string broken_rule(const Problem& refusal);
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-// What a case takes in the process that runs it, part by part.
+// Measures what a case takes in the process that runs it, part by part.
 #pragma once
 
 #include <optional>
@@ -7,15 +7,15 @@
 
 namespace assay::properties {
 
-// Counts the processor time of this process with all of its threads, and its memory; nothing where
-// it is off.
+// Counts the processor time of this process with all of its threads, and its memory. Counts
+// nothing if it is off.
 class RunClock {
  public:
-  // Begins with the making of the detector.
+  // Begins to time the making of the detector.
   explicit RunClock(bool is_on);
   void created();
-  void begin();     // of a step
-  void answered();  // the step that began last
+  void begin();     // a step begins
+  void answered();  // the step that began last has its answer
   std::optional<RunTimes> take();
 
  private:

@@ -1,6 +1,6 @@
-// Messages between the host and its worker: own bytes, length first. Both ends are builds of the
-// same sources on the same machine, which wire_version checks, so plain data travels as it lies in
-// memory.
+// Messages between the host and its worker: plain bytes, with lengths in front. Both ends are
+// built from the same sources and run on the same machine, which wire_version checks. So plain
+// data travels as it lies in memory.
 //
 // What a message holds is listed once, in wire_fields.h, for both directions.
 #pragma once
@@ -15,13 +15,13 @@
 
 namespace assay::properties {
 
-// Types whose every value travels as its bytes. Listed by name: a type that grows a pointer must
-// not slip through.
+// Types whose values travel as their bytes. They are listed by name, so that a type that gains a
+// pointer does not slip through.
 template <class T>
 struct TravelsAsBytes : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
 
-// The greatest value of an enum whose values count from 0: another value is no message. Stated for
-// each enum that travels by itself (wire_fields.h).
+// The greatest value of an enum, whose values count from 0; a message with another value is
+// invalid. It is stated for each enum that travels by itself (wire_fields.h).
 template <class T>
 inline constexpr auto last_of = nullptr;
 
@@ -79,8 +79,8 @@ class WireWriter {
   std::string bytes_;
 };
 
-// Reads what a WireWriter wrote. A message that is short or states more than it has leaves ok()
-// false and the rest untouched: the other end was damaged by what it ran.
+// Reads what a WireWriter wrote. A message that is too short, or states more than it holds, makes
+// ok() false and leaves the rest untouched: the other end was damaged by the code that it ran.
 class WireReader {
  public:
   explicit WireReader(const std::string& bytes) : next_(bytes.data()), left_(bytes.size()) {}
@@ -89,7 +89,7 @@ class WireReader {
     (get(items), ...);
   }
   bool ok() const { return ok_; }
-  // All read, nothing left.
+  // The whole message was read, and nothing is left.
   bool complete() const { return ok_ && left_ == 0; }
 
  private:
@@ -105,7 +105,7 @@ class WireReader {
       fields(*this, item);
     }
   }
-  // A byte that is no bool, or no value of the enum, never becomes one.
+  // A byte that is no valid bool, or no value of the enum, is never stored in one.
   template <class T, class Number>
   void get_up_to(T& item, Number last) {
     Number number = 0;
@@ -123,7 +123,8 @@ class WireReader {
       items.resize(get_count(sizeof(T)));
       get_bytes(items.data(), items.size() * sizeof(T));
     } else {
-      // One by one: each takes bytes of the message, so that a great number alone takes no memory.
+      // Items are made one by one. Each takes bytes of the message, so that a large count alone
+      // takes no memory.
       items.clear();
       for (std::size_t left = get_count(1); left > 0 && ok_; --left) get(items.emplace_back());
     }
@@ -141,7 +142,8 @@ class WireReader {
     rows.resize(static_cast<Eigen::Index>(count / 3), 3);
     get_bytes(rows.data(), count / 3 * 3 * sizeof(T));
   }
-  // A number of items of at least `size` bytes each; 0 when the message cannot hold them.
+  // Reads a number of items that have at least `size` bytes each; 0 if the message cannot hold
+  // them.
   std::size_t get_count(std::size_t size) {
     std::uint64_t count = 0;
     get(count);

@@ -112,7 +112,7 @@ void fields(Wire& wire, corpus::CaseView& view) {
   wire(view.q0, view.q1);
 }
 
-// Only what a detector may know: never the expected facts.
+// Only what a detector may know travels, and never the expected facts.
 template <class Wire>
 void fields(Wire& wire, corpus::Case& c) {
   wire(c.id, c.triangles, c.frames, c.script, c.view);
@@ -246,7 +246,8 @@ void fields(Wire& wire, Request& request) {
 template <class... T>
 std::string encode(const T&... messages) {
   WireWriter writer;
-  // A writer reads only; the lists above serve both directions.
+  // A writer does not change the messages; the lists above are not const because readers use them
+  // too.
   writer(const_cast<T&>(messages)...);
   return writer.take();
 }
@@ -258,7 +259,7 @@ bool decode(const std::string& bytes, T& message) {
   return reader.complete();
 }
 
-// Differs where the two ends were built from sources with other plain data.
+// Differs if the two ends were built from sources with other plain data.
 constexpr std::uint64_t wire_version() {
   std::uint64_t hash = 1;
   for (const std::size_t size :

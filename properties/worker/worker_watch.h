@@ -1,10 +1,10 @@
 // Decides when a worker has had its time. The limit is one of processor time, so that the verdict
-// does not depend on what else the machine does; what uses none is caught by wider limits of wall
-// clock.
+// does not depend on what else the machine does. A worker that uses no processor time is caught by
+// wider limits of wall clock.
 //
 // A worker that answers soon is not looked at: before the wall clock has reached the limit divided
-// by the number of processors no process can have used it up. After that /proc is read about once a
-// second, and more often towards the end.
+// by the number of processors, no process can have used it up. After that /proc is read about once
+// a second, and more often towards the end.
 #pragma once
 
 #include <chrono>
@@ -17,28 +17,29 @@
 namespace assay::properties {
 
 // The wider limits, as multiples of the limit of processor time.
-inline constexpr double asleep_limit = 10;  // of wall clock in which the worker only slept
-inline constexpr double wall_limit = 100;   // of wall clock in all
+inline constexpr double asleep_limit = 10;  // wall clock in which the worker only slept
+inline constexpr double wall_limit = 100;   // wall clock in all
 
 class WorkerWatch {
  public:
-  // `seconds` of processor time for each case, of the worker with its threads and all processes
-  // that it started. Begins the first case. `worker` outlives this.
-  // `plugin`: the process of the plug-in that the worker keeps; 0: none, or unknown.
+  // Allows `seconds` of processor time for each case, used by the worker with its threads and by
+  // all processes that it started, and begins the first case. `worker` must outlive this object.
+  // `plugin` is the process of the plug-in that the worker keeps; 0: none, or unknown.
   WorkerWatch(const ChildProcess& worker, double seconds, pid_t plugin = 0);
 
-  // To be asked before each wait for the worker: how long to wait before asking again. Nothing when
-  // waiting is over: why() says why, or the worker has_ended(). A worker is over its limit by at
-  // most a hundredth of it (at least 1 ms) a processor.
+  // How long to wait for the worker before asking this again. Nothing if waiting is over: then
+  // why() says why, or the worker has_ended(). A worker exceeds its limit by at most a hundredth
+  // of it (at least 1 ms) on each processor.
   std::optional<std::chrono::milliseconds> patience();
 
-  // The processor seconds of the case until now; the next one begins.
+  // Returns the processor seconds of the case so far, and begins the next case.
   double next_case();
 
-  // "no answer in 10 s of processor time", with ": asleep for 100 s" or the like behind it where
-  // another limit ended it. Only limits are named, so that two such ends read the same.
+  // "no answer in 10 s of processor time", followed by ": asleep for 100 s" or the like if another
+  // limit ended the case. Only limits are named, so that two such ends read the same.
   std::string why() const;
-  // It ended without closing its end of the channel: a process that it started holds that open.
+  // The worker ended, but its end of the channel is still open, because a process that it started
+  // holds it open.
   bool has_ended() const { return end_ == End::ended; }
 
  private:
@@ -55,7 +56,7 @@ class WorkerWatch {
   Clock::time_point last_look_, next_look_;
   double used_ = 0;     // processor seconds at the last look
   double watched_ = 0;  // seconds of wall clock until the last look
-  double asleep_ = 0;   // of these, slept
+  double asleep_ = 0;   // seconds of these in which it slept
   End end_ = End::none;
 };
 

@@ -11,13 +11,13 @@
 namespace assay::properties {
 
 struct SmallStep {
-  std::string family;  // of the mesh
+  std::string family;  // family of the mesh
   detector::Triangles triangles;
   detector::Positions x_t0, x_t1;
   detector::ViewPrimitive point, line;  // small integers too; the line's ends may move apart
 };
 
-// Case `index` of `seed`: a hash of both is the only source of randomness, so that any case can be
+// Case `index` of `seed`. A hash of both is the only source of randomness, so that any case can be
 // made alone, on any machine.
 SmallStep make_small_step(std::uint64_t seed, std::uint64_t index);
 

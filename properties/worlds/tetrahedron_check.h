@@ -13,8 +13,8 @@ struct TetrahedronFailure {
   std::string what;
 };
 
-// All view-points of the motion, both orientations; adds to the counts. The first that fails, or
-// nothing.
+// Checks all view-points of the motion, in both orientations, and adds to the counts. Returns the
+// first failure, or nothing.
 std::optional<TetrahedronFailure> check_tetrahedron(const TetrahedronMotion& motion,
                                                     TetrahedronWorldResult& counts);
 

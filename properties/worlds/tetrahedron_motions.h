@@ -1,11 +1,12 @@
 // All motions of a tetrahedron's four vertices on a tiny grid, one of each class.
 //
-// Vertices are at 0, 2, .., 2 (side - 1) on each axis at t=0 and at t=1; view-points at all
-// integers between, so that there are some strictly inside. A class: motions that are equal up to
-// the order of the vertices and the grid's mirrors and exchanges of axes. Neither changes when what
-// touches what; an odd order, as a mirror, turns the faces round, so whoever checks a class checks
-// it with both orientations. Time reversed is another class: the first contact is not that of the
-// reverse.
+// The vertices are at 0, 2, .., 2 (side - 1) on each axis, at t=0 and at t=1. View-points are at
+// all integers between, so that some lie strictly inside.
+//
+// Motions are of one class if they are equal up to the order of the vertices and the grid's
+// mirrors and exchanges of axes. Neither changes when what touches what. But an odd order, like a
+// mirror, turns the faces round, so whoever checks a class checks it with both orientations. A
+// motion reversed in time is of another class, because its first contact is another one.
 #pragma once
 
 #include <array>
@@ -18,19 +19,20 @@
 namespace assay::properties {
 
 struct TetrahedronGrid {
-  int side = 2;        // vertex places an axis
-  int dimensions = 3;  // the other axes are 0
-  int movers = 4;      // vertices that move, at most
+  int side = 2;        // vertex places on an axis
+  int dimensions = 3;  // coordinates on the other axes are 0
+  int movers = 4;      // how many vertices move at most
 };
 
-// One motion of a class, with the view-points that its own symmetries leave.
+// One motion of a class, with one view-point of each set that its own symmetries map onto each
+// other.
 struct TetrahedronMotion {
   std::array<detector::MovingPoint, 4> vertices;
-  // Ordered motions of the grid that are of this class.
+  // How many motions of the grid, with their vertices in order, are of this class.
   std::uint64_t stands_for = 0;
   struct View {
     detector::Point q;
-    std::uint64_t stands_for = 0;  // view-points that are q up to the motion's own symmetries
+    std::uint64_t stands_for = 0;  // view-points that its symmetries map to q
   };
   std::vector<View> views;
 };
@@ -39,26 +41,27 @@ class TetrahedronMotions {
  public:
   explicit TetrahedronMotions(const TetrahedronGrid& grid);
 
-  // The classes are split into blocks, the unit of work of a thread, in a fixed order: shuffled, so
-  // that what fits into a time limit is a fair sample.
+  // The classes are split into blocks, the unit of work of a thread. Their order is fixed, and
+  // shuffled, so that what fits into a time limit is a fair sample.
   std::size_t blocks() const { return blocks_.size(); }
-  // Calls visit on the classes of a block in a fixed order until it returns false.
+  // Calls `visit` on the classes of a block in a fixed order, until it returns false.
   void for_each(std::size_t block,
                 const std::function<bool(const TetrahedronMotion&)>& visit) const;
 
-  // Ordered motions times view-points: what the classes' `stands_for` sum up to.
+  // Motions, with their vertices in order, times view-points: the sum of `stands_for` of all
+  // classes.
   std::uint64_t all() const;
 
  private:
   using Paths = std::array<int, 4>;  // path: start * places + end; ascending
   struct Block {
-    // Places of those at rest, ascending: the first 4 - moving of these count.
+    // The places of the vertices at rest, ascending. Only the first 4 - moving entries count.
     std::array<int, 4> resting = {};
     int moving = 0;
-    int first_path = 0;  // of those that move
+    int first_path = 0;  // the first path of those that move
   };
   struct Symmetry {
-    std::vector<int> place, path, view;  // to their images
+    std::vector<int> place, path, view;  // each index to that of its image
   };
 
   Paths image(const Paths& paths, const Symmetry& symmetry) const;

@@ -1,5 +1,5 @@
-// What a suite of benches came to: rows, wrong answers, points of a scatter; as text and as JSON
-// (schema assay-bench/1, reports/README.md).
+// The result of a suite of benches: rows, wrong answers, points of a scatter, and what single
+// suites add. It can be written as text and as JSON (schema assay-bench/1, reports/README.md).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -25,7 +25,7 @@ struct BenchRow {
   std::optional<Wanted> wanted;      // none: for information
   std::string note;                  // may be empty
 
-  // By the median alone; the interval shows how far that carries.
+  // Decided by the median alone. The interval shows how far that can be trusted.
   RowOutcome outcome() const;
 };
 
@@ -33,13 +33,13 @@ struct BenchRow {
 struct ScatterPoint {
   std::string scene;
   std::string culling;
-  double share = 0;          // of V+ among all triangles
+  double share = 0;          // share of V+ among all triangles
   double ratio = 0;          // time of the step over that of culling `over`
   double lo = 0, hi = 0;     // interval of the ratio
-  std::string over = "bvh";  // or normal-cone
+  std::string over = "bvh";  // or "normal-cone"
 };
 
-// A time of suite growth.
+// The time of one thing at one size, in suite growth.
 struct GrowthPoint {
   std::string what;
   double triangles = 0;
@@ -52,19 +52,20 @@ struct BenchReport {
 
   std::string suite;
   std::vector<BenchRow> rows;
-  // One line each. Times are noisy, answers are not: any of these fails the run.
+  // One line for each wrong answer. Any of them fails the run, because times are noisy but answers
+  // are not.
   std::vector<std::string> wrong_answers;
   std::vector<ScatterPoint> scatter;
-  std::vector<StabilityCell> heat;  // of suite stability
-  std::vector<GrowthPoint> growth;  // by what, then by triangles
-  // Of suite speed-error.
+  std::vector<StabilityCell> heat;  // filled by suite stability
+  std::vector<GrowthPoint> growth;  // in the order of what, then of triangles
+  // Filled by suite speed-error.
   std::vector<JudgedStep> steps;
   std::vector<FamilySummary> families;
   std::vector<VariantSummary> variants;
-  // Of `bench --detector`.
+  // Filled by `bench --detector`.
   std::optional<ComparedDetector> detector;
   std::vector<ComparedSequence> sequences;
-  // Of suite peers.
+  // Filled by suite peers.
   std::vector<PeerRow> peers;
   std::vector<PeerFamily> peer_families;
   std::vector<AbsentPeer> absent_peers;
@@ -72,20 +73,22 @@ struct BenchReport {
 
   void add(std::string what, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});
-  // missing: the folder or file.
+  // Adds a row that says that the folder or file `missing` is not there.
   void add_no_data(std::string what, const std::string& missing);
-  // why: such as "left out: ...".
+  // Adds a row without a measurement. `why` is its note, such as "left out: ...".
   void add_left_out(std::string what, std::string why);
 };
 
 const char* name_of(RowOutcome outcome);
 std::string text_of(const Wanted& wanted);
-// A table, a line a row.
+// The report as a table, one line for each row.
 std::string text_of(const BenchReport& report);
 nlohmann::ordered_json to_json(const BenchReport& report);
-// A line a raw sample; of suite peers a line a family and detector (peer_output.h); of suite
-// speed-error a line a step and variant (error_output.h), of suite stability a line a cell
-// (stability_output.h), of a plug-in a line a sequence and round (compared_output.h).
+// The report as CSV, with one line for each raw sample. The lines of some suites are others:
+// - peers: one for each family and detector (peer_output.h);
+// - speed-error: one for each step and variant (error_output.h);
+// - stability: one for each cell (stability_output.h);
+// - `bench --detector`: one for each sequence and round (compared_output.h).
 std::string csv_of(const BenchReport& report);
 
 }  // namespace assay::reports

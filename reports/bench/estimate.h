@@ -9,35 +9,38 @@
 
 namespace assay::reports {
 
-// A median with a rank interval: its ends are order statistics of the samples, the closest pair
+// A median with a rank interval. The ends are order statistics of the samples: the closest pair
 // x_(k), x_(n+1-k) between which the true median lies with probability 95 % or more, whatever the
-// distribution: 1 - 2 P(B < k) for B binomial (n, 1/2). Fewer than six samples reach no 95 %: the
-// ends are then the least and the largest, which hold the median with probability 1 - 2^(1-n).
+// distribution: 1 - 2 P(B < k) for B binomial (n, 1/2). Fewer than six samples cannot reach 95 %:
+// the ends are then the least and the largest sample, which hold the median with probability 1 -
+// 2^(1-n).
 struct Estimate {
   double value = 0, lo = 0, hi = 0;
   std::vector<double> samples;  // raw, in the order in which they were taken
 };
 
-// samples must not be empty. The median of an even number is the mean of the middle two.
+// REQUIRES samples not empty. The median of an even number of samples is the mean of the middle
+// two.
 Estimate median_of(std::vector<double> samples);
 
-// A figure that is counted, not sampled.
+// An estimate for a figure that is counted and not sampled.
 Estimate exactly(double value);
 
-// Median of the ratios a[i] / b[i] of measurements taken next to each other: what slows a round
-// down as a whole cancels. Same sizes.
+// The median of the ratios a[i] / b[i] of measurements that were taken next to each other, so that
+// whatever slows a whole round down cancels. REQUIRES equal sizes.
 Estimate ratio_of(std::span<const double> a, std::span<const double> b);
 
-// Times `factor`, such as ns a mesh to ns a triangle.
+// The estimate times `factor`, for example to turn ns a mesh into ns a triangle.
 Estimate scaled(Estimate estimate, double factor);
 
 // The k of the rank interval for n samples, 1-based.
 std::size_t rank_of_lower_end(std::size_t n);
 
-// The value at rank ceil(share * n) of the sorted samples (nearest rank); samples not empty.
+// The value at rank ceil(share * n) of the sorted samples (nearest rank). REQUIRES samples not
+// empty.
 double quantile(std::vector<double> samples, double share);
 
-// Least squares y = intercept + slope * x; at least two different x.
+// Least squares y = intercept + slope * x. REQUIRES at least two different x.
 struct Line {
   double intercept = 0, slope = 0;
 };

@@ -1,4 +1,4 @@
-// Repeated measurements of several things, taken in turn: what is compared was measured side by
+// Repeats measurements of several things in turn, so that what is compared was measured side by
 // side, in one run.
 #pragma once
 
@@ -7,20 +7,21 @@
 
 namespace assay::reports {
 
-// Processor time of this thread in ns: what other programs do beside it is left out, though not
-// what they do to caches and clock rates.
+// Processor time of this thread in ns. The work of other programs does not count, but their effect
+// on caches and clock rates remains.
 double processor_ns();
 
-// Of one run of `work`.
+// The time of one run of `work`, in ns.
 double ns_of(const std::function<void()>& work);
 
-// Rounds of all measurements, forward and backward by turns, after one that is thrown away. Each
-// returns what it measured. samples[i][round] for measurement i.
+// Makes `rounds` rounds of all measurements, in forward and backward order by turns, after one
+// round that is thrown away. Each measurement returns what it measured: samples[i][round] for
+// measurement i.
 using Measurement = std::function<double()>;
 std::vector<std::vector<double>> interleave(int rounds,
                                             const std::vector<Measurement>& measurements);
 
-// Keeps a result that nothing else reads from being optimised away.
+// Keeps the compiler from optimising away a result that nothing else reads.
 template <class T>
 void keep(const T& value) {
   asm volatile("" : : "g"(&value) : "memory");

@@ -1,4 +1,5 @@
-// One step by one variant of the detector: what it took, and what was wrong with the answer.
+// One step by one variant of the detector: the time that it took, and what was wrong with the
+// answer.
 #pragma once
 
 #include <cstdint>
@@ -22,21 +23,21 @@ struct Variant {
   friend bool operator==(const Variant&, const Variant&) = default;
 };
 
-// What all others are measured against: exact, bvh, all pairs.
+// The variant that all others are measured against: exact, bvh, all pairs.
 inline constexpr Variant reference_variant{};
 
-// Every arithmetic, every culling, all pairs and first; culling none where `with_none`. The
-// reference is the first.
+// Every arithmetic with every culling, for all pairs and for first pairs. Culling none is among
+// them only if `with_none` is set. The reference is the first.
 std::vector<Variant> all_variants(bool with_none);
 
 // "exact view-auto all"
 std::string name_of(const Variant& variant);
 
-// How far a reported first time is from the oracle's, both by their lower ends: that is the time
-// up to which a user would go. At most one of late and early is not 0.
+// How far a reported first time is from the oracle's. Both are taken by their lower ends, because
+// that is the time up to which a user would go. At most one of late and early is not 0.
 struct FirstTimeError {
   double late_ulps = 0, early_ulps = 0;    // doubles between the two times
-  double late_share = 0, early_share = 0;  // of the step
+  double late_share = 0, early_share = 0;  // as shares of the step
 };
 FirstTimeError first_time_error(const detector::TimeEnclosure& reported,
                                 const detector::TimeEnclosure& truth);
@@ -48,23 +49,24 @@ struct JudgedStep {
   std::size_t triangles = 0;
   Variant variant;
 
-  std::vector<double> ns;  // processor time, a sample a round
-  // Of the reference on the same step in the same round.
+  std::vector<double> ns;  // processor time, one sample for each round
+  // The times of the reference on the same step, in the same rounds.
   std::vector<double> reference_ns;
-  std::uint64_t hash = 0;  // of the result, see result_hash
+  std::uint64_t hash = 0;  // hash of the result (result_hash)
   std::uint64_t box_tests = 0, candidates = 0, elementary_tests = 0;
 
-  // Against the oracle. Not judged: the oracle was stopped at its time limit.
+  // The rest compares the answer with the oracle's. `judged` is false if the oracle was stopped at
+  // its time limit.
   bool judged = true;
-  bool contact = false;                   // by the oracle
-  bool missed = false;                    // `free` against a contact
-  bool false_alarm = false;               // `collision` against none
-  std::size_t missing = 0, spurious = 0;  // pairs; missing ones that are claimed
-  FirstTimeError first;                   // where both have a contact
+  bool contact = false;                   // the oracle has a contact
+  bool missed = false;                    // `free`, although there is a contact
+  bool false_alarm = false;               // `collision`, although there is no contact
+  std::size_t missing = 0, spurious = 0;  // pairs; of the missing ones those that are claimed
+  FirstTimeError first;                   // if both have a contact
 
-  // What a user would run into: a contact or a pair is not told, or told too late.
+  // A user would run into this: a contact or a pair is not reported, or is reported too late.
   bool unsafe() const { return missed || missing > 0 || first.late_ulps > 0; }
-  // What a user would look for in vain: contacts or pairs that there are not.
+  // A user would look for this in vain: a contact or a pair is reported that is not there.
   bool alarming() const { return false_alarm || spurious > 0; }
 };
 

@@ -10,9 +10,9 @@
 
 namespace assay::reports {
 
-// Feature pairs of a step without a common vertex whose moving boxes along the axes are not apart:
-// what a broad phase over features hands over. Each once, in an order that is as good as random, so
-// that a part of it is a sample.
+// The feature pairs of a step that have no common vertex and whose moving boxes along the axes are
+// not apart: what a broad phase over features hands over. Each occurs once, in an order that is as
+// good as random, so that a part of the list is a sample.
 struct MeshCandidates {
   std::vector<detector::FourPoints> queries;  // at most `most`
   std::size_t all = 0;                        // how many there are
@@ -23,15 +23,15 @@ struct LabelledSet {
   std::vector<detector::FourPoints> queries;
   std::vector<bool> truths;
 };
-// Queries of the rod-twist simulation; all of the hand-made sets. Nothing when a file is missing.
-// Throws UnusableData.
+// The queries of the rod-twist simulation, and those of all hand-made sets. Nothing if a file is
+// missing. Throws UnusableData.
 std::optional<LabelledSet> simulation_queries(const BenchSettings& settings);
 std::optional<LabelledSet> hand_made_queries(const BenchSettings& settings);
 
-// Random queries, coordinates of either sign with exponents uniform in [least, most] and 53 random
-// bits: the first feature, moved as a whole, meets the second at no special time. Where exponents
-// spread this far, most queries are ordered along an axis; every fourth has all its coordinates
-// near one exponent, and so often none that decides.
+// Random queries. Coordinates have either sign, exponents uniform in [least, most] and 53 random
+// bits; the first feature, moved as a whole, meets the second at no special time. Where exponents
+// spread this far, most queries are ordered along an axis. So every fourth query has all its
+// coordinates near one exponent, and often no axis decides it.
 std::vector<detector::FourPoints> random_exponents(std::size_t count, int least, int most);
 
 }  // namespace assay::reports

@@ -9,7 +9,7 @@
 
 namespace assay::reports {
 
-// Pairs and their times; a difference is a wrong answer in the report.
+// Compares answers, pairs and their times. A difference is a wrong answer in the report.
 inline void check_same_pairs(const std::string& name, const detector::StepResult& a,
                              const detector::StepResult& b, BenchReport& report) {
   bool same = a.pairs.size() == b.pairs.size() && a.answer == b.answer && a.first == b.first;

@@ -12,14 +12,14 @@
 
 namespace assay::reports {
 
-// Of everything in a result that does not depend on time, or on the searches before the step (as
-// the marking counts do).
+// A hash of everything in a result that depends neither on time nor on the searches before the
+// step (as the counts of marking do).
 std::uint64_t result_hash(const detector::StepResult& result);
 
 class TimedStep {
  public:
-  // Commits all steps of `frames` but the last, which is the one to be timed. frames: two or more,
-  // must outlive this object. Throws UnusableData where the detector refuses the mesh.
+  // Commits all steps of `frames` but the last, which is the one to be timed. REQUIRES two frames
+  // or more, which outlive this object. Throws UnusableData if the detector refuses the mesh.
   TimedStep(std::string name, const detector::Triangles& triangles,
             std::span<const detector::Positions> frames, const detector::Options& options,
             BenchReport& report);
@@ -27,12 +27,12 @@ class TimedStep {
             std::span<const detector::Positions> frames, const detector::Options& options,
             detector::Stages stages, BenchReport& report);
 
-  // Processor time of one evaluation in ns. A result that differs from the first is a wrong answer
-  // in the report.
+  // Evaluates the step once and returns the processor time in ns. A result that differs from the
+  // first one is a wrong answer in the report.
   double time();
-  // Of the last evaluation; evaluates once when there was none.
+  // The result of the last evaluation. Evaluates the step once if there was none.
   const detector::StepResult& result();
-  // V+ over all triangles, doubt aside.
+  // The share of V+ among all triangles, leaving doubts aside.
   double positive_share();
 
  private:
@@ -45,11 +45,11 @@ class TimedStep {
   bool evaluated_ = false;
 };
 
-// How the benches ask: the caller vouches for the start, all pairs.
+// The options of the benches: the caller vouches for the start, and all pairs are asked for.
 detector::Options bench_options(detector::Culling culling,
                                 detector::Arithmetic arithmetic = detector::Arithmetic::exact);
 
-// A scene of corpus/; the names and sizes are those of the benches, so it cannot fail.
+// A scene of corpus/. It cannot fail, because names and sizes are those of the benches.
 corpus::Sequence bench_scene(const std::string& name, int triangles, int frames);
 
 }  // namespace assay::reports

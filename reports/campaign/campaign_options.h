@@ -1,4 +1,4 @@
-// What `run` and `certify` are asked of a campaign, and its options.
+// What `run` and `certify` are asked of a campaign, and the options that say it.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace assay::reports {
 
-// In the user's words.
+// The request in the user's words.
 struct CampaignWords {
   std::string campaign;  // a name or a file
   std::uint64_t seed = 1;
@@ -27,11 +27,12 @@ struct CampaignWords {
   int jobs = 1;
 };
 
-// Adds an option for each of them but --campaign and --out, which say what they are of the verb.
+// Adds an option for each member but --campaign and --out, which each verb describes in its own
+// way.
 void add_campaign_options(Verb& verb, CampaignWords& words);
 
-// The request for all of a campaign as one shard; `out` is made. ctrl-C leaves from then on with
-// what is stored. Refused where a name, a file or a library is wrong.
+// The request for a whole campaign, as one shard. Makes the folder `out`. From then on ctrl-C
+// leaves with what is stored. Fails if a name, a file or a library is wrong.
 Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& words);
 
 }  // namespace assay::reports

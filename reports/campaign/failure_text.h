@@ -1,4 +1,4 @@
-// The failures of a run: their files, and what is printed of them.
+// Writes the files of the failures of a run, and the text that is printed about them.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +25,8 @@ struct FailureReport {
 
 // Writes OUT/failures/CASE-CONFIGURATION-original.json and -smallest.json for each stored failure,
 // under the same names in every run and shard, and a picture (.svg) of the smallest mesh of each
-// signature. A failure is told once for each signature: claim, how often it was met, both sizes,
-// triangles, feature, the line that replays it. detector: the one that failed.
+// signature. The text has one paragraph for each signature: claim, how often it was met, both
+// sizes, triangles, feature, and the line that replays it. `detector` is the one that failed.
 FailureReport write_failures(const properties::KeptFailures& kept, const std::filesystem::path& out,
                              const DetectorWords& detector);
 

@@ -1,4 +1,4 @@
-// Cases and waivers of whoever owns a detector: a folder that `run` and `certify` take beside what
+// The cases and waivers of a detector's owner: a folder that `run` and `certify` take beside what
 // is shipped.
 #pragma once
 
@@ -12,18 +12,19 @@
 
 namespace assay::reports {
 
-// The cases of such a folder: every file of it that ends with .json but that of its
-// waivers. Refused where one cannot be read, or there is none.
+// The cases of such a folder: every file of it that ends with .json, except that of its waivers.
+// Fails if one cannot be read, or if there is none.
 Expected<properties::OwnCases> read_own_cases(const std::filesystem::path& folder);
 
-// The file of waivers in such a folder, named as corpus/known.json is; nothing where there is none.
+// The file of waivers in such a folder, which is named as corpus/known.json is; nothing if there
+// is none.
 std::optional<std::filesystem::path> owner_waivers(const std::filesystem::path& folder);
 
-// The cases of these files; the first problem where one cannot be read.
+// The cases of these files, or the first problem if one cannot be read.
 corpus::Expected<std::vector<corpus::Case>> read_cases(
     const std::vector<std::filesystem::path>& files);
 
-// SHA-256 over their names and bytes.
+// SHA-256 over the names and bytes of these files.
 std::string digest_of_files(const std::vector<std::filesystem::path>& files);
 
 }  // namespace assay::reports

@@ -1,4 +1,4 @@
-// The slow cases of a run: their files, and what is printed of them.
+// Writes the files of a run's slow cases, and the text that is printed about them.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@ namespace assay::reports {
 Expected<void> write_slow_cases(const std::vector<properties::SlowCase>& cases,
                                 const std::filesystem::path& out);
 
-// The trials without a verdict, then the slowest of the others, each with its processor time, the
-// line that replays it and, where one was kept, the smallest mesh and its picture.
+// The trials without a verdict, then the slowest of the others. Each has its processor time, the
+// line that replays it and, if one was kept, the smallest mesh and its picture.
 std::string slow_trials_text(const properties::RunFindings& findings);
 
 }  // namespace assay::reports

@@ -1,4 +1,4 @@
-// A share of a certificate's trials made and judged once more, for `assay verify --again`.
+// Makes and judges a share of a certificate's trials once more, for `assay verify --again`.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,20 @@
 namespace assay::reports {
 
 struct AgainRequest {
-  double share = 0;  // of the trials, above 0, at most 1
+  double share = 0;  // share of the trials, above 0, at most 1
   std::uint64_t seed = 0;
-  // No library: where it was when the trials were run.
+  // If no library is named, it is taken from where it was when the trials were run.
   DetectorWords detector;
   int jobs = 1;
 };
 
-// folder: of a certificate that verifies. The stores alone can be forged by whoever forges the
-// certificate with them; the trials cannot, for their cases come of campaign, seed and number.
-// Refused where they cannot be made: another generator than that of the trials, another worker than
-// that which held the built-in detector, no library or one of other bytes than the certified one.
+// REQUIRES that the certificate in `folder` verifies. Whoever forges a certificate can forge the
+// stores with it. The trials cannot be forged, because their cases follow from campaign, seed and
+// number.
+//
+// Fails if the trials cannot be made again: with another generator than theirs, with another
+// worker than the one that held the built-in detector, without a library, or with one of other
+// bytes than the certified one.
 Expected<properties::TrialsAgain> run_certified_again(
     const std::filesystem::path& folder, const AgainRequest& request,
     const std::function<void(const properties::TrialProgress&)>& progress);

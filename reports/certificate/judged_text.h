@@ -6,9 +6,10 @@
 
 namespace assay::reports {
 
-// "claims free-sound, total; not judged: no-spurious (the contract has a margin); contract margin
-// 0.1; isolation full; campaign smoke, seed 1" of a predicate. Of the built-in detector, whose
-// configurations differ in their claims: how many configurations there are.
+// What a predicate is about: "claims free-sound, total; not judged: no-spurious (the contract has
+// a margin); contract margin 0.1; isolation full; campaign smoke, seed 1". For the built-in
+// detector, whose configurations differ in their claims, the number of configurations stands there
+// instead.
 std::string judged_text(const nlohmann::ordered_json& predicate);
 
 }  // namespace assay::reports

@@ -7,11 +7,11 @@
 
 namespace assay::reports {
 
-// Called for each family of `assay self-test` as it is known.
+// Is called for each family of `assay self-test` as soon as it is known.
 using OnSelfTestRow = std::function<void(const properties::SelfTestRow&)>;
 void check_oracle(std::uint64_t queries, int jobs, const OnSelfTestRow& on_family);
 
-// Called for each of properties::speed_figures: the ratio of processor times of interleaved steps
+// Is called for each of properties::speed_figures: a ratio of processor times of interleaved steps
 // of the built-in detector. 10 s in all.
 using OnSpeedFigure = std::function<void(const properties::SpeedFigure&)>;
 void measure_speed(const OnSpeedFigure& on_figure);

@@ -1,5 +1,5 @@
-// The parts of a certificate's predicate (schema assay-certificate/3, reports/README.md), each a
-// rendering of findings.
+// The parts of a certificate's predicate (schema assay-certificate/3, reports/README.md). Each
+// function renders a part of the findings or gates as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,38 +11,41 @@ namespace assay::reports {
 // What the cases were: sizes, contacts by view sets, tags.
 nlohmann::ordered_json cases_json(const properties::RunFindings& findings);
 
-// {gate, asks, state, verdict, exit_code, reasons} each, in their order.
+// One {gate, asks, state, verdict, exit_code, reasons} for each gate, in their order.
 nlohmann::ordered_json gates_json(const properties::Judgement& judgement);
 
-// How many bounds hold together, the risk of each, and of what they speak.
+// How many bounds hold together, the risk of each, and what they speak of.
 nlohmann::ordered_json confidence_json(const properties::RunFindings& findings);
 
-// A stratum each: planned, trials, discards, distinct cases, steps, and a bound a configuration.
+// One object for each stratum: planned, trials, discards, distinct cases, steps, and one bound for
+// each configuration.
 nlohmann::ordered_json strata_json(const properties::RunFindings& findings);
 
-// A law each: how often its premise held, was close, and it was broken; null for a plug-in.
+// One object for each law: how often its premise held, how often it was close, and how often it
+// was broken; null for a plug-in.
 nlohmann::ordered_json laws_json(const properties::RunFindings& findings);
 
-// Canary, planted faults, proved worlds.
+// The canaries, the planted faults and the proved worlds.
 nlohmann::ordered_json power_json(const properties::RunFindings& findings);
 
-// A defect or broken law each, by its signature, with the line that replays it.
+// One object for each signature of a defect or of a broken law, with the line that replays it.
 nlohmann::ordered_json failures_json(const properties::RunFindings& findings);
 
-// From corpus/known.json as it was when the certificate was issued, and how often each was met.
+// The waivers of corpus/known.json as it was when the certificate was issued, and how often each
+// was met.
 nlohmann::ordered_json waivers_json(const properties::RunFindings& findings);
 
-// {claim, reason} of each claim that no verdict speaks of.
+// One {claim, reason} for each claim of which the verdict says nothing.
 nlohmann::ordered_json not_judged_json(const properties::RunFindings& findings);
 
-// What the steps of a plug-in came to, whatever it claims: a stratum or all of them
+// What the steps of a plug-in came to, whatever it claims: those of one stratum, or of all strata
 // (measures_json.cpp).
 nlohmann::ordered_json measures_json(const properties::StepMeasures& measures);
 
-// A large mesh each that was put to a plug-in again and again; null where none was.
+// One object for each large mesh that was put to a plug-in again and again; null if none was.
 nlohmann::ordered_json repeated_json(const properties::RunFindings& findings);
 
-// Null where none was run.
+// Null if no self-test was run.
 nlohmann::ordered_json self_test_json(const properties::RunFindings& findings);
 nlohmann::ordered_json corpus_json(const properties::RunFindings& findings);
 

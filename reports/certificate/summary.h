@@ -1,4 +1,4 @@
-// What a run or a certificate came to as Markdown: for the summary of a CI job.
+// What a run or a certificate came to, as Markdown for the summary of a CI job.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,11 @@ namespace assay::reports {
 // bytes.
 std::string summary_text(const nlohmann::ordered_json& predicate);
 
-// Of one of `failures`: "met 3 times", or that no trial showed it.
+// For one entry of `failures`: "met 3 times", or that no trial showed it.
 std::string met_text(const nlohmann::ordered_json& failure);
 
-// OUT/junit.xml and OUT/summary.md, for CI systems; `part` stands behind their names. Refused
-// where one cannot be written.
+// Writes OUT/junit.xml and OUT/summary.md for CI systems; `part` is appended to their names. Fails
+// if one cannot be written.
 Expected<void> write_for_ci(const nlohmann::ordered_json& predicate,
                             const std::filesystem::path& out, const std::string& part = "");
 

@@ -1,4 +1,4 @@
-// Whether a certificate is what the files beside it come to.
+// Verifies a certificate: whether it is what follows from the files beside it.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,16 @@
 namespace assay::reports {
 
 struct Verification {
-  std::vector<std::string> differences;  // one line each; none: it is
-  nlohmann::ordered_json statement;      // as it was read; null when it is none
+  std::vector<std::string> differences;  // one line each; none: the certificate is verified
+  nlohmann::ordered_json statement;      // as it was read; null if it is no statement
 };
 
-// Counts, bounds, digests, gates and verdict are computed again from campaign.json and the stores
-// beside the certificate, and every field and byte is compared; so are the failing meshes that it
-// names, junit.xml and summary.md.
+// Computes counts, bounds, digests, gates and verdict again from campaign.json and the stores
+// beside the certificate, and compares every field and byte. It also checks the failing meshes
+// that the certificate names, junit.xml and summary.md.
 Verification verify_certificate(const std::filesystem::path& certificate);
-// The same, where make_statement(folder) of its folder has been called before.
+// The same, with the result of make_statement(folder) for its folder, which has been computed
+// before.
 Verification verify_certificate(const std::filesystem::path& certificate,
                                 const properties::Expected<nlohmann::ordered_json>& computed);
 

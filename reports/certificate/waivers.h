@@ -15,11 +15,12 @@ struct Waiver {
   std::string expires;  // the last day on which it holds, YYYY-MM-DD
 };
 
-// Schema `assay-known/1` (corpus/README.md): {"schema", "waivers": [{signature, reason, link,
-// expires}]}, every field stated and none empty, each signature once.
+// Reads a file of waivers, schema `assay-known/1` (corpus/README.md): {"schema", "waivers":
+// [{signature, reason, link, expires}]}. Every field is stated and none is empty; each signature
+// occurs once.
 corpus::Expected<std::vector<Waiver>> read_waivers(const std::filesystem::path& file);
 
-// today: YYYY-MM-DD.
+// `today` is YYYY-MM-DD.
 bool is_expired(const Waiver& waiver, const std::string& today);
 
 }  // namespace assay::reports

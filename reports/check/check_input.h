@@ -10,12 +10,13 @@
 namespace assay::reports {
 
 struct CheckInput {
-  corpus::Case c;    // of frames: one without a view, options or expected facts
-  std::string file;  // the first
+  corpus::Case c;    // made from frames it has no view, options or expected facts
+  std::string file;  // the first file
   bool is_case_file = false;
 };
 
-// Frames of one mesh (two or more), or one case file whose options are understood.
+// Reads frames of one mesh (two or more), or one case file. Fails if its options are not
+// understood.
 corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files);
 
 }  // namespace assay::reports

@@ -10,23 +10,23 @@
 namespace assay::reports {
 
 struct CheckOutcome {
-  bool is_judged = true;  // by the oracle
+  bool is_judged = true;  // the oracle judged it
   bool defect = false, undecided = false;
   bool unsound = false;       // a second opinion contradicts the oracle
-  bool facts_differ = false;  // of a case file
+  bool facts_differ = false;  // expected facts of a case file do not hold
   bool judged_by_claims = false;
-  bool has_answers = true;  // false: of a library of candidates alone
-  std::string ended;        // how a plug-in's run ended, where it did not go through
+  bool has_answers = true;  // false: a library of candidates alone
+  std::string ended;        // how a plug-in's run ended; empty: it went through
   std::string limit_reached;
-  // Of a plug-in: claims that hold, those of which nothing is known, and what it does whatever it
-  // claims.
+  // Only for a plug-in: the claims that hold, those of which nothing is known, and what the
+  // plug-in does whatever it claims.
   std::vector<std::string> held;
   std::vector<properties::NotJudged> not_judged;
   properties::StepMeasures measures;
-  std::optional<std::size_t> collision_step;  // the first, from 0
+  std::optional<std::size_t> collision_step;  // the first step with a collision, counted from 0
   detector::TimeEnclosure collision_time;
 
-  // Some lines, each with its end.
+  // The last lines of what `check` prints, each with its end of line.
   std::string summary() const;
   const char* word() const;
   int exit_code(bool fail_on_collision) const;

@@ -18,20 +18,21 @@ namespace assay::reports {
 struct CheckQuestion {
   std::vector<std::string> files;  // what the input was read from, for reports and replay lines
   BuiltInChoice built_in;
-  DetectorWords detector;     // its threads are those below
-  std::uint64_t threads = 0;  // 0: all cores, and a plug-in is told 1
+  DetectorWords detector;     // its `threads` is not used; the one below is
+  std::uint64_t threads = 0;  // 0: all cores; a plug-in is told 1
   bool no_oracle = false;
-  std::optional<double> second_opinion;  // share in (0,1]; needs the oracle
+  // The share in (0,1] of the oracle's questions that get a second opinion. REQUIRES the oracle.
+  std::optional<double> second_opinion;
   int jobs = 1;
   std::optional<double> time_limit;           // seconds
   std::optional<std::uint64_t> memory_limit;  // bytes
-  bool wants_report = false;                  // it takes more memory than what it tells
-  std::string announced_file;                 // where the report is to go, for the user to know
+  bool wants_report = false;                  // without it no report is built, which saves memory
+  std::string announced_file;                 // the file of the report, to be named to the user
 };
 
 struct CheckListener {
   std::function<void(const std::string& text)> say;  // what is printed, as it becomes known
-  detector::StopFunction stop;                       // may be empty; what is left over is undecided
+  detector::StopFunction stop;                       // may be empty; what it leaves is undecided
 };
 
 struct CheckAnswer {
@@ -39,8 +40,8 @@ struct CheckAnswer {
   nlohmann::ordered_json report;  // schema assay-check/1; null unless wanted
 };
 
-// `input`: its coordinates are rounded where a plug-in's contract says so. worker: the program
-// assay-worker, for a plug-in.
+// Checks one mesh. The coordinates of `input` are rounded if a plug-in's contract says so.
+// `worker` is the program assay-worker, for a plug-in.
 Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener);

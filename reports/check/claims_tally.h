@@ -1,4 +1,5 @@
-// What the steps of a plug-in come to under `check`: its claims, and what it does whatever these.
+// What the steps of a plug-in come to under `check`: its claims, and what it does whatever it
+// claims.
 #pragma once
 
 #include "properties/worker/plugin/plugin_description.h"
@@ -8,12 +9,13 @@ namespace assay::reports {
 
 class ClaimsTally {
  public:
-  // null: the built-in detector, of which nothing is tallied.
+  // `plugin` is null for the built-in detector, for which nothing is counted.
   explicit ClaimsTally(const properties::PluginDescription* plugin) : plugin_(plugin) {}
 
   void add(const properties::StepDiff& diff, const detector::StepResult& result,
            const oracle::StepJudgement& judgement);
-  // `steps_left_out`: by the contract, of the input.
+  // Writes the result into `outcome`. `steps_left_out` is the number of steps of the input that
+  // the contract leaves out.
   void tell(CheckOutcome& outcome, std::size_t steps_left_out) const;
 
  private:

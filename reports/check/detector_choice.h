@@ -9,9 +9,9 @@
 
 namespace assay::reports {
 
-// Sets request.detector, and of a plug-in what there is of it; request.worker is set. Refused when
-// the library cannot serve, does not hold the part that is asked for, or cannot be isolated as it
-// is required.
+// Sets request.detector and, for a plug-in, the members of the request that tell of it. REQUIRES
+// that request.worker is set. Fails if the library cannot serve, does not hold the part that is
+// asked for, or cannot be isolated although that is required.
 Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request);
 
 }  // namespace assay::reports

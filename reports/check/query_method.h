@@ -16,7 +16,7 @@ enum class QueryMethod : std::uint8_t {
   detector_double,
   detector_float
 };
-// Of the command line and the report, in the order of QueryMethod.
+// The names of the methods on the command line and in the report, in the order of QueryMethod.
 inline constexpr const char* query_method_names[] = {
     "oracle", "referee", "detector-exact", "detector-bounded", "detector-double", "detector-float"};
 
@@ -25,22 +25,23 @@ const char* name_of(QueryMethod method);
 
 struct QueryAnswer {
   bool contact = false;
-  int rung = 0;       // which of rungs_of(method) decided; 0 for the referee, which has none
-  bool open = false;  // by the referee: not decided
+  // Which of rungs_of(method) decided. Always 0 for the referee, which has none.
+  int rung = 0;
+  bool open = false;  // the referee did not decide
 };
 QueryAnswer answer_by(QueryMethod method, const corpus::LabelledQuery& query);
 
-// The names of its rungs, by QueryAnswer::rung; "" where there is none.
+// The names of the method's rungs, by QueryAnswer::rung; "" for a rung that it does not have.
 using RungNames = std::array<const char*, 5>;
 const RungNames& rungs_of(QueryMethod method);
 
-// Whether an answer that differs from the truth refutes the method: bounded arithmetic may raise
-// false alarms, plain doubles and floats promise nothing.
+// Whether an answer of this kind that differs from the truth refutes the method. Bounded
+// arithmetic may raise false alarms; plain doubles and floats promise nothing.
 bool claims_no_false_positives(QueryMethod method);
 bool claims_no_false_negatives(QueryMethod method);
 
-// Whether the label of a query that is coplanar throughout is in doubt: the other exact method
-// answers as this one did (such labels were never checked by their makers).
+// Whether the label of a query that is coplanar throughout is in doubt, because the other exact
+// method gives the same answer as this one (such labels were never checked by their makers).
 bool is_label_disputed(QueryMethod method, const corpus::LabelledQuery& query, bool contact);
 
 }  // namespace assay::reports

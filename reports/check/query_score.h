@@ -1,4 +1,4 @@
-// What one method's answers to labelled queries come to: its score, its times, its rungs.
+// Sums up the answers of one method to labelled queries: its score, its times, its rungs.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace assay::reports {
 
-// A query where the answer is not the label.
+// A query whose answer differs from its label.
 struct Difference {
   std::string file;
   std::size_t index = 0;
@@ -22,7 +22,7 @@ struct Difference {
 class QueryScore {
  public:
   explicit QueryScore(QueryMethod method) : method_(method), name_(name_of(method)) {}
-  // Of another who answers, a plug-in: its answers come by add_answer.
+  // The score of a plug-in. Its answers are added by add_answer.
   explicit QueryScore(std::string name) : name_(std::move(name)) {}
 
   // Answers and times each query of a file, one by one.
@@ -30,21 +30,21 @@ class QueryScore {
 
   struct Answered {
     bool contact = false;
-    std::optional<bool> truth;    // the label, where it is of the query that was asked
+    std::optional<bool> truth;    // the label, if it is that of the query that was asked
     bool label_disputed = false;  // the oracle answers against it
     double microseconds = 0;
   };
   void add_answer(const std::string& file, std::size_t index, const Answered& answered);
 
-  // To stdout: counts, differences from the truth, microseconds, rungs.
+  // Prints to stdout: counts, differences from the truth, microseconds, rungs.
   void print() const;
   // The report, schema assay-queries/1.
   nlohmann::ordered_json to_json(const std::vector<std::string>& files) const;
 
   // The referee contradicts the oracle.
   bool is_unsound() const { return !contradictions_.empty(); }
-  // An answer differs from its truth in a way that the method promises not to; a plug-in is judged
-  // by its claims instead (query_detector.h).
+  // An answer differs from its truth in a way that the method promises to avoid. A plug-in is
+  // judged by its claims instead (query_detector.h).
   bool is_wrong() const {
     return method_ && ((false_positives_ > 0 && claims_no_false_positives(*method_)) ||
                        (false_negatives_ > 0 && claims_no_false_negatives(*method_)));
@@ -63,7 +63,7 @@ class QueryScore {
   std::vector<double> microseconds_;
   std::size_t yes_ = 0, unlabelled_ = 0, false_positives_ = 0, false_negatives_ = 0;
   std::array<std::size_t, 5> rungs_ = {};
-  std::size_t open_ = 0;  // by the referee; neither yes nor a difference
+  std::size_t open_ = 0;  // left open by the referee; neither yes nor a difference
   std::vector<Difference> differences_, contradictions_;
 };
 

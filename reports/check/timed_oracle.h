@@ -1,4 +1,4 @@
-// The oracle as `check` asks it: within the user's limits, and timed.
+// Asks the oracle for `check`, within the user's limits, and measures the time that it takes.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,13 @@ namespace assay::reports {
 template <class Answer>
 struct Timed {
   Answer answer;
-  double milliseconds = 0;  // by the clock
+  double milliseconds = 0;  // wall clock
 };
 
 class TimedOracle {
  public:
-  // `jobs` threads. Where memory fails, the limits remember it and the answer is not complete.
+  // Judges in `jobs` threads. If memory fails, the limits remember it and the answer is not
+  // complete.
   TimedOracle(int jobs, oracle::AskedFeatures asked, Limits& limits)
       : jobs_(jobs), asked_(asked), limits_(limits) {}
 
@@ -26,7 +27,7 @@ class TimedOracle {
                                      const detector::Triangles& triangles,
                                      const detector::StopFunction& stop) const;
 
-  // Other methods on that share of the questions behind a judgement.
+  // Asks other methods this share of the questions behind a judgement.
   Timed<oracle::SecondOpinion> second_opinion(const detector::Positions& x_t0,
                                               const detector::Positions& x_t1,
                                               const detector::Triangles& triangles,

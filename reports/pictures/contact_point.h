@@ -1,4 +1,5 @@
-// Where two triangles meet, for pictures: in plain doubles, no verdict rests on it.
+// Where two triangles meet, for pictures. It is computed in plain doubles, and no verdict rests on
+// it.
 #pragma once
 
 #include <optional>
@@ -7,10 +8,11 @@
 
 namespace assay::reports {
 
-// At time t in [0,1] of the step: the vertex of a vertex-face contact, the middle of the closest
-// points of two edges, where a piercing edge crosses the plane, the centre of triangles with the
-// same vertices; where no feature is named, as by a plug-in, the middle of the closest points of
-// the two triangles. Nothing when that is no place: all features share a vertex, or it overflows.
+// The place of the contact at time t in [0,1] of the step: the vertex of a vertex-face contact,
+// the middle of the closest points of two edges, the point where a piercing edge crosses the
+// plane, or the centre of triangles with the same vertices. If no feature is named, as by a
+// plug-in: the middle of the closest points of the two triangles. Nothing if there is no such
+// place, because all features share a vertex, or because it overflows.
 std::optional<detector::Point> contact_point(const detector::PairContact& contact,
                                              const detector::TrianglesView& triangles,
                                              const detector::PositionsView& x_t0,

@@ -1,4 +1,4 @@
-// A failing mesh as a small picture, for those who see only the log.
+// Draws a failing mesh as a small picture, for those who see only the log.
 #pragma once
 
 #include <string>
@@ -7,10 +7,11 @@
 
 namespace assay::reports {
 
-// SVG 1.1, no script, no style sheet, no ground: an isometric projection of the mesh at the time of
-// its contact, seen from the side that shows most of the failing pair. Triangles in the colours of
-// their view sets, the pair outlined and numbered, ghosts dashed, the contact a disc (exact) and a
-// ring (the detector's). `title` stands below. O(n log n) in the triangles.
+// SVG 1.1 without script, style sheet or background: an isometric projection of the mesh at the
+// time of its contact, seen from the side that shows most of the failing pair. Triangles have the
+// colours of their view sets, the pair is outlined and numbered, ghosts are dashed, and the
+// contact is a disc (exact) and a ring (the detector's). `title` stands below. O(n log n) in the
+// triangles.
 std::string mesh_svg(const CaseScene& scene, const std::string& title);
 
 }  // namespace assay::reports

@@ -1,5 +1,5 @@
-// Closest points of segments and triangles, for pictures: in plain doubles of any size, no verdict
-// rests on it.
+// Closest points of segments and triangles, for pictures. They are computed in plain doubles of
+// any size, and no verdict rests on them.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,8 @@ struct NearestPoints {
 NearestPoints nearest_of_segments(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
                                   const Eigen::Vector3d& b0, const Eigen::Vector3d& b1);
 
-// Of a point and a closed triangle; one without area counts as its longest edge.
+// The closest points of a point and a closed triangle. A triangle without area counts as its
+// longest edge.
 NearestPoints nearest_of_triangle(const Eigen::Vector3d& point,
                                   const std::array<Eigen::Vector3d, 3>& corners);
 

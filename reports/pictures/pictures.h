@@ -7,11 +7,11 @@
 
 namespace assay::reports {
 
-// Speed against error: time over that of exact, bvh, against the share of unsafe and of alarming
-// steps, intervals on both axes, the Pareto line of each. All pairs.
+// Speed against error: the time over that of exact, bvh, against the share of unsafe and of
+// alarming steps, with intervals on both axes and the Pareto line of each error. All pairs.
 std::string speed_error_picture(const BenchReport& report);
 
-// The same of the peers and the built-in detector beside them, each in its own contract.
+// The same for the peers and the built-in detector beside them, each in its own contract.
 std::string peers_picture(const BenchReport& report);
 
 // Time of a step over that of bvh, and of normal-cone, against the share of V+.
@@ -20,7 +20,8 @@ std::string share_picture(const BenchReport& report);
 // Times against triangles, both logarithmic, beside n log n.
 std::string growth_picture(const BenchReport& report);
 
-// Stability: the share of cases right, of all strengths, of each hard family in each arithmetic.
+// Stability: the share of cases that are right, over all strengths, for each hard family in each
+// arithmetic.
 std::string heat_picture(const BenchReport& report);
 
 }  // namespace assay::reports

@@ -10,18 +10,19 @@
 
 namespace assay::reports {
 
-// Of a triangle over a step; doubt goes before the sign, as in the search for pairs.
+// The view set of a triangle over a step. A triangle in doubt (dirty, violated) is in that set
+// whatever its sign is, as in the search for pairs.
 enum class ViewSet : std::uint8_t { none, positive, negative, zero, dirty, violated };
 
-// In the order of ViewSet. Mid-tones, for light and dark grounds alike; told apart by people who
-// see colours differently (Okabe and Ito).
+// Names and colours in the order of ViewSet. The colours are mid-tones for light and dark grounds
+// alike, which people who see colours differently can tell apart (Okabe and Ito).
 inline constexpr std::array<const char*, 6> view_set_names = {"none", "V+",    "V-",
                                                               "V0",   "dirty", "violated"};
 inline constexpr std::array<const char*, 6> view_set_colours = {"#9aa0a6", "#56b4e9", "#e69f00",
                                                                 "#f0e442", "#cc79a7", "#d55e00"};
 
-// A triangle that a ghost touches and that carries doubt counts as violated. `none` where the step
-// has no view sets.
+// The set of a triangle; `none` if the step has no view sets. A triangle that is both touched by a
+// ghost and dirty counts as violated.
 inline ViewSet view_set(const detector::StepResult& result, std::size_t triangle) {
   if (triangle >= result.signs.size()) return ViewSet::none;
   const std::uint8_t doubt = triangle < result.doubts.size() ? result.doubts[triangle] : 0;

@@ -1,8 +1,10 @@
-// Arrays of NumPy as the views that the detector reads: no copy where the layout allows a view.
+// Takes arrays of NumPy as the views that the detector reads, without a copy if their layout
+// allows a view.
 //
-// A view of positions is taken of float64 in rows of three adjacent numbers (rows may be apart: a
-// slice of a larger array is one), of triangles of int32 likewise; read-only arrays too. All else
-// is converted once by assay/arrays.py, or refused there with its dtype and shape.
+// Positions can be viewed if they are float64 in rows of three adjacent numbers (the rows may be
+// apart, as in a slice of a larger array), and triangles if they are int32 in such rows; read-only
+// arrays too. Everything else is converted once by assay/arrays.py, or refused there with its
+// dtype and shape.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -17,10 +19,10 @@ class RowsArgument {
   using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>;
   using View = Eigen::Map<const Rows, Eigen::Unaligned, Eigen::OuterStride<>>;
 
-  // name: of the argument, for errors. Raises TypeError and ValueError.
+  // `name` is that of the argument, for errors. Raises TypeError and ValueError.
   RowsArgument(const pybind11::object& given, const char* name);
 
-  // Valid as long as this argument: it holds the array.
+  // Valid as long as this object, which holds the array.
   View view() const;
 
  private:

@@ -1,4 +1,4 @@
-// Ctrl-C during work that does not hold the interpreter.
+// Handles ctrl-C during work that does not hold the interpreter.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,17 +12,17 @@
 
 namespace assay::python {
 
-// Asks Python now and then whether a signal has come, such as that of ctrl-C; the clock says only
-// how often, for asking waits for the interpreter. Only the thread that made it asks: others may
-// help with the work. REQUIRES that it is made and raises with the interpreter, which is released
-// in between.
+// Asks Python now and then whether a signal has come, such as that of ctrl-C. A clock decides how
+// often it asks, because asking waits for the interpreter. Only the thread that made this object
+// asks; others may help with the work. REQUIRES that the interpreter is held when this object is
+// made and when raise() is called; it is released in between.
 class Interruption {
  public:
   detector::StopFunction stop_function() {
     return [this] { return check(); };
   }
 
-  // Raises what the handler of the signal has raised: KeyboardInterrupt, of ctrl-C.
+  // Raises what the handler of the signal has raised; for ctrl-C that is KeyboardInterrupt.
   void raise() const {
     if (raised_) throw pybind11::error_already_set(*raised_);
   }
@@ -35,7 +35,7 @@ class Interruption {
     const pybind11::gil_scoped_acquire interpreter;
     last_ = std::chrono::steady_clock::now();
     if (PyErr_CheckSignals() == 0) return false;
-    // Kept apart, for what is called until the work has ended must not find it.
+    // It is kept here, because what is called until the work has ended must not find it.
     raised_ = std::make_unique<pybind11::error_already_set>();
     return has_come_ = true;
   }

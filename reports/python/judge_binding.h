@@ -1,4 +1,5 @@
-// The oracle's answer of a step; `check`, a detector's steps against it; where contacts are.
+// Binds the oracle's answer to a step; `check`, which compares a detector's steps with it; and the
+// places of contacts.
 #pragma once
 
 #include <pybind11/pybind11.h>

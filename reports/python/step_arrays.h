@@ -1,4 +1,5 @@
-// A result of the detector as Python takes it: the fields of assay.StepResult by their names.
+// Turns a result of the detector into what Python takes: the fields of assay.StepResult by their
+// names.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -10,7 +11,7 @@
 
 namespace assay::python {
 
-// Arrays of a vector's elements that own the vector and may not be written.
+// An array of the vector's elements, which owns them and is not writeable.
 template <class Number, class Element>
 pybind11::array array_of(std::vector<Element> elements) {
   static_assert(sizeof(Number) == sizeof(Element));
@@ -29,7 +30,7 @@ pybind11::array array_of(std::vector<Element> elements) {
 // that has the first time (FeatureKind), and its vertices.
 pybind11::dict arrays_of(const std::vector<detector::PairContact>& contacts);
 
-// A result that is no error.
+// The fields of a result. REQUIRES that it is no error.
 pybind11::dict arrays_of(detector::StepResult result);
 
 }  // namespace assay::python

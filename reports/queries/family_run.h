@@ -1,4 +1,4 @@
-// The self-test's families of queries, put to the query of a plug-in.
+// Puts the self-test's families of queries to the query of a plug-in.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,14 @@ namespace assay::reports {
 struct QuerySelfTest {
   DetectorWords detector;
   std::uint64_t seed = 1;
-  std::uint64_t queries = 20'000;    // random small-integer queries; the other families follow it
+  std::uint64_t queries = 20'000;    // random small-integer queries; others follow from it
   std::optional<double> time_limit;  // seconds
   std::string replay;                // "family:seed:index"; empty: all
 };
 
-// A line a family, then what it does whatever it claims, and the claims that it breaks. Whole steps
-// are left out. Exit code of the verdict: 1 where a claim is broken, 3 where the time was over.
+// Prints a line for each family, then what the plug-in does whatever it claims, and the claims
+// that it breaks. Whole steps are left out. Returns the exit code of the verdict: 1 if a claim is
+// broken, 3 if the time was over.
 int self_test_of_plugin(const QuerySelfTest& request);
 
 }  // namespace assay::reports

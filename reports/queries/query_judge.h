@@ -1,4 +1,5 @@
-// Elementary queries through a plug-in, judged by its claims: many at once, and nothing stored.
+// Puts elementary queries to a plug-in and judges them by its claims, many at once. Nothing is
+// stored.
 #pragma once
 
 #include <optional>
@@ -15,26 +16,26 @@ namespace assay::reports {
 // What came of one query.
 struct JudgedQuery {
   bool is_within = false;   // the contract takes it; else the rest says nothing
-  bool is_rounded = false;  // by the contract: it is another query than was given
-  bool contact = false;     // by the oracle, at `first`
+  bool is_rounded = false;  // by the contract, so that another query is judged
+  bool contact = false;     // the oracle finds a contact, at `first`
   detector::TimeEnclosure first;
   properties::CaseRun run;
   properties::Outcome outcome = properties::Outcome::undecided;
   std::optional<properties::Failure> failure;
-  double microseconds = 0;  // by the clock: of the message that it went in, by the queries in that
+  double microseconds = 0;  // clock time of its message over the number of queries in it
 };
 
 class QueryJudge {
  public:
-  // The detector's claims are those on queries; both outlive the judge.
+  // The detector's claims are those on queries. Both arguments must outlive the judge.
   QueryJudge(const properties::DetectorUnderTest& detector, properties::WorkerProcess& worker)
       : detector_(detector), worker_(worker) {}
 
-  // Each in its place; twice where `deterministic` is claimed. Runs that did not take place end
-  // with RunEnd::not_run.
+  // Asks and judges the queries, each twice if `deterministic` is claimed. The results are in the
+  // order of the queries. Runs that did not take place end with RunEnd::not_run.
   std::vector<JudgedQuery> judge(std::span<const detector::FourPoints> queries);
 
-  // Of all that were judged.
+  // The measures of all queries that were judged.
   properties::StepMeasures measures() const { return properties::measures_in(counts_); }
   std::uint64_t crashes() const { return crashes_; }
 

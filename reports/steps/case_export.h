@@ -1,4 +1,4 @@
-// A case for other programs: its frames as OBJ, and a GoogleTest that holds it.
+// Writes a case for other programs: its frames as OBJ, and a GoogleTest that holds it.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +10,11 @@
 
 namespace assay::reports {
 
-// Writes FOLDER/frame_0000.obj ... (shortest decimals that read back to the same doubles),
-// FOLDER/case.json, and of the built-in detector FOLDER/case_test.cpp, a test of it against what
-// the oracle found, which needs GoogleTest and the library assay::detector. Of a plug-in:
-// FOLDER/case.cpp and FOLDER/case_plugin.cpp (owner_export.h; of a query, query_export.h). Refused
-// where a file cannot be written.
+// Writes FOLDER/frame_0000.obj ... (with the shortest decimals that read back to the same doubles)
+// and FOLDER/case.json. For the built-in detector also FOLDER/case_test.cpp, which tests it
+// against what the oracle found and needs GoogleTest and the library assay::detector. For a
+// plug-in also FOLDER/case.cpp and FOLDER/case_plugin.cpp (owner_export.h; for a query,
+// query_export.h). Fails if a file cannot be written.
 Expected<void> export_case(const std::filesystem::path& folder, const corpus::Case& c,
                            const properties::DetectorUnderTest& detector,
                            const std::vector<oracle::StepJudgement>& truth);

@@ -8,12 +8,12 @@
 namespace assay::reports {
 
 // A row for each stratum and one for all of them: false alarms with their interval, misses,
-// spurious pairs, how late and how early, what the contract leaves out; then the claims that were
-// not judged. Empty for the built-in detector.
+// spurious pairs, how late and how early times are, what the contract leaves out. Then the claims
+// that were not judged. Empty for the built-in detector.
 std::string measures_text(const properties::RunFindings& findings);
 
-// The same of a few steps, in words; empty where nothing is worth a word: "1 of 2 free steps
-// answered collision; 28874 spurious pairs; ...".
+// The same for a few steps, in words: "1 of 2 free steps answered collision; 28874 spurious pairs;
+// ...". Empty if there is nothing to say.
 std::string measures_sentence(const properties::StepMeasures& measures);
 
 // The columns of one row, without its name.

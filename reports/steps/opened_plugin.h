@@ -1,4 +1,4 @@
-// How the programs that are exported for the owner of a plug-in begin: they load it.
+// The code with which the programs exported for a plug-in's owner begin: it loads the plug-in.
 #pragma once
 
 #include <string>
@@ -24,8 +24,8 @@ int main(int argc, char** argv) {
   const assay_detector_api* api = reinterpret_cast<const assay_detector_api* (*)()>(entry)();
 )";
 
-// what: "case" or "query", whose arrays stand in the file beside it. The table is `api` in what
-// follows.
+// `what` is "case" or "query"; its arrays stand in the file beside it. The code that follows finds
+// the table as `api`.
 inline std::string opened_plugin(const std::string& what) {
   return std::string("// The same ")
       .append(what)

@@ -10,9 +10,9 @@
 
 namespace assay::reports {
 
-// For each step of the case: both signs, doubts, components, layers at the start by the oracle,
-// whether the pair is in K, whether their moving boxes meet, what the oracle says of it. Runs the
-// built-in detector in this process.
+// Tells for each step of the case: both signs, doubts, components, layers at the start by the
+// oracle, whether the pair is in K, whether its moving boxes meet, and what the oracle says of it.
+// Runs the built-in detector in this process.
 std::string pair_story(const corpus::Case& c, const detector::Options& options,
                        const detector::TrianglePair& pair,
                        const std::vector<oracle::StepJudgement>& truth);

@@ -8,7 +8,7 @@
 
 namespace assay::reports {
 
-// One indented line with the counts; then one a contradiction, ten at most.
+// One indented line with the counts; then one line for each contradiction, ten at most.
 std::string second_opinion_text(const oracle::SecondOpinion& opinion, double milliseconds);
 
 // `second_opinion` of a step in assay-check/1.

@@ -15,7 +15,7 @@ nlohmann::ordered_json to_json(const detector::TimeEnclosure& time);
 nlohmann::ordered_json to_json(const detector::PairContact& contact);
 nlohmann::ordered_json to_json(const properties::StepDiff& diff);
 
-// One entry of `steps`, without a second opinion. judgement and diff are null when no oracle was
+// One entry of `steps`, without a second opinion. judgement and diff are null if no oracle was
 // asked.
 nlohmann::ordered_json step_json(const detector::StepResult& result,
                                  const oracle::StepJudgement* judgement, double oracle_ms,

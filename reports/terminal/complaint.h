@@ -11,19 +11,20 @@
 
 namespace assay::reports {
 
-// The line that the user reads. The other rooms fail with named problems; here each of them becomes
-// its line, and nothing else is asked of it any more.
+// The line that the user reads. The other rooms fail with named problems. Here each problem
+// becomes its line, and its kind is not looked at again.
 struct Refusal {
   std::string line;
   int code = exit_usage;
 
   Refusal() = default;
   explicit Refusal(std::string text) : line(std::move(text)) {}
-  // Of corpus::Problem, detector::Problem and their like.
+  // From corpus::Problem, detector::Problem and their like.
   template <class Problem>
   requires requires(const Problem& problem) { std::string(problem.message); }
   explicit Refusal(const Problem& problem) : line(problem.message) {}
-  // What was stored is not what is read back: the harness cannot vouch for anything then.
+  // If what is read back is not what was stored (not_as_stored), the harness cannot vouch for
+  // anything.
   explicit Refusal(const properties::Problem& problem)
       : line(problem.message),
         code(problem.kind == properties::ProblemKind::not_as_stored ? exit_unsound : exit_usage) {}
@@ -35,16 +36,16 @@ namespace outcome = boost::outcome_v2;
 template <class T>
 using Expected = outcome::basic_result<T, Refusal, outcome::policy::terminate>;
 
-// "assay: LINE", control characters replaced, cut at 1,000 bytes; returns exit_usage. Never throws,
-// whatever stderr is.
+// Prints "assay: LINE" on stderr, with control characters replaced and cut at 1,000 bytes, and
+// returns exit_usage. Never throws, whatever stderr is.
 int refuse(const std::string& line) noexcept;
-// The same; returns the refusal's own code.
+// Prints the refusal's line in the same way, and returns its own code.
 inline int refuse(const Refusal& refusal) noexcept {
   refuse(refusal.line);
   return refusal.code;
 }
 
-// Whether all that was printed reached stdout; says so on stderr when not.
+// Whether all that was printed reached stdout; if not, says so on stderr.
 bool output_was_written() noexcept;
 
 }  // namespace assay::reports

@@ -1,4 +1,4 @@
-// Exit codes of every verb. Where several apply the first of 2, 4, 1, 3, 5, 0 is used.
+// The exit codes of every verb. If several apply, the first of 2, 4, 1, 3, 5, 0 is used.
 #pragma once
 
 namespace assay::reports {

@@ -1,4 +1,4 @@
-// Things as one line of text, with something between them.
+// The items of a list as one line of text, with `between` between them.
 #pragma once
 
 #include <fmt/format.h>

@@ -12,12 +12,12 @@ namespace assay::reports {
 
 class Limits {
  public:
-  // Seconds of processor time from now, of all threads of this process together: with two that work
-  // they are over in half the time on the wall. Bytes of resident memory of this process.
+  // Limits the processor time from now on, of all threads of this process together (two working
+  // threads use it up in half the time on the wall), and the resident memory of this process.
   Limits(std::optional<double> seconds, std::optional<std::uint64_t> bytes);
 
-  // Asks the clock and the system, in less than 1 us where only time is limited; remembers the
-  // first limit reached.
+  // Whether a limit is reached. Asks the clock and the system, in less than 1 us if only time is
+  // limited, and remembers the first limit reached.
   bool exceeded();
   // "time limit of 10 s" or "memory limit of 512 MiB"; empty before a limit was reached.
   const std::string& reached() const { return reached_; }

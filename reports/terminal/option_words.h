@@ -1,4 +1,4 @@
-// What the words after an option may be, and the options that several verbs have.
+// Checks of the words after an option, and the options that several verbs have.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 
 namespace assay::reports {
 
-// A word that `parse` takes: of a fixed set, or of a form.
+// A check that takes the words that `parse` takes: a fixed set, or words of a certain form.
 template <class Parse>
 Check one_of(const std::string& words, Parse parse) {
   return {words, [words, parse](const std::string& word) {
@@ -22,7 +22,7 @@ Check one_of(const std::string& words, Parse parse) {
           }};
 }
 
-// An option of one of these words; its target stays as it is when the option is not given.
+// An option whose word is one of `words`. Its target stays as it is if the option is not given.
 template <class Target, class Parse>
 VerbOption add_choice(Verb& verb, const std::string& name, Target& target, const std::string& words,
                       Parse parse, const std::string& about) {
@@ -32,7 +32,7 @@ VerbOption add_choice(Verb& verb, const std::string& name, Target& target, const
       .with(one_of(words, parse));
 }
 
-// A whole number of digits alone, no more than T can hold; nothing for other words.
+// A whole number that is written in digits alone and fits into T; nothing for other words.
 template <class T>
 std::optional<T> whole_number_of(const std::string& word) {
   T number = 0;
@@ -44,14 +44,14 @@ std::optional<T> whole_number_of(const std::string& word) {
 // "6GB", "6G", "512MB", "1000" (bytes); K or KB, M or MB, G or GB are 2^10, 2^20, 2^30 bytes.
 // Nothing for other words.
 std::optional<std::uint64_t> memory_size(const std::string& word);
-// The word of a number of bytes: "512MB"; "1000".
+// The word for a number of bytes: "512MB"; "1000".
 std::string memory_word(std::uint64_t bytes);
 
 Check positive();      // a number above 0
 Check whole_number();  // 0 .. 2^64-1
 Check share();         // a number above 0, at most 1
 
-// What of a plug-in is judged: `by_library` is its steps, or candidates, where it has these, else
+// Which part of a plug-in is judged. `by_library`: its steps or candidates, if it has these, else
 // its query.
 enum class DetectorPart : std::uint8_t { by_library, steps, query };
 
@@ -59,20 +59,20 @@ enum class DetectorPart : std::uint8_t { by_library, steps, query };
 struct DetectorWords {
   std::string library;  // of a plug-in; empty: the built-in detector
   properties::IsolationMode isolation = properties::IsolationMode::best;
-  std::uint64_t threads = 1;  // that it may use
+  std::uint64_t threads = 1;  // threads that it may use
   DetectorPart part = DetectorPart::by_library;
 };
 
-// --jobs (all cores, unless told otherwise), --seed, --detector with --isolation and --threads
+// The options --jobs (all cores, unless told otherwise) and --seed.
 void add_jobs(Verb& verb, int& jobs);
 void add_seed(Verb& verb, std::uint64_t& seed, const std::string& about);
-// --part: what of a plug-in a campaign is about.
+// The option --part: which part of a plug-in a campaign is about.
 void add_part(Verb& verb, DetectorPart& part);
-// The option --detector is returned.
+// The options --detector, --isolation and --threads. Returns the option --detector.
 VerbOption add_detector(Verb& verb, DetectorWords& detector,
                         const std::string& about =
                             "A plug-in's library, or python:MODULE:CLASS (default: the built-in)");
-// The same without --threads; and --threads for a verb that takes all cores where it is 0.
+// The same without --threads, and --threads alone, for a verb that takes all cores if it is 0.
 VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::string& about);
 void add_threads(Verb& verb, std::uint64_t& threads);
 

@@ -1,5 +1,5 @@
-// How far long work is: a line rewritten in place on a terminal, plain lines now and then
-// elsewhere.
+// Shows how far long work is: by a line rewritten in place on a terminal, by plain lines now and
+// then elsewhere.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ class PlainProgress {
   PlainProgress(const PlainProgress&) = delete;
   PlainProgress& operator=(const PlainProgress&) = delete;
 
-  // At most five times a second on a terminal, every 20 s elsewhere.
+  // Shows the text at most five times a second on a terminal, every 20 s elsewhere.
   void show(const std::string& text);
   void finish();
 

@@ -14,7 +14,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void phase(std::string name);
-  // Cheap; redraws at most five times a second.
+  // Is cheap: redraws the line at most five times a second.
   void tick();
   // Clears the line.
   void finish();

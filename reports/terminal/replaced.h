@@ -1,4 +1,4 @@
-// Characters that mean something to a reader of a format, as that format writes them.
+// Writes characters that have a meaning in a format in the way in which that format wants them.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 
 namespace assay::reports {
 
-// The text with each character that is named put in its place; all others stay.
+// The text in which each character that is a key of `characters` is replaced by its value.
 std::string replaced(std::string_view text, const std::map<char, std::string_view>& characters);
 
 }  // namespace assay::reports

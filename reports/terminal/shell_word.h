@@ -7,13 +7,14 @@
 
 namespace assay::reports {
 
-// The word itself, or in quotes where a shell would read it as something else.
+// The word itself, or the word in quotes if a shell would read it as something else.
 std::string shell_word(const std::string& word);
 
-// The same file, to be named from any folder; empty for none. A detector in Python keeps its word.
+// The path of the same file that can be used from any folder; empty for none. The word of a
+// detector in Python stays as it is.
 std::string absolute_path(const std::filesystem::path& path);
 
-// " --detector LIB.so", with " --threads N" where these are not 1; empty for the built-in detector.
+// " --detector LIB.so", with " --threads N" if N is not 1; empty for the built-in detector.
 std::string detector_words(const std::string& library, std::uint64_t threads = 1);
 
 }  // namespace assay::reports

@@ -9,13 +9,14 @@
 
 namespace assay::reports {
 
-// Whether a file can be written at `path` (empty: no file is wanted). Refused: a folder, a device,
-// one of the inputs, a place without permission. Asked before the work, so that no work is lost.
+// Whether a file can be written at `path` (empty: no file is wanted). Fails for a folder, a
+// device, one of the inputs, and a place without permission. Called before the work, so that no
+// work is lost.
 Expected<void> may_write(const std::string& path, const std::vector<std::string>& inputs);
 
 // Writes the whole file, or leaves the old one as it is.
 Expected<void> write_text_file(const std::string& path, const std::string& text);
-// The same of JSON, indented by one; bytes that are no UTF-8 are replaced.
+// Writes JSON in the same way, indented by one; bytes that are no UTF-8 are replaced.
 Expected<void> write_json_file(const std::string& path, const nlohmann::ordered_json& json);
 
 }  // namespace assay::reports

@@ -18,10 +18,10 @@ class Option;
 
 namespace assay::reports {
 
-// What a word after an option may be.
+// A check of the word after an option.
 struct Check {
   std::string words;  // for --help: "all, first", "NUMBER > 0"
-  // One clear line that says what is wrong with a word; empty where nothing is.
+  // One clear line that says what is wrong with the word; empty if nothing is.
   std::function<std::string(const std::string& word)> complaint;
 };
 
@@ -44,8 +44,8 @@ class Verb {
  public:
   Verb(CLI::App& app, const std::string& name, const std::string& about);
 
-  // An option ("--out"), or a word without one ("file"). The target keeps its value where the
-  // option is not given, and has to outlive the parsing.
+  // Adds an option ("--out"), or a word without one ("file"). The target keeps its value if the
+  // option is not given. It must outlive the parsing.
   VerbOption add(const std::string& name, std::string& target, const std::string& about);
   VerbOption add(const std::string& name, std::vector<std::string>& target,
                  const std::string& about);
@@ -65,8 +65,8 @@ class Verb {
 // What a verb does once its command line is parsed. Returns the exit code.
 using Action = std::function<int()>;
 
-// A verb of these options and this action. The request holds the defaults; it lives as long as the
-// action does, for the options write into it.
+// Makes a verb with these options and this action. The action keeps the request alive: it holds
+// the defaults, and the options write into it.
 template <class Request>
 Action make_verb(CLI::App& app, const char* name, const char* about,
                  void (*add_options)(Verb&, Request&), int (*run)(const Request&)) {

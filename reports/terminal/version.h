@@ -5,8 +5,8 @@
 
 namespace assay::reports {
 
-// The commit, 40 hexadecimal digits; "-dirty" behind it where tracked files were changed. Empty
-// where it was built outside of a git repository.
+// The commit: 40 hexadecimal digits, followed by "-dirty" if tracked files were changed. Empty if
+// the program was built outside of a git repository.
 std::string commit_text();
 
 // "assay 0.2.0 (CGAL 5.5.1, GMP ..., ...)": this program and the libraries that its answers rest

@@ -1,14 +1,14 @@
 // The verbs of the command line.
 //
-// One file a verb: NAME_command.cpp holds what is asked of it (its request), its options and what
-// it does, so that a new option is a change of one file.
+// There is one file for each verb: NAME_command.cpp holds what is asked of it (its request), its
+// options and what it does, so that a new option is a change of one file.
 #pragma once
 
 #include "reports/terminal/verb.h"
 
 namespace assay::reports {
 
-// Each adds its verb, with all its options, to the command line.
+// Each function adds its verb, with all its options, to the command line.
 Action add_bench(CLI::App& app);
 Action add_certify(CLI::App& app);
 Action add_check(CLI::App& app);

@@ -1,4 +1,4 @@
-// A file or a folder that one process at a time works on.
+// A lock on a file or a folder that only one process at a time works on.
 #pragma once
 
 #include <filesystem>
@@ -6,15 +6,15 @@
 
 namespace assay::properties {
 
-// Held until this object or its process ends, however it ends.
+// The lock is held until this object or its process ends, however it ends.
 class FileLock {
  public:
   enum class On {
-    file,    // made where it is not there, and left there
-    folder,  // nothing is left of the lock
+    file,    // the file is made if it is not there, and stays
+    folder,  // nothing stays of the lock
   };
-  // Throws StoreProblem: busy, with the line that is given, where another process holds it;
-  // cannot_write where it cannot be opened.
+  // Throws StoreProblem: busy, with the text `if_busy`, if another process holds it; cannot_write
+  // if it cannot be opened.
   FileLock(const std::filesystem::path& path, On on, const std::string& if_busy);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;

@@ -1,5 +1,5 @@
-// The rows of a store as text: its tables, the hash that every row carries, and what a process
-// knows of the rows of a store.
+// The rows of a store as text: the tables, the hash that every row carries, and the record that a
+// process keeps of the rows that it knows.
 #pragma once
 
 #include <array>
@@ -16,18 +16,18 @@ namespace assay::properties {
 
 struct StoreColumn {
   const char* name;
-  bool is_number = false;  // of 64 bits, as SQLite holds it: with a sign
-  // The same from one run to the next. Times are not, nor what somebody disturbed, nor how far a
-  // case was shrunk in its time.
+  bool is_number = false;  // a number of 64 bits, which SQLite holds with a sign
+  // The column holds the same in every run of one campaign. False for times, for what was
+  // disturbed from outside, and for how far a case could be shrunk in its time.
   bool lasts = true;
 };
 
-// Every table has one column more, `hash`. Without row numbers: what a merged file holds then
-// depends on its rows alone.
+// Every table has one more column, `hash`. The tables have no row numbers, so that the content of
+// a merged file depends on its rows alone.
 struct StoreTable {
   const char* name;
   std::vector<StoreColumn> columns;
-  std::size_t key_columns;  // the first ones
+  std::size_t key_columns;  // how many of the first columns are the key
 };
 
 const StoreTable& note_table();
@@ -37,33 +37,34 @@ const StoreTable& met_table();
 const StoreTable& evidence_table();
 std::array<const StoreTable*, 5> store_tables();
 
-// As SQLite keeps it: "CREATE TABLE note(...) WITHOUT ROWID".
+// The table's declaration in the form in which SQLite keeps it: "CREATE TABLE note(...) WITHOUT
+// ROWID".
 std::string declaration_of(const StoreTable& table);
-// Makes all tables; one that is there already is left as it is.
+// The SQL that makes all tables, and leaves those that are there already as they are.
 std::string table_declarations();
 // "id,family,...,hash"
 std::string column_names(const StoreTable& table);
 
-// A row's columns in their order, without the hash. Numbers are decimal.
+// The columns of a row in their order, without the hash. Numbers are written in decimal.
 using Row = std::vector<std::string>;
 
-// The columns of a row that last.
+// The columns of a row that are the same in every run of one campaign.
 Row lasting_columns(const StoreTable& table, const Row& row);
 
 std::string text_of_number(std::uint64_t number);
-// Throws StoreProblem (damaged_store) on a text that is none.
+// Throws StoreProblem (damaged_store) if the text is not a number.
 std::uint64_t number_of_text(const std::string& text);
 
-// SHA-256 over the table's name and all columns, each behind its length: no two different rows have
-// the same bytes. It shows a row that a disk, or somebody who does not mend the hash, changed. It
-// is no signature: whoever may write the file can write a hash that fits.
+// SHA-256 over the table's name and all columns, each behind its length, so that no two different
+// rows give the same bytes. It shows that a row was changed by a disk, or by somebody who does not
+// mend the hash. It is no signature: whoever may write the file can write a hash that fits.
 std::string row_hash(const StoreTable& table, const Row& row);
 
 // "trial quick:1:broken:3", "evidence canary, pair/x, 1/1"
 std::string row_name(const StoreTable& table, const Row& row);
 
-// Which rows there are, and the hash of each: what a process wrote, or found when it began. About
-// 150 bytes a row.
+// The rows that a process knows, with the hash of each: those that it wrote, and those that it
+// found when it began. About 150 bytes a row.
 class RowTally {
  public:
   void put(const std::string& name, const std::string& hash);
@@ -71,7 +72,7 @@ class RowTally {
   bool holds(const std::string& name, const std::string& hash) const;
   bool knows(const std::string& name) const { return hashes_.contains(name); }
   std::size_t size() const { return hashes_.size(); }
-  // By name.
+  // Visits the names of the rows in ascending order.
   void for_each_name(const std::function<void(const std::string&)>& visit) const;
 
  private:
@@ -80,26 +81,26 @@ class RowTally {
   std::map<std::string, Bytes> hashes_;
 };
 
-// Visits the rows of a table, in the order of `more` ("WHERE id=? ORDER BY place"; empty: of their
-// keys), `bound` in the places of its question marks. Throws StoreProblem: not_as_stored at the
-// first row that differs from `known`, where that is given; changed_row at the first that does not
-// fit its own hash; and what SQLite says.
+// Visits the rows of a table. `more` is SQL such as "WHERE id=? ORDER BY place", whose question
+// marks stand for the texts of `bound`; if it is empty the rows come in the order of their keys.
+// Throws StoreProblem: not_as_stored at the first row that differs from `known`, if that is given;
+// changed_row at the first row that does not fit its own hash; and the problems of SQLite.
 void for_each_row(const Database& database, const StoreTable& table, const RowTally* known,
                   const std::string& more, const std::vector<std::string>& bound,
                   const std::function<void(const Row&)>& visit);
 
-// The row with its hash, in place of one of the same key or, where that is there, as `on_conflict`
-// says ("(key) DO UPDATE SET ..."). Whether a row was written.
+// Writes the row with its hash. It replaces a row of the same key, unless `on_conflict` ("(key) DO
+// UPDATE SET ...") says what to do then. Returns whether a row was written.
 bool put_row(const Database& database, const StoreTable& table, const Row& row,
              const char* on_conflict = nullptr);
 
-// Throws StoreProblem (not_as_stored) with the first row that the tally does not know, that differs
-// or that is missing. O(rows).
+// Throws StoreProblem (not_as_stored) that names the first row that the tally does not know, that
+// differs from it, or that is missing. O(rows).
 void check_rows(const Database& database, const RowTally& known);
 
-// Throws StoreProblem (damaged_store) unless the tables of the file are those of a store and there
-// is nothing else in it, such as a trigger that changes rows by itself. Where `may_lack` some of
-// them may not be there yet.
+// Throws StoreProblem (damaged_store) unless the tables of the file are those of a store and
+// nothing else is in it, such as a trigger that changes rows by itself. If `may_lack` is set, some
+// of the tables may not be there yet.
 void check_tables(const Database& database, bool may_lack);
 
 }  // namespace assay::properties

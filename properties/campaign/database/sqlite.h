@@ -12,20 +12,21 @@ struct sqlite3_stmt;
 
 namespace assay::properties {
 
-// Everything here throws StoreProblem: the disk is full, the file is damaged or none of SQLite's,
-// or it cannot be read or written any more. The message is SQLite's own and names the file.
+// Everything here throws StoreProblem if the disk is full, the file is damaged or not one of
+// SQLite, or it cannot be read or written any more. The message is SQLite's own and names the
+// file.
 class Database {
  public:
   enum class Mode : std::uint8_t { read, write };
-  // write makes the file where there is none.
+  // Mode write makes the file if there is none.
   Database(const std::filesystem::path& file, Mode mode);
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
   ~Database();
 
-  // One statement or several, without results.
+  // Runs one statement or several, without results.
   void run(const std::string& sql) const;
-  // damaged_store when a page is damaged.
+  // Throws damaged_store if a page is damaged.
   void check_whole() const;
   std::string file() const;
   sqlite3* handle() const { return db_; }
@@ -44,11 +45,11 @@ class Statement {
 
   Statement& bind(const std::string& text);
   Statement& bind(std::uint64_t number);
-  // True while there is a row.
+  // Goes to the next row; false if there is none.
   bool next();
   std::string text(int column) const;
   std::uint64_t number(int column) const;
-  // By the statement that ran last.
+  // Whether the statement that ran last changed a row.
   bool changed_a_row() const;
 
  private:

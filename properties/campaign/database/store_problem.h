@@ -1,7 +1,7 @@
-// How a store fails: by an exception inside of campaign/, by a value outside of it.
+// How a store reports a problem: by an exception inside of campaign/, by a value outside of it.
 //
-// A store may fail in the middle of a row, deep inside of a phase and in any of its threads: there
-// an exception is the short way out. Whatever other rooms call turns it into a Problem.
+// A store may fail in the middle of a row, deep inside of a phase and in any of its threads, and
+// there an exception is the short way out. Whatever other rooms call turns it into a Problem.
 #pragma once
 
 #include <stdexcept>
@@ -25,14 +25,14 @@ class StoreProblem : public std::runtime_error {
   ProblemKind kind_;
 };
 
-// The value, or its problem thrown.
+// Returns the value, or throws its problem.
 template <class T>
 T value_or_throw(Expected<T>&& expected) {
   if (!expected) throw StoreProblem(expected.error());
   if constexpr (!std::is_void_v<T>) return std::move(expected.value());
 }
 
-// What `work` returns, or the StoreProblem that it throws as a value.
+// Returns what `work` returns, or the StoreProblem that it throws as a value.
 template <class Work>
 Expected<std::invoke_result_t<Work>> catch_store_problem(const Work& work) {
   try {

@@ -5,15 +5,15 @@
 
 namespace assay::properties {
 
-// Strata times the claims of all configurations. A trial that breaks any claim of a configuration
-// counts against its bound, so one bound holds for all its claims. They are counted all the same:
-// that only widens the bounds.
+// The number of bounds: strata times the claims of all configurations. A trial that breaks any
+// claim of a configuration counts against that configuration's bound, so one bound holds for all
+// of its claims. Each claim is counted all the same, which only widens the bounds.
 std::uint64_t number_of_bounds(const BoundRun& run);
 
-// The risk of each bound, all of them together at family_confidence.
+// The risk of each bound, so that all of them hold together with family_confidence.
 double risk_of_each(const BoundRun& run);
 
-// On the share of cases on which one configuration does not hold.
+// The bound on the share of cases on which one configuration does not hold.
 double bound_of(const StratumTally::Outcomes& outcomes, const BoundRun& run);
 
 }  // namespace assay::properties

@@ -8,7 +8,8 @@
 
 namespace assay::properties {
 
-// Lines that speak against a gate. Where there are none: why it could not be judged, if so.
+// The lines that speak against a gate and, if there are none, the reason why it could not be
+// judged, if there is one.
 struct GateFindings {
   std::vector<std::string> against;
   std::string not_judged;

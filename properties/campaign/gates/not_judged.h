@@ -1,4 +1,4 @@
-// Claims that a run has not judged, and why: no verdict speaks of them.
+// Claims that a run has not judged, and why. The verdict says nothing about them.
 #pragma once
 
 #include <string>
@@ -12,16 +12,17 @@ struct NotJudged {
   std::string claim, reason;
 };
 
-// Of the claims of a plug-in, in their order. Its contract makes some void: a margin, no pairs.
-// Others were never put to the test: no step had a contact; its intervals of the first time were
-// wider than 1e-3 in more than one of a hundred collisions, and so state no time. Empty for the
-// built-in detector, whose contract is the default and whose times are enclosures.
+// Those claims of a plug-in that were not judged, in their order. Its contract makes some void: a
+// margin, no pairs. Others were never put to the test: no step had a contact; or its intervals of
+// the first time were wider than 1e-3 in more than one of a hundred collisions, and so state no
+// time. Empty for the built-in detector, whose contract is the default and whose times are
+// enclosures.
 std::vector<NotJudged> not_judged(const std::vector<std::string>& claims, const Contract& contract,
                                   const StepMeasures& measures);
 std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasures& measures);
 std::vector<NotJudged> not_judged(const RunFindings& findings);
 
-// The claims of a plug-in that were, by their names.
+// The names of the claims of a plug-in that were judged.
 std::vector<std::string> judged_claims(const RunFindings& findings);
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-// The stores of a folder, read into findings: here and nowhere else.
+// Reads the stores of a folder into findings. This is done here and nowhere else.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,21 @@
 
 namespace assay::properties {
 
-// What a process knows of the stores of a folder, for it wrote them or found them when it began: by
-// the name of the file, without its folder.
+// The rows that a process knows of the stores of a folder, because it wrote them or found them
+// when it began. The keys are the names of the files, without their folder.
 using KnownRows = std::map<std::string, const RowTally*>;
 
-// Of one store alone; the problems are those of Store::read. known: not_as_stored where the store
-// does not hold these rows and no others.
+// Reads one store alone. The problems are those of Store::read, and not_as_stored if `known` is
+// given and the store does not hold exactly these rows.
 Expected<RunFindings> read_one_store(const std::filesystem::path& file,
                                      const RowTally* known = nullptr);
 
-// Reads merged.sqlite where there is one, else every shard-*.sqlite, and checks.sqlite. Besides the
-// problems of Store::read: no_run where there is nothing; another_run and contradiction where two
-// files do not belong together; wrong_shards; stale_merge; damaged_store, also for a trial that is
-// none which its shard plans. known: not_as_stored where the stores of the folder are others than
-// these, or one of them does not hold its rows and no others; nothing is asked where it is empty.
-// O(trials).
+// Reads merged.sqlite if there is one, else every shard-*.sqlite, and checks.sqlite. O(trials).
+//
+// Problems besides those of Store::read: no_run if there is nothing; another_run and contradiction
+// if two files do not belong together; wrong_shards; stale_merge; damaged_store, also for a trial
+// that its shard does not plan; not_as_stored if `known` is not empty and the folder does not hold
+// exactly these stores, each with exactly its rows.
 Expected<RunFindings> read_findings(const std::filesystem::path& folder,
                                     const KnownRows& known = {});
 

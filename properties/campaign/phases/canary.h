@@ -1,5 +1,5 @@
-// A detector that is known to be wrong goes the whole way that the one under test goes: a run in
-// which it hides is a run that sees nothing.
+// A detector that is known to be wrong goes through all that the detector under test goes through.
+// A run in which it is not found is a run that sees nothing.
 #pragma once
 
 #include "properties/campaign/request.h"
@@ -7,8 +7,8 @@
 
 namespace assay::properties {
 
-// Random cases of all families in turn, 400 at most, until the planted fault shows. Throws
-// StoreProblem (cannot_start) where there is no worker.
+// Runs random cases of all families in turn, 400 at most, until the planted fault shows. Throws
+// StoreProblem (cannot_start) if there is no worker.
 Canary meet_canary(const CampaignRequest& request);
 
 }  // namespace assay::properties

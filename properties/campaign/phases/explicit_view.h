@@ -10,12 +10,12 @@
 
 namespace assay::properties {
 
-// The same case with the primitive of its first component stated; nothing when the culling has no
-// views, the case states one already, or the mesh is refused.
+// The same case with the primitive of its first component stated. Nothing if the culling has no
+// views, if the case states a primitive already, or if the mesh is refused.
 std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
                                                const detector::Options& options);
 
-// What the reducer keeps of a failure.
+// The finding for which the reducer keeps a failure.
 Finding finding_of(const Failure& failure);
 
 }  // namespace assay::properties

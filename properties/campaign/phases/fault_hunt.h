@@ -1,5 +1,5 @@
-// Plants every registered fault in the detector and counts the cases that the harness needs to find
-// it.
+// Plants every registered fault in the detector and counts the cases that the harness needs to
+// find it.
 #pragma once
 
 #include <functional>
@@ -13,9 +13,9 @@
 namespace assay::properties {
 
 struct FaultResult {
-  const Fault* fault = nullptr;  // of faults()
+  const Fault* fault = nullptr;  // one of faults()
   FaultProof proof;
-  // The first case that showed it, under the first seed that did.
+  // The first case that showed the fault, under the first seed under which one did.
   std::optional<corpus::Case> shown_by;
 };
 
@@ -23,14 +23,14 @@ struct FaultHunt {
   std::string campaign;  // ids are campaign:seed.fSEED:family:index
   std::uint64_t seed = 1;
   int seeds = 1;
-  std::uint64_t cases = 0;  // at most, of a seed, over all families in turn
+  std::uint64_t cases = 0;  // for each seed at most, from all families in turn
   int jobs = 1;
   std::filesystem::path curated;  // folder of the curated cases; empty: not tried
-  Shard shard;                    // of the registered faults, by their place in the list
+  Shard shard;                    // its share of the registered faults, by their place in the list
 };
 
-// How far a hunt is: in seed `seed` of `seeds`, `cases` of at most `most_cases` were judged, and of
-// the `planted` faults `hidden` did not show yet.
+// How far a hunt is. Under seed number `seed` of `seeds`, `cases` of at most `most_cases` were
+// judged, and `hidden` of the `planted` faults have not shown yet.
 struct HuntProgress {
   int seed = 0, seeds = 0;
   std::uint64_t cases = 0, most_cases = 0;
@@ -38,21 +38,22 @@ struct HuntProgress {
 };
 using OnHunt = std::function<void(const HuntProgress&)>;
 
-// One judgement of a case serves all faults; a fault found under a seed leaves that seed's round.
-// Equivalent and open ones run along to the end. The result does not depend on the number of jobs,
-// unless the deadline ends it. About 0.2 ms a case and fault left.
+// Hunts for all faults of the shard. One judgement of a case by the oracle serves all faults. A
+// fault that is found under a seed leaves the round of that seed; equivalent and open faults stay
+// to its end. The result does not depend on the number of jobs, unless the deadline ends it. About
+// 0.2 ms for each case and each fault that is left.
 std::vector<FaultResult> hunt_faults(const FaultHunt& hunt, RunDeadline deadline,
                                      const OnHunt& progress);
 
-// What the fault shows in a case, by the claims of its options; nothing: it holds.
+// What the fault shows in a case, judged by the claims of its options; nothing if the case holds.
 std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& c,
                                         const std::vector<oracle::StepJudgement>& truth);
 
-// The reducer's judge for a fault, its own oracle included.
+// The reducer's judge for a fault. It asks the oracle by itself.
 Judge judge_of_fault(const Fault& fault);
 
-// Shrinks `shown_by` of each result that has one; how small it became is told in its proof.
-// `progress` is called with the fault's name.
+// Shrinks `shown_by` of each result that has one, and notes in its proof how small it became.
+// `progress` is called with the name of the fault.
 void shrink_faults(std::vector<FaultResult>& results, const ReduceLimits& limits, int jobs,
                    RunDeadline deadline, const std::function<void(const std::string&)>& progress);
 

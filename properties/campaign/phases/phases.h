@@ -1,6 +1,6 @@
-// A campaign from its canary to its worlds: each phase leaves what it finds out in the store, and
-// an observer is told of it. What the campaign comes to is read back from the store (findings.h)
-// and judged (gates.h).
+// Runs a campaign from its canary to its worlds. Each phase leaves what it finds out in the store,
+// and an observer is told of it. What the campaign comes to is read back from the store
+// (findings.h) and judged (gates.h).
 #pragma once
 
 #include <string>
@@ -12,42 +12,43 @@
 
 namespace assay::properties {
 
-// Told of what a campaign does, in the order of its phases. Each function may be called from
+// Is told what a campaign does, in the order of its phases. Each function may be called from
 // another thread than the caller's, but by one thread at a time.
 class CampaignObserver {
  public:
   virtual ~CampaignObserver() = default;
-  // First of all: so many trials are in the store already.
+  // Called first: so many trials are in the store already.
   virtual void on_begin(std::uint64_t /*trials*/) {}
-  // "trials", "repetitions", "shrinking", "slow cases", "faults", "tetrahedron": what begins now.
-  // The first is told after the canary.
+  // A phase begins now: "trials", "repetitions", "shrinking", "slow cases", "faults" or
+  // "tetrahedron". The first of these is told after the canary.
   virtual void on_phase(const char* /*phase*/) {}
   virtual void on_canary(const Canary&) {}
   virtual void on_trial(const TrialProgress&) {}
   virtual void on_trials(const TrialsEnd&) {}
-  // What is shrunk, or repeated.
+  // What is being shrunk or repeated now.
   virtual void on_shrinking(const std::string& /*signature*/) {}
-  // Trials and their failures are all stored now; faults and worlds are still to come.
+  // All trials and their failures are stored now; faults and worlds are still to come.
   virtual void on_failures_shrunk(const KeptFailures&) {}
-  // What was kept of the cases on which the detector takes longest.
+  // The cases on which the detector takes longest, as they were kept.
   virtual void on_slow_cases(const std::vector<SlowCase>&) {}
   virtual void on_hunt(const HuntProgress&) {}
   virtual void on_fault_shrunk(const std::string& /*fault*/) {}
   virtual void on_world(const std::string& /*world*/) {}
 };
 
-// Does what the store does not hold yet: the trials, the shrinking of what failed, the planted
-// faults (or the request's proof of them). The canary and the worlds of tetrahedra are done again;
-// of a world what came farther stays. Faults and worlds are shared out among shards by their place
-// in the list. corpus: folder of the curated cases.
+// Does what the store does not hold yet: the trials, the shrinking of what failed, and the planted
+// faults (or it takes the request's proof of them). The canary and the worlds of tetrahedra are
+// done again; of two results for a world the one that came farther stays. Faults and worlds are
+// shared out among the shards by their place in the list. `corpus` is the folder of the curated
+// cases.
 //
-// What is stored stays, whatever happens. cannot_write, damaged_store, ... where the store cannot
-// be read or written any more.
+// What is stored stays, whatever happens. The problems are cannot_write, damaged_store and so on,
+// if the store cannot be read or written any more.
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
                             Store& store, CampaignObserver& observer);
 
-// Seconds of the clock that shrinking failures may take: the plan's share of its own limit, or two
-// minutes where it has none.
+// The seconds of the clock that the shrinking of failures may take: the plan's share of its own
+// limit, or two minutes if it has no limit.
 double shrinking_seconds(const CampaignPlan& plan);
 
 }  // namespace assay::properties

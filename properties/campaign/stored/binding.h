@@ -1,4 +1,4 @@
-// What a store's trials are of: the text, a JSON object, that binds a store to a run.
+// The binding of a store: the text, a JSON object, that says to which run its trials belong.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,11 +11,11 @@
 
 namespace assay::properties {
 
-// Schema `assay-store/4`: `campaign` (the plan, its times set to nothing: a run that ran out of
-// time may go on), `seed`, `shard`, `detector` (name, built_in, contract, threads, configurations
-// with their claims), `planted_faults` (how many this build has), `digests` (SHA-256 of program,
-// worker and plug-in, null for the built-in detector, and of the generator's first cases), and
-// `own_cases` (SHA-256) where there are some.
+// Schema `assay-store/4`. The object holds `campaign` (the plan, with its times set to nothing,
+// because a run that ran out of time may go on), `seed`, `shard`, `detector` (name, built_in,
+// contract, threads, configurations with their claims), `planted_faults` (how many this build
+// has), `digests` (SHA-256 of program, worker and plug-in, null for the built-in detector, and of
+// the generator's first cases), and `own_cases` (SHA-256) if there are some.
 std::string binding_of(const CampaignRequest& request);
 
 // The same, as types.
@@ -31,7 +31,8 @@ struct BoundDetector {
   std::vector<Configuration> configurations;
 };
 struct BoundDigests {
-  // Nothing where a program was gone when the run began, and for the built-in detector's plug-in.
+  // Nothing for a program that was gone when the run began, and for the plug-in of the built-in
+  // detector.
   std::optional<std::string> program, worker, plugin;
   std::string generator;
 };
@@ -42,20 +43,22 @@ struct BoundRun {
   BoundDetector detector;
   BoundDigests digests;
 };
-// As they stand in a binding, and in a certificate.
+// The JSON of these in a binding and in a certificate.
 nlohmann::json json_of(const BoundDetector& detector);
 nlohmann::json json_of(const BoundDigests& digests);
 
-// damaged_store where the text is no binding of this schema. file: named in the problem.
+// Reads a binding. damaged_store if the text is no binding of this schema; `file` is named in the
+// problem.
 Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file);
 
-// The same binding, of another shard; nothing for a text that is no binding.
+// The same binding for another shard; nothing if the text is no binding.
 std::optional<std::string> with_shard(const std::string& binding, const std::string& shard);
 
-// Where two bindings differ, their shards left out: "seed 1 and 2"; empty: nowhere.
+// How two bindings differ, leaving their shards aside: "seed 1 and 2". Empty if they do not.
 std::string difference_of(const std::string& a, const std::string& b);
 
-// SHA-256 over the first cases of every family: another generator makes other cases. About 10 ms.
+// SHA-256 over the first cases of every family, which changes if the generator makes other cases.
+// About 10 ms.
 std::string generator_digest();
 
 }  // namespace assay::properties

@@ -1,7 +1,8 @@
-// checks.sqlite: what `assay certify` finds out by itself, stored as it becomes known.
+// checks.sqlite, in which `assay certify` stores what it finds out by itself as soon as it is
+// known.
 //
-// It is written to as a stream is: after the first problem nothing more is stored, and whoever
-// writes asks problem() before work that would then be for nothing.
+// It is used like an output stream: after the first problem nothing more is stored. Whoever writes
+// asks problem() before starting work that would then be in vain.
 #pragma once
 
 #include <filesystem>
@@ -18,28 +19,28 @@ namespace assay::properties {
 
 class Checks {
  public:
-  // OUT/checks.sqlite, bound to the request; the problems are those of Store::open.
+  // Opens OUT/checks.sqlite, bound to the request; the problems are those of Store::open.
   static Expected<Checks> open(const std::filesystem::path& out, const CampaignRequest& request);
 
-  // A struct of evidence.h.
+  // Stores a struct of evidence.h.
   template <class T>
   void keep(const T& evidence) {
     update([&](Store& store) { store.set(to_row(evidence)); });
   }
   void drop(DroppedKind kind);
-  // Takes away the failures of other signatures.
+  // Removes the stored failures whose signature is not in the set.
   void keep_failures(const std::set<std::string>& signatures);
-  // As Store::seal.
+  // See Store::seal.
   void seal();
-  // As Store::known_rows.
+  // See Store::known_rows.
   const RowTally& known_rows() const { return store_.known_rows(); }
-  // What is stored, or the first problem.
+  // The stored failures, or the first problem.
   Expected<KeptFailures> failures() const;
 
-  // Does what may throw StoreProblem, unless there was a problem before. For campaign/ alone.
+  // Does work that may throw StoreProblem, unless there was a problem before. For campaign/ alone.
   void update(const std::function<void(Store&)>& work);
 
-  // The first one.
+  // The first problem, if any.
   const std::optional<Problem>& problem() const { return problem_; }
 
  private:

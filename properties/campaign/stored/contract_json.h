@@ -9,7 +9,7 @@ namespace assay::properties {
 
 // Every member by its name, enums by their words, and `leaves_out`: phrases_of(contract).
 void to_json(nlohmann::json& json, const Contract& contract);
-// Throws nlohmann::json::exception where it is none. `leaves_out` is not read.
+// Throws nlohmann::json::exception if the JSON is no contract. `leaves_out` is not read.
 void from_json(const nlohmann::json& json, Contract& contract);
 
 }  // namespace assay::properties

@@ -1,8 +1,9 @@
 // The names under which a campaign counts what it meets in its trials, and what the counts say.
 //
-// "law:NAME/premise", "/close" and "/broken": steps (law.h). "tag:NAME": cases that have the tag.
-// "block:SETS" and "first:SETS": contacts, and first contacts, by the view sets of their two
-// triangles. "measure:NAME": what a plug-in does, whatever it claims (step_measures.h).
+// The names: "law:NAME/premise", "/close" and "/broken" count steps (law.h). "tag:NAME" counts
+// cases that have the tag. "block:SETS" and "first:SETS" count contacts, and first contacts, by
+// the view sets of their two triangles. "measure:NAME" counts what a plug-in does, whatever it
+// claims (step_measures.h).
 #pragma once
 
 #include <string>
@@ -19,7 +20,7 @@ std::string tag_count(std::string_view tag);
 std::string contact_count(std::string_view sets);
 std::string first_contact_count(std::string_view sets);
 
-// 0 where there is none of this name.
+// The count of this name; 0 if there is none.
 std::uint64_t count_of(const Counts& counts, std::string_view name);
 
 void add_law(Counts& counts, std::string_view law, const LawTally& tally);
@@ -35,9 +36,9 @@ struct SetPairCount {
 std::vector<SetPairCount> set_pairs_in(const Counts& counts);
 
 // Why a law was met too seldom: its premise held less often than wanted, or was close in less than
-// a quarter of the steps. Empty where it was not, and when 0 are wanted.
+// a quarter of the steps. Empty if it was met often enough, or if `wanted_premises` is 0.
 std::string starved(const Law& law, const LawTally& tally, std::uint64_t wanted_premises);
-// A line for each law that is.
+// One such line for each law that was met too seldom.
 std::vector<std::string> starved_laws(const Counts& counts, std::uint64_t wanted_premises);
 
 // How many laws were broken.

@@ -1,8 +1,10 @@
-// What a run finds out besides its trials: one struct a kind, to a store's row and from one. Kinds
-// and keys of facts are named in evidence.cpp and nowhere else.
+// What a run finds out besides its trials: one struct for each kind of evidence, and the functions
+// that turn it into a store's row and back. Only evidence.cpp names the kinds and the keys of
+// their facts.
 //
-// Facts hold no times, so that two runs of one campaign have equal rows: times have kinds of their
-// own (SpeedFigure, Issued), and so has a World, which may end by its time.
+// Facts hold no times, so that two runs of one campaign have equal rows. What may differ between
+// two runs has kinds of its own: times (SpeedFigure, Issued), a World, which its limit of time may
+// end early, and a SlowCase.
 #pragma once
 
 #include <optional>
@@ -15,18 +17,21 @@
 
 namespace assay::properties {
 
-// The shard of a file that holds several, of what belongs to none, and of proofs taken over.
+// Words that stand where the name of a shard ("1/4") is expected: for a file that holds several
+// shards, for what belongs to no shard, and for proofs that were taken over from another run.
 inline constexpr const char* merged_shard = "merged";
 inline constexpr const char* checks_shard = "checks";
 inline constexpr const char* power_shard = "power";
 
-// A planted fault that every run must find, on the way that the detector under test goes.
+// A planted fault that every run must find. It is tried through a worker process, in the same way
+// as the detector under test.
 struct Canary {
   std::string fault, shard;
-  std::optional<std::uint64_t> found_after;  // cases; nothing: it was not found
+  std::optional<std::uint64_t> found_after;  // how many cases that took; nothing: it was not found
 };
 
-// What kept the harness itself from going on when so many trials were stored; empty: nothing.
+// What kept the harness itself from going on, after `trials` trials had been stored. `what` is
+// empty when nothing did.
 struct HarnessProblem {
   std::string shard, what;
   std::uint64_t trials = 0;
@@ -37,25 +42,27 @@ struct MeshCounts {
 };
 struct ShrunkFault {
   MeshCounts before, after;
-  std::uint64_t calls = 0;  // of the reducer's judge
+  std::uint64_t calls = 0;  // calls of the reducer's judge
 };
 
 // What it took to find a planted fault.
 struct FaultProof {
   std::string fault, shard, law;
   FaultStatus status = FaultStatus::planted;
-  bool curated = false;  // its curated case shows it
-  // For each seed the random cases until it showed; nothing: not within `cases`.
+  bool curated = false;  // the curated case of the fault shows it
+  // For each seed the number of random cases until the fault showed; nothing if it did not show
+  // within `cases` of them.
   std::vector<std::optional<std::uint64_t>> needed;
   std::uint64_t cases = 0;
   bool time_over = false;            // the hunt was ended by a limit of time
-  std::uint64_t known_vertices = 0;  // of the smallest mesh known that shows it; 0: none is known
+  std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows it; 0: unknown
   std::optional<ShrunkFault> shrunk;
 
   bool found() const;  // by its curated case, or by a random one under any seed
-  // Whether it had all the cases that the plan gives to a fault, under every seed.
+  // Whether the fault was tried on as many cases and seeds as the plan gives to a fault.
   bool is_whole(const CampaignPlan& plan) const;
-  // Over the seeds, those without counted as above all; nothing when that is one of them.
+  // The median of `needed`. A seed under which the fault did not show counts as more than any
+  // number; the result is nothing when the median is such a seed.
   std::optional<std::uint64_t> median() const;
 };
 
@@ -71,7 +78,7 @@ struct PowerProof {
   std::vector<FaultProof> faults;
 };
 
-// A world of tetrahedra, as far as it was proved (tetrahedron_world.h).
+// How far a world of tetrahedra was proved (tetrahedron_world.h).
 struct World {
   std::string world, shard;
   std::uint64_t classes = 0, motions = 0, all = 0, collisions = 0;
@@ -79,8 +86,8 @@ struct World {
   std::optional<std::string> counterexample;  // what does not hold
 };
 
-// How a shard's plug-in was kept apart in all of its trials, or in the corpus ("checks"), by the
-// words of isolation.h.
+// How well the process of a plug-in was isolated in all trials of a shard, or in the corpus (shard
+// "checks"), in the words of isolation.h.
 struct PluginIsolation {
   std::string shard, asked, got;
 };
@@ -88,32 +95,32 @@ struct PluginIsolation {
 // A trial that reached the limit of a case, or came near it.
 struct SlowCase {
   std::string id, configuration, shard;
-  bool undecided = false;  // it reached the limit
-  double seconds = 0;      // of processor time, where it did not
-  double limit = 0;        // of a case
-  // Case files as text; smallest: one that takes at least twice the limit, empty where none is
+  bool undecided = false;  // it reached the limit of a case
+  double seconds = 0;      // processor time that it took, unless it is undecided
+  double limit = 0;        // the limit of a case, in seconds
+  // Case files as text. `smallest` takes at least twice the limit; it is empty if no such case is
   // known.
   std::string mesh, smallest;
 };
 
-// A large mesh that was put to a plug-in several times: what the claim `deterministic` was tried on
-// besides the trials.
+// A large mesh that was put to a plug-in several times, to try its claim `deterministic` on more
+// than the trials.
 struct Repetition {
   std::string input, configuration, shard;
   std::uint64_t triangles = 0, steps = 0;
-  std::uint64_t runs = 0;              // that ended by themselves
-  std::vector<std::uint64_t> threads;  // told to it, in the order of the runs
-  std::string what;                    // where two runs differ, or one ended early; empty: neither
+  std::uint64_t runs = 0;              // runs that ended by themselves
+  std::vector<std::uint64_t> threads;  // how many it might use, run by run
+  std::string what;                    // how two runs differ, or one ended early
   bool broken = false;                 // `what` breaks a claim
 };
 
 // What a verb asked of a run.
 struct Asked {
-  std::vector<std::string> gates;  // by the names of gates.h; any other gate is not judged
-  bool certificate = false;        // to issue one: then every gate is asked for
+  std::vector<std::string> gates;  // names of gates.h; no other gate is judged
+  bool certificate = false;        // a certificate is to be issued: every gate is asked for
 };
 
-// Who issued a certificate, and where from.
+// What issued a certificate: versions of the program and of its libraries.
 struct Versions {
   std::string assay;
   std::optional<std::string> commit;
@@ -122,42 +129,44 @@ struct Versions {
 struct Paths {
   std::string out, detector;
   std::string own_cases{};  // empty: none
-  std::string data{};       // of the public sequences; empty: none
+  std::string data{};       // folder of the public sequences; empty: none
 };
 struct InputDigests {
-  std::string corpus;                  // names and bytes of the shipped cases, and of the owner's
-  std::optional<std::string> waivers;  // corpus/known.json, and the owner's
+  std::string corpus;                  // SHA-256 over names and bytes of all cases, own cases too
+  std::optional<std::string> waivers;  // of corpus/known.json and the owner's waivers
 };
 
-// A known failure that a certificate leaves aside until the day on which it expires.
+// A known failure that a certificate excuses until the day on which the waiver expires.
 struct StoredWaiver {
   std::string signature, reason, link, expires;
-  bool expired = false;  // when the certificate was issued
+  bool expired = false;  // it had expired when the certificate was issued
 };
 
-// The input of the cases that an owner gives, and what stands before their ids.
+// The name of the input that the owner's own cases are, and what their ids begin with.
 inline constexpr const char* own_cases_input = "own cases";
 inline constexpr const char* own_cases_in_id = "own/";
 
-// An input of the shipped corpus, a scene, or the owner's cases, in one configuration.
+// What one input came to in one configuration. An input is a part of the shipped corpus, a scene,
+// or the owner's cases.
 struct CorpusRow {
   struct Failed {
     std::string id, signature, what;
   };
-  // `failed`: what does not hold. `open`: what has no answer, so that nothing is known of it.
+  // `failed` lists the cases that do not hold, `open` those without an answer, of which nothing is
+  // known.
   std::string input, configuration;
   std::uint64_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0, defects = 0;
   std::vector<Failed> failed, open;
 };
 
-// A family of queries of the self-test.
+// What one family of queries of the self-test came to.
 struct SelfTestRow {
   std::string family;
   std::uint64_t queries = 0, contacts = 0, contradictions = 0, open = 0;
   bool complete = false;
 };
 
-// A ratio of interleaved runs.
+// A ratio of the times of two things that were run in turn.
 struct SpeedFigure {
   std::string what;
   double median = 0, lo = 0, hi = 0;
@@ -170,7 +179,8 @@ struct Issued {
   double seconds = 0;
 };
 
-// All that the rows of some stores say, in the order of their names and shards.
+// All that the evidence rows of some stores say. Each list is in the order of names, then of
+// shards.
 struct EvidenceFacts {
   std::vector<Canary> canaries;
   std::vector<HarnessProblem> problems;
@@ -194,7 +204,7 @@ struct EvidenceFacts {
   void take(const Evidence& row);
 };
 
-// The row of what a shard found out. What belongs to no shard stands in that of `checks_shard`.
+// The row in which the evidence is stored. Evidence without a shard goes under `checks_shard`.
 Evidence to_row(const Canary& canary);
 Evidence to_row(const HarnessProblem& problem);
 Evidence to_row(const FaultProof& proof);
@@ -213,11 +223,12 @@ Evidence to_row(const SelfTestRow& row);
 Evidence to_row(const SpeedFigure& figure);
 Evidence to_row(const Issued& issued);
 
-// Takes away what an earlier run left of a kind, before the work is done again.
+// Removes what an earlier run stored of a kind, before the same work is done again.
 enum class DroppedKind { fault, waiver, corpus, self_test, times };
 void drop(Store& store, DroppedKind kind);
 
-// Whether two runs of one campaign may differ in it: times, and where they were kept.
+// Whether two runs of one campaign may differ in this row. It then holds times, paths of files, a
+// World or a SlowCase.
 bool may_differ(const Evidence& row);
 
 }  // namespace assay::properties

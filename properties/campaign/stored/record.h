@@ -1,4 +1,4 @@
-// What a campaign keeps of each trial, and sums of it.
+// What a campaign keeps of each trial, and the sums over trials.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace assay::properties {
 using Counts = std::map<std::string, std::uint64_t, std::less<>>;
 
 void add(Counts& sum, const Counts& more);
-// "name=3;other=1", names free of ';'; and back.
+// Counts as text, "name=3;other=1", and back. REQUIRES names without ';'.
 std::string counts_text(const Counts& counts);
 Counts parse_counts(std::string_view text);
 
@@ -31,9 +31,9 @@ struct TrialRecord {
   std::uint64_t mesh = 0;  // hash of the case's triangles and frames: equal cases, equal hashes
   // How often a worker was killed from outside while it ran this trial, which was then run again.
   std::uint64_t disturbed = 0;
-  // The most processor time that a configuration took, be it ended by its limit or before.
+  // The most processor time that one configuration took, whether its limit ended it or not.
   std::uint64_t slowest_us = 0;
-  bool has(Outcome outcome) const;  // in some configuration
+  bool has(Outcome outcome) const;  // some configuration has this outcome
 };
 
 char letter_of(Outcome outcome);
@@ -42,10 +42,10 @@ char letter_of(Outcome outcome);
 struct StratumTally {
   std::uint64_t trials = 0, steps = 0, collisions = 0, pairs = 0;
   std::uint64_t oracle_us = 0, detector_us = 0;
-  std::uint64_t with_defect = 0, open = 0;  // trials: in some configuration
-  std::uint64_t disturbed = 0;     // trials that somebody killed from outside, and that ran again
-  std::uint64_t discards = 0;      // trials for which the contract takes no case that was drawn
-  std::set<std::uint64_t> meshes;  // hashes of the cases: their number is that of distinct cases
+  std::uint64_t with_defect = 0, open = 0;  // trials with a configuration that is so
+  std::uint64_t disturbed = 0;              // trials killed from outside, which ran again
+  std::uint64_t discards = 0;      // trials for which no case was drawn that the contract takes
+  std::set<std::uint64_t> meshes;  // hashes: as many as there are distinct cases
   struct Outcomes {
     std::uint64_t holds = 0, defects = 0, undecided = 0, errors = 0;
     std::uint64_t trials() const { return holds + defects + undecided + errors; }
@@ -53,26 +53,26 @@ struct StratumTally {
     friend bool operator==(const Outcomes&, const Outcomes&) = default;
   };
   std::vector<Outcomes> by_configuration;
-  Counts measures;                        // of a plug-in (step_measures.h)
+  Counts measures;                        // only of a plug-in (step_measures.h)
   std::map<int, std::uint64_t> sizes;     // cases by floor(log2(triangles))
   std::map<int, std::uint64_t> contacts;  // cases by floor(log2(pairs)), -1: none
   void add(const TrialRecord& record);
 };
 
 struct Tally {
-  // Processor time of a configuration from which on a trial is near its limit.
+  // A trial is near its limit if a configuration took at least this processor time.
   std::uint64_t near_from_us = ~std::uint64_t{0};
   std::map<std::string, StratumTally, std::less<>> strata;  // by family
   Counts counts;
-  std::vector<TrialRecord> near;  // in the order in which they were added; without their counts
-  // Undecided in some configuration, as far as a list is read; and the slowest of the others, the
-  // slowest first. Without their counts.
+  std::vector<TrialRecord> near;  // in the order of adding; without counts
+  // The trials that are undecided in some configuration, up to `most_undecided` of them; and of
+  // the others the slowest, the slowest first. Both without their counts.
   std::vector<TrialRecord> undecided, slowest;
   static constexpr std::size_t most_undecided = 1000, most_slowest = 20;
   std::uint64_t disturbances = 0;
   void add(const TrialRecord& record);
-  // Sums over the strata, in trials: all; those of a case that the contract takes; those with a
-  // defect, or without a verdict, in some configuration; those that were disturbed.
+  // Numbers of trials, over all strata: all; those with a case that the contract takes; those with
+  // a defect, and those without a verdict, in some configuration; those that were disturbed.
   std::uint64_t trials() const, judged() const, with_defect() const, open() const,
       disturbed() const;
 

@@ -1,4 +1,4 @@
-// What a store keeps as its rows, and back. Throws StoreProblem where a number is none.
+// Turns what a store keeps into rows, and back. Throws StoreProblem if a number of a row is none.
 #pragma once
 
 #include "properties/campaign/database/rows.h"
@@ -6,7 +6,7 @@
 
 namespace assay::properties {
 
-// Of trial_table(), failure_table() and evidence_table().
+// Rows of trial_table(), failure_table() and evidence_table().
 Row row_of(const TrialRecord& record);
 Row row_of(const StoredFailure& failure);
 Row row_of(const Evidence& evidence);

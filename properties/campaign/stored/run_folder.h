@@ -28,26 +28,27 @@ inline std::filesystem::path certificate_file(const std::filesystem::path& out) 
   return out / "certificate.json";
 }
 
-// The stores of trials in a folder, by name: of shards, and a merged one. no_run where there are
-// none, cannot_read where the folder is not listed.
+// The stores of trials in a folder, in the order of their names: those of shards, and a merged
+// one. no_run if there are none, cannot_read if the folder cannot be listed.
 Expected<std::vector<std::filesystem::path>> stored_shards(const std::filesystem::path& folder);
 
 // A shard's store as a certificate takes it.
 struct WholeShard {
   std::uint64_t trials = 0;
   KeptFailures failures;
-  RowTally rows;  // all of them, as they were when it was made whole
+  RowTally rows;  // all rows, as they were when the store was made whole
 };
-// Looks at every row of the store and seals its file. another_run where it is of another run than
+// Checks every row of the store and seals its file. another_run if it belongs to another run than
 // the request, its shard aside; else the problems of Store::read and Store::open.
 Expected<WholeShard> make_whole(const std::filesystem::path& file, const CampaignRequest& request);
 
-// Keeps the path of a plug-in's library, as it was named to the run, and finds it again; nothing
-// where none was kept. They throw StoreProblem, and are for campaign/ alone.
+// Stores the path of a plug-in's library, as it was named to the run, and finds it again (nothing
+// if none was stored). Both throw StoreProblem, and are for campaign/ alone.
 void note_library(Store& store, const CampaignRequest& request);
 std::optional<std::string> noted_library(const Store& store);
 
-// Below OUT, the same in every run that finds it: failures/tiny-1-broken-3-bvh-smallest.json.
+// The file of a failure below OUT, the same in every run that finds the failure:
+// failures/tiny-1-broken-3-bvh-smallest.json.
 std::filesystem::path failure_file(const StoredFailure& failure, bool smallest);
 
 }  // namespace assay::properties

@@ -1,8 +1,9 @@
-// The trials and failures of one shard, in one file: SQLite, safe under a kill at any moment.
+// The trials and failures of one shard in one SQLite file, which survives a kill at any moment.
 //
-// Every row carries a hash (campaign/database/rows.h), which is looked at wherever it is read. A
-// store that is open for writing knows all of its rows besides, those that it found and those that
-// it wrote, so that nobody changes them unseen in the meantime, whatever hash he writes.
+// Every row carries a hash (campaign/database/rows.h), which is checked whenever the row is read.
+// A store that is open for writing also knows all of its rows: those that it found and those that
+// it wrote. So nobody can change one of them unseen in the meantime, whatever hash he writes
+// beside it.
 #pragma once
 
 #include <filesystem>
@@ -18,37 +19,39 @@
 
 namespace assay::properties {
 
-// Of the text that binds a store to a run (binding.h). A store of another schema is refused.
+// The schema of a store, which is part of the text that binds it to a run (binding.h). A store of
+// another schema is refused.
 inline constexpr const char* store_schema = "assay-store/4";
 
 // A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
 struct StoredFailure {
-  std::string id;  // of the trial
+  std::string id;  // id of the trial
   std::string configuration, signature, what;
   std::string mesh;
-  std::string smallest;      // empty: not shrunk
-  bool flaky = false;        // two runs of it differ: a failure of its own
-  std::string printed = {};  // by a plug-in when it failed, in printable lines; two runs may differ
+  std::string smallest;      // empty: the mesh was not shrunk
+  bool flaky = false;        // two runs of the case differ, which is a failure by itself
+  std::string printed = {};  // by the plug-in as it failed; may differ between runs
 };
 
-// Of a broken law the signature is "law L3_...", and `configuration` is "view-point, law L3_...",
-// for a case may break a law and a claim.
+// The signature of a broken law is "law L3_...", and its `configuration` is "view-point, law
+// L3_...", because one case may break both a law and a claim in the same configuration.
 inline constexpr std::string_view law_in_signature = "law ", law_in_configuration = ", law ";
 
 // The id of a failure that the shipped corpus shows is this and the name of its case. No trial's
 // id begins so: the name of a campaign has no '/'.
 inline constexpr std::string_view corpus_in_id = "corpus/";
 
-// The same of a large mesh on which two runs differ.
+// The id of a failure that a large mesh shows, on which two runs differ, begins with this.
 inline constexpr std::string_view repeated_in_id = "repeated/";
 
-// What the mesh of a failure says of itself: "all-pairs: missing pair, edge-edge; triangles 0 and
-// 1 meet at 0.5", and back: what stands behind the signature, of the smallest mesh where there is
-// one.
+// `about_text` is what the case file of a failure says of itself: "all-pairs: missing pair,
+// edge-edge; triangles 0 and 1 meet at 0.5". `shown_what` reads it back: it returns the part after
+// the signature, from the smallest mesh if there is one.
 std::string about_text(const std::string& signature, const std::string& what);
 std::string shown_what(const StoredFailure& failure);
 
-// That a trial showed something in a configuration: kept of every failure, its mesh of a few.
+// That a trial failed with this signature in this configuration. It is stored for every failure,
+// while the mesh is kept for a few of them only.
 struct MetFailure {
   std::string configuration, signature;  // as of StoredFailure
 };
@@ -56,59 +59,63 @@ struct MetFailure {
 // All failures that a store holds.
 struct KeptFailures {
   std::vector<StoredFailure> list;  // by signature, then id
-  Counts met;                       // how many of each signature were met, kept or not
+  Counts met;                       // how often each signature was met, mesh kept or not
 };
 
 // What a run found out besides its trials: the canary, planted faults, worlds, ...
 struct Evidence {
   std::string kind, name;
-  std::string shard;           // "1/4": who found it out
-  std::uint64_t progress = 0;  // how far it came; of two by the same shard the farther one counts
-  std::string facts;           // a JSON object, without times where the kind does not say so
+  std::string shard;           // the shard that found it out, such as "1/4"
+  std::uint64_t progress = 0;  // how far it came; the row that came farther stays
+  std::string facts;           // a JSON object; without times, unless the kind is one of times
 };
 
-// What returns Expected is for all rooms. The rest throws StoreProblem and is for campaign/ alone
-// (campaign/database/store_problem.h).
+// Functions that return Expected are for all rooms. The others throw StoreProblem and are for
+// campaign/ alone (campaign/database/store_problem.h).
 class Store {
  public:
-  // Opens or makes the file. `binding` says what the trials are of (plan, seed, shard, detector).
-  // another_run for a file that was made for another one, busy for one that another process has
-  // open in this way; foreign_file, other_schema, damaged_store, changed_row, cannot_read,
-  // cannot_write. O(rows), about 2 us each: all of them are looked at.
+  // Opens the file for writing, or makes it. `binding` says what the trials are of (plan, seed,
+  // shard, detector). Costs O(rows), about 2 us each, because every row is checked. Problems:
+  // another_run if the file was made for another binding, busy if another process has it open for
+  // writing, and foreign_file, other_schema, damaged_store, changed_row, cannot_read,
+  // cannot_write.
   static Expected<Store> open(const std::filesystem::path& file, const std::string& binding);
-  // An existing file, whatever it was made for; it is not written to. What is read of it is one
-  // state of a file that may be growing. not_found, foreign_file, other_schema, damaged_store,
-  // cannot_read; changed_row where its rows are read.
+  // Opens an existing file, whatever run it was made for, without writing to it. All reads see one
+  // state of the file, even while another process adds to it. Problems: not_found, foreign_file,
+  // other_schema, damaged_store, cannot_read, and changed_row when its rows are read.
   static Expected<Store> read(const std::filesystem::path& file);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
   ~Store();
 
   Expected<KeptFailures> kept_failures() const;
-  // From now on the file stands alone: nothing beside it belongs to it, and reading it leaves its
-  // bytes as they are.
+  // Makes the file stand alone: nothing beside it belongs to it any more, and reading it leaves
+  // its bytes as they are.
   Expected<void> seal();
 
-  // REQUIRES a store that was opened for writing. All rows that were there when it was opened, and
-  // all that were written since.
+  // All rows that were there when the store was opened, and all that it has written since.
+  // REQUIRES a store that was opened for writing.
   const RowTally& known_rows() const;
-  // not_as_stored where any row differs from those, is missing, or is one too many. O(rows).
+  // Fails with not_as_stored if any row differs from `known`, is missing, or is not in `known`.
+  // O(rows).
   Expected<void> check_against(const RowTally& known) const;
 
   std::string binding() const;
 
-  // Each is whole on disk when it returns. Not for several threads at once.
+  // What each function below writes survives a kill of the process once the function has returned.
+  // Not for several threads at once.
   void add(const TrialRecord& record);
-  // A trial with what it showed, all of it or nothing: the failures kept, and all that were met.
+  // Adds a trial with what it showed, all of it or nothing. `kept` are the failures that are
+  // stored with their mesh, `met` are all failures.
   void add(const TrialRecord& record, const std::vector<StoredFailure>& kept,
            const std::vector<MetFailure>& met);
   void add(const StoredFailure& failure);
-  // Takes away the failures of other signatures.
+  // Removes the stored failures whose signature is not in the set.
   void keep_failures(const std::set<std::string>& signatures);
-  // As add, where there is a failure of this id and configuration already.
+  // Replaces the stored failure of this id and configuration; does nothing if there is none.
   void set_smallest(const StoredFailure& failure);
   void set_note(const std::string& key, const std::string& value);
-  // In place of what the same shard found out before, unless that came farther.
+  // Replaces the evidence of the same kind, name and shard, unless that has more progress.
   void set(const Evidence& evidence);
   void drop_evidence(const std::string& kind);
 
@@ -117,7 +124,7 @@ class Store {
   std::optional<std::string> note(const std::string& key) const;
   void for_each_trial(const std::function<void(const TrialRecord&)>& visit) const;
   std::vector<StoredFailure> failures() const;  // by signature, then id
-  // How many failures of each signature were met, kept or not.
+  // How many failures of each signature were met, whether their mesh was kept or not.
   Counts signatures() const;
   std::vector<Evidence> evidence() const;  // by kind, name, shard
 
@@ -127,7 +134,7 @@ class Store {
   std::unique_ptr<Parts> parts_;
 };
 
-// Of an existing store; the problems are those of Store::read.
+// The failures of an existing store; the problems are those of Store::read.
 Expected<KeptFailures> read_failures(const std::filesystem::path& file);
 
 }  // namespace assay::properties

@@ -17,12 +17,14 @@ struct BrokenLaw {
 };
 
 struct CaseTally {
-  // By the names of count_names.h: its tags, contacts by the sets that the view-point sees, laws.
+  // The counts by the names of count_names.h: tags, contacts by the sets that the view-point sees,
+  // laws.
   Counts counts;
   std::vector<BrokenLaw> broken;
 };
 
-// With laws, each configuration that has view sets and asks for all pairs goes through them.
+// Counts one case. If `with_laws` is set, the laws are checked in each configuration that has view
+// sets and asks for all pairs.
 CaseTally tally_case(const GeneratedCase& made, std::span<const Configuration> configurations,
                      std::span<const CaseRun> runs, std::span<const oracle::StepJudgement> truth,
                      bool with_laws);

@@ -9,27 +9,27 @@
 
 namespace assay::properties {
 
-// A defect, as far as it tells one defect from another.
+// A defect, described by what distinguishes it from other defects.
 struct Failure {
   Claim claim = Claim::total;
-  // "answered free", "late", "early", "missing pair", "late pair", "answered collision", "spurious
-  // pair", "early pair", "missing candidate", "error", "two runs differ", "crashed", "refused": it
-  // fits the claim.
+  // How the claim is broken. One of these, as fits the claim: "answered free", "late", "early",
+  // "missing pair", "late pair", "answered collision", "spurious pair", "early pair", "missing
+  // candidate", "error", "two runs differ", "crashed", "refused".
   std::string kind;
-  std::size_t step = 0;                        // of the script
-  std::optional<detector::TrianglePair> pair;  // the first that is wrong
+  std::size_t step = 0;                        // step of the script
+  std::optional<detector::TrianglePair> pair;  // the first wrong pair
   std::string configuration;
-  std::string stage;    // of the built-in detector, that lost it
-  std::string feature;  // of the pair
-  std::string cause;    // of a plug-in, whose stages nobody knows (cause.h)
+  std::string stage;    // the stage of the built-in detector that lost the pair
+  std::string feature;  // the feature of the pair
+  std::string cause;    // only of a plug-in, whose stages nobody knows (cause.h)
   std::string what;     // one line for people: by how much, and both answers with their times
 
   // Claim, kind, stage, feature, cause: what a shrunk case must keep.
   std::string signature() const;
 };
 
-// What a step shows of the first claim that it breaks, without configuration, stage and cause.
-// REQUIRES a diff of this result that breaks one.
+// What a step shows of the first claim that it breaks; configuration, stage and cause are left
+// empty. REQUIRES a diff of this result that breaks a claim.
 Failure failure_of(const StepDiff& diff, const detector::StepResult& result);
 
 }  // namespace assay::properties

@@ -1,13 +1,13 @@
-// Meshes that are valid input and no surface of a body.
+// Meshes that are valid input but no surface of a body.
 #pragma once
 
 #include "properties/generators/draft.h"
 
 namespace assay::properties {
 
-// A closed or unclosed shape with one to three damages: triangles missing, turned round or of no
-// area, doubled vertices and open seams, 3 to 6 triangles at an edge, vertices that nothing uses,
-// triangles between any vertices. Tagged "broken:...".
+// A closed or unclosed shape with one to three damages: triangles that are missing, turned round
+// or without area, doubled vertices and open seams, 3 to 6 triangles at an edge, vertices that
+// nothing uses, triangles between any vertices. Tagged "broken:...".
 Draft broken_shape(Random& random, int size);
 
 }  // namespace assay::properties

@@ -5,12 +5,12 @@
 
 namespace assay::properties {
 
-// Tetrahedron, bipyramid, sphere, capsule, star or torus with about `size` triangles (4..200), in
-// varied proportions; tagged "shape:...". `star_shaped` is set where all triangles are positive
+// A tetrahedron, bipyramid, sphere, capsule, star or torus with about `size` triangles (4..200),
+// in varied proportions; tagged "shape:...". `star_shaped` is set if all triangles are positive
 // from the origin.
 Draft simple_shape(Random& random, int size);
 
-// One with `star_shaped`: convex, or a star of small hollows.
+// Such a shape with `star_shaped` set: convex, or a star with small hollows.
 Draft star_shape(Random& random, int size);
 
 }  // namespace assay::properties

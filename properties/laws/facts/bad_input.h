@@ -5,7 +5,7 @@
 
 namespace assay::properties {
 
-// The case's own run, with every kind of bad call before each step.
+// Repeats the case's own run, with every kind of bad call before each step.
 void check_bad_input(CaseFacts& facts, LawTally& tally);
 
 }  // namespace assay::properties

@@ -20,8 +20,9 @@
 
 namespace assay::properties {
 
-// How a law makes a detector of its own, to run a changed case; empty where results come from a
-// detector that cannot be made here (a plug-in): the laws that need it are then not met.
+// How a law makes a detector of its own, to run a changed case. Empty if the results come from a
+// detector that cannot be made here (a plug-in); the premises of laws that need one are then not
+// met.
 using StagesOf = std::function<detector::Stages(const detector::Options&)>;
 
 class CaseFacts {
@@ -49,30 +50,33 @@ class CaseFacts {
     return surface_.mesh.component_of_triangle[static_cast<std::size_t>(triangle)];
   }
 
-  // The committed step whose end step s starts from; nothing at a new start.
+  // The committed step at whose end step s starts; nothing if step s is a new start.
   const std::optional<std::size_t>& known_from(std::size_t s) const { return known_from_[s]; }
-  // The detector answered step s and tells its view sets.
+  // The detector answered step s and the result states its view sets.
   bool has_views(std::size_t s) const;
   bool has_ghosts(std::size_t component) const;
-  // Whether a verified start is so by view alone (L5), as under view-auto, and not by layers (L9).
+  // The detector verifies a new start by views alone (L5), as under view-auto, and not by layers
+  // (L9).
   bool starts_by_view_alone() const;
-  // The oracle has finished.
+  // The oracle finished this step.
   bool is_judged(std::size_t s) const { return judgements_[s].complete; }
-  // Premise of L3 to L8: outside Vv everything is clean at the start. A new start that the caller
-  // vouched for (start clean) is checked by the oracle's layers; anything else is the detector's
-  // own business, and is judged by L8 and L9.
+  // The premise of L3 to L8: outside Vv everything is clean at the start. If the caller vouched
+  // for a new start (start clean), the oracle's layers decide whether that is true. In all other
+  // cases the detector itself answers for what it takes as clean, which L8 and L9 judge.
   bool is_trusted(std::size_t s);
 
-  // By the oracle, from the primitives and apexes in the result. REQUIRES has_views(s).
+  // The functions below ask the oracle, and take the primitives and apexes from the detector's
+  // result. S is a component with its ghosts, K the set of candidates. REQUIRES has_views(s).
   const std::vector<detector::ViewSign>& signs(std::size_t s);  // mesh, then ghosts
-  const std::vector<std::uint8_t>& touched(std::size_t s);      // L11, by ghosts of the component
+  const std::vector<std::uint8_t>& touched(std::size_t s);      // by the component's ghosts (L11)
   const oracle::Candidates& candidates(std::size_t s);          // K
   std::optional<int> winding_at_start(std::size_t s, std::size_t component);  // of q0, in S
-  // L5 over the step: all of the component and its ghosts positive, winding number 1 at t=0.
+  // L5 over the step: all triangles of the component and its ghosts are positive throughout, and
+  // the winding number is 1 at t=0.
   bool is_free_by_view(std::size_t s, std::size_t component);
   const oracle::LayerState& layers_at_start(std::size_t s);
   const oracle::LayerState& layers_at_end(std::size_t s);
-  // 1: in contact with another triangle of its component. REQUIRES is_judged(s).
+  // By triangle; 1: in contact with another triangle of its component. REQUIRES is_judged(s).
   const std::vector<std::uint8_t>& own_contacts(std::size_t s);
 
   bool same_component(const detector::TrianglePair& pair) const {
@@ -82,17 +86,18 @@ class CaseFacts {
     return results_[s].doubts[static_cast<std::size_t>(triangle)] != 0;
   }
 
-  // In doubles; false where there are no views.
+  // The range of the view values of the step, computed in doubles. `is_close` judges closeness by
+  // it, and is false if the step has no views.
   const ValueRange& view_range(std::size_t s);
   bool is_close(std::size_t s);
 
-  // The traditional scheme that stages_of() makes, on the mesh of this case; null where it makes
-  // none. It does not depend on the culling that gave the results.
+  // The traditional scheme that stages_of() makes, on the mesh of this case; null if it makes
+  // none. It is the same whatever culling gave the results.
   TraditionalScheme* traditional_scheme();
-  // By its tests. REQUIRES traditional_scheme().
+  // The patches that this scheme's own tests certify. REQUIRES traditional_scheme().
   const CertifiedPatches& certified_patches(std::size_t s);
 
-  // Rows: vertices of the mesh, then apexes at the step's start or end.
+  // Positions at the step's start and end. Rows: vertices of the mesh, then apexes.
   detector::Positions all_t0(std::size_t s) const;
   detector::Positions all_t1(std::size_t s) const;
   const detector::Triangles& ghosts() const { return ghosts_; }
@@ -112,7 +117,7 @@ class CaseFacts {
   detector::Triangles ghosts_;
   std::vector<StepFacts> facts_;
   std::optional<std::unique_ptr<TraditionalScheme>> traditional_scheme_;
-  // By places: the end of a step is the start of the next one.
+  // Found by positions, because the end of one step is the start of the next.
   std::vector<std::pair<detector::Positions, std::unique_ptr<oracle::LayerState>>> layers_;
 };
 

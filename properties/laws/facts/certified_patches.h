@@ -2,9 +2,9 @@
 //
 // A patch is certified when L13's premise is proved of it: all of its triangles face one direction
 // throughout the step, and its contour, projected along that direction, stays a simple polygon.
-// Looked at are the nodes of the detector's tree, from the root down to the largest ones that are
-// certified, and the unions of two of these patches that share an edge. A scheme that is wrong in
-// one of its tests certifies too much here as well, and L13 shows it.
+// The patches looked at are nodes of the detector's tree, from the root down to the largest ones
+// that are certified, and unions of two of these that share an edge. A scheme that is wrong in one
+// of its tests certifies too much here as well, and L13 shows it.
 #pragma once
 
 #include <memory>
@@ -25,8 +25,8 @@ struct CertifiedPatches {
   // How many triangles the largest patch or union has. From 2 on L13 says something.
   std::size_t largest = 0;
   // A triangle faces d when the three Bernstein coefficients of N.d over the step are positive (N
-  // its normal, twice its area long). These are the sizes of the coefficients, for the direction of
-  // the patch and all of its triangles, over all patches and unions of two triangles or more.
+  // its normal, twice its area long). These are the sizes of the coefficients, for the direction
+  // of the patch and all of its triangles, over all patches and unions of two triangles or more.
   ValueRange facing;
 
   // Whether both triangles are in one patch, or in one union of two.
@@ -36,17 +36,18 @@ struct CertifiedPatches {
 // The traditional scheme on one mesh.
 class TraditionalScheme {
  public:
-  // Null when the search of these stages is not one of normal cones. `x` are the positions that the
+  // Null if the search of these stages is not one of normal cones. `x` are the positions that the
   // detector is made from: they shape the tree. `mesh` must outlive the result.
   static std::unique_ptr<TraditionalScheme> make(const detector::Stages& stages,
                                                  const detector::Topology& mesh,
                                                  const detector::PositionsView& x);
 
-  // As dear as a step of the scheme: 10 us for 20 triangles.
+  // The patches that are certified in this step. As dear as a step of the scheme: 10 us for 20
+  // triangles.
   CertifiedPatches certify(const detector::PositionsView& x_t0,
                            const detector::PositionsView& x_t1) const;
 
-  // The pairs of triangles that the scheme's search of the step does not leave out.
+  // The pairs of triangles that the scheme's search of this step does not leave out.
   std::set<detector::TrianglePair> candidates(const detector::PositionsView& x_t0,
                                               const detector::PositionsView& x_t1);
 

@@ -5,16 +5,17 @@
 
 namespace assay::properties {
 
-// An edge of three or more triangles, or used twice in one direction.
+// Some edge has three or more triangles, or is used twice in one direction.
 bool has_broken_edges(const CaseFacts& facts);
 
-// Two vertices of triangles at one place, at the start of the step.
+// Two vertices of triangles are at one place at the start of the step.
 bool has_coincident_vertices(const CaseFacts& facts, std::size_t s);
 
-// A triangle that is a segment or a point, at both ends of the step or at one. Exact.
+// The triangle is a segment or a point at one end of the step or at both. Decided exactly.
 bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle);
 
-// Untouched triangles of one component on different layers: nested shells, parts turned inside out.
+// Untouched triangles of one component lie on different layers: nested shells, parts turned inside
+// out.
 bool has_several_layers(CaseFacts& facts, std::size_t s);
 
 }  // namespace assay::properties

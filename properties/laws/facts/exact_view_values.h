@@ -1,7 +1,8 @@
 // Exact values of the view function at one time, by the clamp form of L1 and by regions.
 //
-// All coordinates are integers in one unit, a power of two over the denominator of the time, so the
-// values are rationals with one common denominator, |d|^2: only the numerators are kept.
+// All coordinates are integers in one unit, which is a power of two over the denominator of the
+// time. So the values are rationals with one common denominator, |d|^2, and only the numerators
+// are kept.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -13,7 +14,7 @@ namespace assay::properties {
 using ExactInteger = boost::multiprecision::cpp_int;
 using ExactPoint = std::array<ExactInteger, 3>;
 
-// Where the axial coordinate of a point lies, as seen from the segment q0q1.
+// Where a point lies along the axis of the segment q0q1, which decides from where it is seen.
 enum class Region : std::uint8_t {
   r0,  // before q0: view from q0
   r1,  // beyond q1: view from q1
@@ -22,16 +23,17 @@ enum class Region : std::uint8_t {
 
 class ExactView {
  public:
-  // A triangle and its primitive at t = eighths / 8. REQUIRES finite coordinates.
+  // Takes a triangle and its primitive at t = eighths / 8. REQUIRES finite coordinates.
   ExactView(const std::array<detector::MovingPoint, 3>& triangle,
             const detector::ViewPrimitive& primitive, int eighths);
 
-  // The corner, or the point of the triangle with these weights (w0 + w1 + w2 = 2^4), times 2^4.
+  // A corner of the triangle, or the point with these weights (w0 + w1 + w2 = 2^4); both times
+  // 2^4.
   ExactPoint corner(int i) const;
   ExactPoint inner_point(const std::array<int, 3>& sixteenths) const;
 
-  // (x - n(x)).N for a point of the triangle given times 2^4; times the same positive number for
-  // all points of one ExactView.
+  // (x - n(x)).N for a point of the triangle that is given times 2^4. The values of all points of
+  // one ExactView have the same positive factor.
   ExactInteger by_clamp(const ExactPoint& x) const;   // (1-s) f0 + s f1
   ExactInteger by_region(const ExactPoint& x) const;  // from q0, from q1, from the foot
   Region region_of(const ExactPoint& x) const;

@@ -1,4 +1,5 @@
-// The smallest and the largest of the values that a law rests on, in one step: how close it came.
+// The smallest and the largest of the values that a law rests on in one step. They tell how close
+// it came.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 namespace assay::properties {
 
-// Of the sizes of values; of none at all, as it is made.
+// The range of the sizes of values. At first it holds no value.
 struct ValueRange {
   double smallest = std::numeric_limits<double>::infinity();
   double largest = 0;

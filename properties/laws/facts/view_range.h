@@ -1,4 +1,4 @@
-// The smallest and the largest view value of a step, in doubles: how close it came.
+// The smallest and the largest view value of a step, in doubles. They tell how close it came.
 #pragma once
 
 #include <span>
@@ -9,11 +9,12 @@
 
 namespace assay::properties {
 
-// |(x - n(x)).N| at the vertices of triangles, at 17 times of the step; a sign change of a triangle
-// counts as 0. In units of the step's own, so that nothing overflows.
+// The values are |(x - n(x)).N| at the vertices of the triangles, at 17 times of the step. A sign
+// change of a triangle counts as 0. They are in units of the step's own, so that nothing
+// overflows.
 //
-// Of the triangles given (indices into `surface`), all seen from one primitive. Rows of x: vertices
-// of the surface. About 0.5 us a triangle.
+// Looks at the triangles given (indices into `surface`), all seen from one primitive. The rows of
+// x are the vertices of the surface. About 0.5 us a triangle.
 ValueRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
                       const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
                       const detector::ViewPrimitive& primitive);

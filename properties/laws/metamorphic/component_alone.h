@@ -5,7 +5,7 @@
 
 namespace assay::properties {
 
-// Of one component, chosen by the case's id; where there are two or more and all pairs are asked
+// Checks one component, chosen by the case's id, if there are two or more and all pairs are asked
 // for (a collision of which only the first contacts are known makes all components dirty, L8).
 void check_component_alone(CaseFacts& facts, LawTally& tally);
 

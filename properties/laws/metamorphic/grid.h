@@ -1,15 +1,16 @@
-// Coordinates of few bits, so that translations and midpoints are exact.
+// Rounds a run to coordinates of few bits, so that translations and midpoints are exact.
 #pragma once
 
 #include "properties/laws/metamorphic/pinned_run.h"
 
 namespace assay::properties {
 
-// Every coordinate of vertices, primitives and apexes rounded to a multiple of one power of two,
-// 2^-30 of the least one above them all (or of the least denormal, if that is greater).
+// The run with every coordinate of vertices, primitives and apexes rounded to a multiple of one
+// power of two: 2^-30 of the least power of two above them all (or the least denormal, if that is
+// greater).
 PinnedRun on_a_grid(PinnedRun run);
 
-// The exponent of that power of two above all coordinates.
+// The exponent of the least power of two above all coordinates.
 int exponent_above(const PinnedRun& run);
 
 // Applies `move` to every vertex, primitive and apex of every frame.

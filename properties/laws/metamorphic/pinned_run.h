@@ -1,9 +1,10 @@
-// A run of a case with everything that the detector would choose for itself nailed down.
+// A run of a case in which everything that the detector would choose for itself is prescribed
+// (pinned).
 //
-// View primitives and apexes are means in doubles, summed in the order of vertices: of a mesh that
-// is numbered otherwise, mirrored or moved they would differ in the last bits. A changed run takes
-// them from the run that it is compared with, changed like the vertices, so that the comparison is
-// one of every bit.
+// View primitives and apexes are means in doubles, summed in the order of the vertices. In a mesh
+// that is numbered otherwise, mirrored or moved they would differ in the last bits. So a changed
+// run takes them from the run that it is compared with, changed like the vertices, and the two can
+// be compared in every bit.
 #pragma once
 
 #include <memory>
@@ -24,28 +25,29 @@ struct PinnedRun {
   std::vector<std::vector<detector::MovingPoint>> apexes;  // [step][loop]
 };
 
-// The run that gave the results; nothing where a step has no views, where view-auto left something
-// dirty that it would have released by layers, or where no detector can be made.
+// The run that gave the results of `facts`, pinned. Nothing if a step has no views, if view-auto
+// left something dirty at a new start that another culling would release by layers, or if no
+// detector can be made.
 std::optional<PinnedRun> pinned_run(const CaseFacts& facts);
 
-// The options of the case, for a run of another mesh. Whether view-auto uses its views is a matter
-// of cost and decided for the mesh as a whole; in a pinned run every step had them. So that the
-// other run has them too its culling is view-line, which sees from the pinned points as well.
+// The options of the case, for a run of another mesh. view-auto decides by cost, for the mesh as a
+// whole, whether it uses its views. In a pinned run every step had views, and the other run shall
+// have them too, so its culling becomes view-line, which sees from pinned points as well.
 detector::Options options_with_views(const CaseFacts& facts);
 
 class PinnedPlayer {
  public:
-  // Nothing where the holes of the mesh are others than those of the run (a boundary through
-  // repeated vertices may be split in several ways). A mesh that is refused has a player all the
-  // same: every step of it is that error. The run must outlive the player.
+  // Nothing if the holes of the mesh are not those of the run (a boundary through repeated
+  // vertices may be split in several ways). A mesh that the detector refuses has a player too:
+  // every step of it is that error. The run must outlive the player.
   static std::optional<PinnedPlayer> make(const PinnedRun& run, const detector::Options& options,
                                           const StagesOf& stages_of);
 
   detector::StepResult evaluate(std::size_t step);
-  // Between any two frames, with the primitives and apexes of `step`.
+  // A step between any two positions, with the primitives and apexes of `step`.
   detector::StepResult evaluate(std::size_t step, const detector::PositionsView& x_t0,
                                 const detector::PositionsView& x_t1);
-  // Where the script commits the step and it was answered.
+  // Commits the step if the script does so and the step was answered.
   void commit(std::size_t step, const detector::StepResult& result);
   std::vector<detector::StepResult> play();
   // REQUIRES a mesh that was not refused.

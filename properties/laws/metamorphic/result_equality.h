@@ -8,7 +8,7 @@
 
 namespace assay::properties {
 
-// Names the first field that differs; empty when none does. Wall-clock times are not looked at.
+// Names the first field that differs; empty if none does. Wall-clock times are not looked at.
 std::string difference(const detector::StepResult& a, const detector::StepResult& b);
 
 }  // namespace assay::properties

@@ -1,5 +1,5 @@
-// The passes of the reducer, in the order in which they run. Each proposes cases to the search and
-// leaves the best one there; whether it made progress shows in the search's size.
+// The passes of the reducer, in the order in which they run. Each pass proposes cases to the
+// search, which keeps the best one. Whether a pass made progress shows in the size of that case.
 //
 // To add one: a function here, a row in passes.cpp, a test in
 // tests/properties/reducer/reducer_passes_test.
@@ -11,50 +11,51 @@
 
 namespace assay::properties {
 
-// step_passes.cpp: the sequence.
-void drop_later_steps(ReductionSearch& search);  // those behind the one that shows the failure
+// step_passes.cpp: passes that shorten the sequence.
+void drop_later_steps(ReductionSearch& search);  // those after the step that shows the failure
 void drop_steps(ReductionSearch& search);        // halves, then one by one
-void merge_steps(ReductionSearch& search);       // a step from the start of one to the end of next
+void merge_steps(ReductionSearch& search);       // from the start of one step to the end of next
 
-// face_passes.cpp: any mesh; a closed one does not stay closed.
-void drop_components(ReductionSearch& search);  // halves, then one by one; these do stay closed
+// face_passes.cpp: passes for any mesh. They do not keep a closed mesh closed, except
+// drop_components.
+void drop_components(ReductionSearch& search);  // halves, then one by one; the exception
 void keep_rings(ReductionSearch& search);       // the reported pair and 0, 1, 2 .. rings around it
 void drop_faces(ReductionSearch& search);       // halves, then one by one, far ones first
 void drop_unused_vertices(ReductionSearch& search);
-void drop_ghosts(ReductionSearch& search);  // those that the case states
+void drop_ghosts(ReductionSearch& search);  // ghosts that the case states
 
-// closed_passes.cpp: a cycle stays a cycle.
-void cone_outside(ReductionSearch& search);   // all vertices outside a ring become one
+// closed_passes.cpp: passes that keep a closed mesh closed (a cycle stays a cycle).
+void cone_outside(ReductionSearch& search);   // all vertices outside a ring become one vertex
 void cut_and_close(ReductionSearch& search);  // rings around the pair, their loops closed by fans
 void merge_balls(ReductionSearch& search);    // groups of neighbours become one vertex each
-void collapse_to_parents(ReductionSearch& search);  // many edges at once, towards the pair
-void collapse_edges(ReductionSearch& search);       // one at a time, either way
+void collapse_to_parents(ReductionSearch& search);  // many edges at once, each towards the pair
+void collapse_edges(ReductionSearch& search);       // one edge at a time, towards either end
 void merge_twice(ReductionSearch& search);          // two collapses at once, of small meshes
-void remove_and_close(ReductionSearch& search);     // single faces or vertex stars, closed by a fan
+void remove_and_close(ReductionSearch& search);     // a face or a vertex star, closed by a fan
 
-// small_meshes.cpp: triangulated spheres over some of the case's own vertices.
-void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the reported pair: few
-void try_small_spheres(ReductionSearch& search);    // and of those around it: thousands
+// small_meshes.cpp: the mesh is replaced by a triangulated sphere over some of its own vertices.
+void try_spheres_of_pair(ReductionSearch& search);  // over vertices of the pair: few proposals
+void try_small_spheres(ReductionSearch& search);    // also over vertices around it: thousands
 
-// motion_passes.cpp: vertices that rest.
-void freeze_vertices(ReductionSearch& search);  // halves, then one by one; at either end's place
+// motion_passes.cpp: vertices that moved are put to rest.
+void freeze_vertices(ReductionSearch& search);  // halves, then one by one, at either end's place
 
-// view_passes.cpp: the view primitive that the case gives.
+// view_passes.cpp: passes on the view primitive that the case states.
 void simplify_view(ReductionSearch& search);  // fixed, a point, at the origin
-void drop_view(ReductionSearch& search);      // at the end: the detector's own serves as well
+void drop_view(ReductionSearch& search);      // the detector's own one serves as well
 
-// number_passes.cpp: simpler coordinates.
+// number_passes.cpp: passes that make coordinates simpler.
 void translate(ReductionSearch& search);          // along each axis, so that many become 0
-void round_all(ReductionSearch& search);          // all to a grid of few integers
+void round_all(ReductionSearch& search);          // all coordinates to a grid of few integers
 void round_vertices(ReductionSearch& search);     // one vertex at a time, fewer digits
 void simplify_numbers(ReductionSearch& search);   // one coordinate at a time, towards 0
 void simplify_together(ReductionSearch& search);  // a few coordinates at once, at random
 
-// escape.cpp: random changes (the same ones for the same case) from which a smaller mesh is
-// reached; when all other passes are stuck.
+// escape.cpp: random changes from which a smaller mesh can be reached, for when all other passes
+// are stuck. The same case always gets the same changes.
 void escape(ReductionSearch& search);
 
-// order_pass.cpp: vertices and triangles numbered by first use. The size stays.
+// order_pass.cpp: numbers vertices and triangles in the order of their first use. The size stays.
 void canonical_order(ReductionSearch& search);
 
 struct Pass {
@@ -62,8 +63,9 @@ struct Pass {
   void (*run)(ReductionSearch& search);
 };
 
-// Those that make the mesh and the sequence shorter; those that make the whole simpler, and single
-// numbers; the last resort.
+// The lists of passes, in the order in which they run: those that make the mesh and the sequence
+// shorter, those that make the whole case simpler, those that make single numbers simpler, and the
+// last resort.
 std::span<const Pass> shortening_passes();
 std::span<const Pass> simplifying_passes();
 std::span<const Pass> number_passes();

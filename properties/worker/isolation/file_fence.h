@@ -1,4 +1,5 @@
-// Landlock: this process, and what it starts, writes to no file outside of some folders.
+// Uses Landlock so that this process, and what it starts, writes to no file outside of some
+// folders.
 #pragma once
 
 #include <string>
@@ -6,12 +7,13 @@
 
 namespace assay::properties {
 
-// From now on, and for ever: files are made, changed and removed below `folders` alone; /dev/null
-// and its like may be written to; everything may be read and run, but nothing of /proc where
+// Holds from now on and for ever. Files are made, changed and removed below `folders` alone;
+// /dev/null and its like may be written to. Everything may be read and run, except /proc if
 // `without_proc`. No device takes orders (ioctl), and no process outside is reached by a signal or
-// an abstract socket, as far as the kernel's version of Landlock knows of these. False, and
-// nothing is changed, where the kernel has no Landlock of version 3 (Linux 6.2), the first that
-// guards truncate. REQUIRES that no_new_privs is set.
+// an abstract socket, as far as the kernel's version of Landlock knows of these.
+//
+// Returns false and changes nothing if the kernel has no Landlock of version 3 (Linux 6.2), the
+// first that guards truncate. REQUIRES that no_new_privs is set.
 bool fence_files(const std::vector<std::string>& folders, bool without_proc);
 
 }  // namespace assay::properties

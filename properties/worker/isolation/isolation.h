@@ -1,6 +1,6 @@
 // How far the process of a plug-in is kept away from everything but its own work.
 //
-// What it is for: that a detector, by accident or on purpose, cannot change what it is judged by:
+// Its purpose is that a detector cannot change, by accident or on purpose, what it is judged by:
 // the run's files, the host, the worker, other runs. It is no jail for malicious code: a plug-in
 // may read what the user may read, and use up the processor until its limits end it.
 #pragma once
@@ -14,18 +14,19 @@
 namespace assay::properties {
 
 enum class IsolationMode : std::uint8_t {
-  none,      // a process of its own, that is all; it may print
-  best,      // all that the system offers; what it lacks is reported
-  required,  // all, or the plug-in is refused
+  none,      // a process of its own and no more; it may print
+  best,      // all that the system offers; what is lacking is reported
+  required,  // all of it, or the plug-in is refused
 };
 
-// What holds for the process of a plug-in. Where nothing is asked for, or no plug-in is run,
-// nothing holds.
+// What holds for the process of a plug-in. Nothing holds if nothing is asked for or no plug-in is
+// run.
 struct Isolation {
   // It writes to no file outside of its scratch folder (Landlock).
   bool files = false;
-  // It sees, signals and traces no process but its own, and all of them end with it (namespaces;
-  // or no new processes at all, no /proc, and signals to itself alone).
+  // It sees, signals and traces no process but its own, and all of its processes end with it. This
+  // is done by namespaces; without them, by no new processes at all, no /proc, and signals to
+  // itself alone.
   bool processes = false;
   // It opens no socket, and makes no system call that would undo the rest (seccomp).
   bool calls = false;
@@ -33,18 +34,19 @@ struct Isolation {
   friend bool operator==(const Isolation&, const Isolation&) = default;
 };
 
-// Whether all that holds in `less` holds in `more`.
+// Whether `more` holds at least what `less` holds.
 bool covers(const Isolation& more, const Isolation& less);
 
-// "none", "best", "required"; "full", "none", "partial: lacks files, calls".
+// The words of a mode ("none", "best", "required"), and of an isolation ("full", "none", "partial:
+// lacks files, calls").
 const char* name_of(IsolationMode mode);
 std::optional<IsolationMode> isolation_mode_of(std::string_view word);
 std::string text_of(const Isolation& isolation);
-// Of what text_of says; of another text: nothing holds.
+// The isolation that a text of text_of states; for any other text nothing holds.
 Isolation isolation_of(std::string_view text);
 // What holds in both.
 Isolation common_to(const Isolation& a, const Isolation& b);
-// What does not hold: of "files", "processes" and "calls".
+// Which of "files", "processes" and "calls" do not hold.
 std::vector<std::string> lacks_of(const Isolation& isolation);
 
 }  // namespace assay::properties

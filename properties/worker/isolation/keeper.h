@@ -19,8 +19,8 @@ namespace assay::properties {
 
 struct KeptPlugin {
   IsolationMode mode = IsolationMode::best;
-  std::string scratch;      // a folder, where the mode is not none
-  std::uint64_t bytes = 0;  // of address space; 0: no limit
+  std::string scratch;      // a folder, unless the mode is none
+  std::uint64_t bytes = 0;  // address space; 0: no limit
 };
 
 // What the keeper tells the host first, before the plug-in is loaded.
@@ -32,11 +32,13 @@ struct KeeperHello {
 };
 
 // Starts the plug-in's process, which calls `serve` with its channel and exits with what that
-// returns; says hello to the host and passes on what the two say, until one of them ends. Ends this
-// process as the plug-in's ended: with its code, or by its signal. What the plug-in prints goes to
-// printed_descriptor before what it replies, its end alone where that is much (printed_words.h);
-// with isolation none it goes where this process prints. Where the isolation is required
-// and not whole the plug-in's process ends before `serve`.
+// returns. Says hello to the host, and passes on what host and plug-in say until one of them ends.
+// Then ends this process in the same way as the plug-in's process ended: with its code, or by its
+// signal.
+//
+// What the plug-in prints goes to printed_descriptor before its next reply; if that is much, only
+// the end of it (printed_words.h). With isolation none it goes where this process prints. If the
+// isolation is required and not whole, the plug-in's process ends before `serve`.
 [[noreturn]] void keep(Channel host, const KeptPlugin& kept,
                        const std::function<int(Channel)>& serve);
 

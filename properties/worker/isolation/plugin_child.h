@@ -1,4 +1,4 @@
-// The process in which a plug-in is loaded, as it is made ready for that.
+// The process in which a plug-in is loaded, and how it is made ready.
 #pragma once
 
 #include "properties/worker/isolation/keeper.h"
@@ -12,20 +12,21 @@ struct ChildReport {
   int status = 0;       // when ended: as waitpid tells it
 };
 
-// The descriptors that its processes have: everything else is closed.
+// The descriptors that the plug-in's processes have. All others are closed.
 struct ChildEnds {
   int channel = -1;  // the plug-in's end
-  int reports = -1;  // to the keeper
-  int printed = -1;  // where it prints; -1: as its starter does
+  int reports = -1;  // leads to the keeper
+  int printed = -1;  // where it prints; -1: where its starter prints
 };
 
-// The plug-in's process: shuts itself in as far as it is asked to and the system allows, reports
-// that, gives up the socket for reports and serves. `in_new_world`: it was started in one.
+// The main function of the plug-in's process. It shuts itself in as far as it is asked to and the
+// system allows, reports that, gives up the socket for reports, and serves. `in_new_world`: it was
+// started in a new world.
 [[noreturn]] void become_plugin(const KeptPlugin& kept, const ChildEnds& ends, bool in_new_world,
                                 const std::function<int(Channel)>& serve);
 
-// The first process of a new world: starts the plug-in's process, waits for whatever ends in that
-// world, reports the end of the plug-in's process, and ends the world.
+// The main function of the first process of a new world. It starts the plug-in's process, waits
+// for whatever ends in that world, reports the end of the plug-in's process, and ends the world.
 [[noreturn]] void begin_with_plugin(const KeptPlugin& kept, const ChildEnds& ends,
                                     const std::function<int(Channel)>& serve);
 

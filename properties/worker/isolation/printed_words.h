@@ -1,5 +1,5 @@
-// What a plug-in prints, on its way from its process over the keeper to the host, a case at a time.
-// It is kept for people, and nothing is judged by it.
+// What a plug-in prints, on its way from its process over the keeper to the host, one case at a
+// time. It is kept for people to read, and nothing is judged by it.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,12 @@
 
 namespace assay::properties {
 
-// Bytes that are kept of what is printed in one case: the last ones, which say how it ended.
+// How many bytes are kept of what is printed in one case: the last ones, because they say how it
+// ended.
 inline constexpr std::size_t longest_printed = 4096;
 
-// The end of a text that grows. Where its beginning is lost it begins with "..." and a whole line.
+// Keeps the end of a text that grows. If its beginning is lost, what is kept begins with "..." and
+// a whole line.
 class LastWords {
  public:
   void add(const char* bytes, std::size_t size);
@@ -24,17 +26,17 @@ class LastWords {
   bool is_cut_ = false;
 };
 
-// What there is to read of a descriptor that does not wait, 1 MB at most a call. False when nobody
-// can write to it any more.
+// Reads what there is to read from a descriptor that does not wait, at most 1 MB a call. False if
+// nobody can write to it any more.
 bool read_what_is_there(int descriptor, LastWords& words);
 
-// Lines of printable text (printable.h), none of them empty at the end.
+// The text as printable lines (printable.h), without empty ones at the end.
 std::string printable_lines(const std::string& text);
 
-// The host's end, and the one that its worker is started with.
+// A pipe: the host's end, and the end with which its worker is started.
 class PrintedPipe {
  public:
-  // Nothing when the system has no more descriptors.
+  // Nothing if the system has no more descriptors.
   static std::optional<PrintedPipe> make();
   PrintedPipe(PrintedPipe&& other) noexcept
       : read_(std::exchange(other.read_, -1)), write_(std::exchange(other.write_, -1)) {}
@@ -42,8 +44,8 @@ class PrintedPipe {
   ~PrintedPipe();
 
   int write_end() const { return write_; }  // above the standard descriptors and a channel's
-  void close_write_end();                   // once the worker has it
-  // What came since it was asked last, in printable lines.
+  void close_write_end();                   // to be called once the worker has it
+  // What came since the last call, in printable lines.
   std::string take();
 
  private:

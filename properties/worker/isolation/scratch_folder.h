@@ -1,4 +1,4 @@
-// A folder that is there as long as its object.
+// A folder that exists as long as its object.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,12 @@
 
 namespace assay::properties {
 
-// A new folder among the system's temporary files, which is removed with this object and all that
-// it holds. For a plug-in it is the one place in which it may write, named to it by TMPDIR.
+// A new folder among the system's temporary files. It is removed with this object, and so is all
+// that it holds. It is the only place in which a plug-in may write; TMPDIR names it to the
+// plug-in.
 class ScratchFolder {
  public:
-  // cannot_write where the system gives none.
+  // Fails with cannot_write if the system gives none.
   static Expected<ScratchFolder> make();
   ScratchFolder(ScratchFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
   ScratchFolder& operator=(ScratchFolder&& other) noexcept {

@@ -7,7 +7,7 @@
 
 namespace assay::properties {
 
-// What a library holds; the built-in detector holds steps.
+// What a library can do. The built-in detector has the part of steps.
 struct PluginParts {
   bool steps = true, query = false, candidates = false;
   bool takes_threads = false;  // it asks how many threads it may use
@@ -21,10 +21,10 @@ struct PluginDescription {
   PluginParts parts = {};
 };
 
-// Of its claims those that a part of it is judged by. Its steps: all; of a library without steps
-// candidates, deterministic and total.
+// Those of its claims by which its steps are judged: all. For a library without steps: candidates,
+// deterministic and total.
 Claims claims_on_steps(const PluginDescription& description);
-// Its query: all but those on pairs and candidates.
+// Those by which its query is judged: all but those on pairs and candidates.
 Claims claims_on_queries(const PluginDescription& description);
 
 }  // namespace assay::properties

@@ -1,5 +1,5 @@
 // Loads a plug-in and runs cases through it. The library's code, its constructors included, runs
-// in this process: only the worker does that.
+// in this process; so only the worker may use this class.
 #pragma once
 
 #include <filesystem>
@@ -16,29 +16,29 @@ namespace assay::properties {
 
 class PluginHost {
  public:
-  // not_found; not_a_plugin: not a shared library, or no assay_detector() in it;
-  // other_abi_version; broken_plugin: a table with a gap, or a description that says nothing
-  // sensible. Never unloaded again. threads: told to a library that asks how many it may use.
-  // called: by the user, for problems; empty: by its file.
+  // Loads a library, which is never unloaded again. `threads` is told to a library that asks how
+  // many it may use. `called` is the user's name for it in problems; empty: its file. The problems
+  // are not_found; not_a_plugin: not a shared library, or no assay_detector() in it;
+  // other_abi_version; broken_plugin: a table with a gap, or a description that makes no sense.
   static Expected<PluginHost> open(const std::filesystem::path& library, std::uint32_t threads = 1,
                                    const std::string& called = {});
 
   const PluginDescription& description() const { return description_; }
 
-  // As run_case. A result that breaks the header's rules (an index out of range, an interval that
-  // is none) makes its step an error; errors are told in `what`. Coordinates are rounded to what
-  // the contract says; steps that it leaves out are the caller's to leave out.
+  // Runs a case as run_case does. If a result breaks the header's rules (an index out of range, an
+  // invalid interval), its step is an error; `what` tells errors. Coordinates are rounded as the
+  // contract says. The caller has to leave out the steps that the contract leaves out.
   CaseRun run(const corpus::Case& c, bool is_timed = false) const;
 
-  // An answer to each query, by the same rules. REQUIRES that it has the part, and queries as the
-  // contract has them.
+  // Answers each query, by the same rules. REQUIRES that the plug-in has this part, and queries as
+  // the contract has them.
   std::vector<QueryAnswer> ask(std::span<const detector::FourPoints> queries) const;
 
  private:
   PluginHost(const assay_detector_api& table, PluginDescription description)
       : table_(table), description_(std::move(description)) {}
 
-  assay_detector_api table_;  // of this host's version
+  assay_detector_api table_;  // in the form of this host's version
   PluginDescription description_;
 };
 

@@ -1,4 +1,4 @@
-// A plug-in's result as a StepResult.
+// Turns the results of a plug-in into those of this project.
 #pragma once
 
 #include <vector>
@@ -11,18 +11,19 @@
 
 namespace assay::properties {
 
-// Pairs a < b, ascending, each once with its least time ([0, 1] where none is stated).
-// broken_result where it breaks the header's rules; step_failed, with the plug-in's own words,
-// where it says that the step has no answer. reports_pairs: whether its contract says that it
-// does; else pairs break the rules.
+// The result of a step. Its pairs are a < b, ascending, each once with its least time ([0, 1] if
+// none is stated). broken_result if it breaks the header's rules; step_failed, with the plug-in's
+// own words, if it says that the step has no answer. If `reports_pairs` is false, because the
+// contract says that the plug-in reports none, pairs break the rules.
 Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
                                            bool reports_pairs = true);
 
-// The answer of a query function that returned `code`, as a step's: an error in words where there
-// is none, undecided where memory failed.
+// The answer of a query function that returned `code`, as a step has it: an error in words if
+// there is no answer, undecided if memory failed.
 QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw);
 
-// Pairs a < b, ascending, each once; broken_result for an index that is none.
+// The candidate pairs a < b, ascending, each once; broken_result if an index is none of a
+// triangle.
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
                                                               std::int32_t triangle_count);
 

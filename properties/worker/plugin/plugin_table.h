@@ -1,5 +1,5 @@
-// The table of functions that a plug-in returns, of any version that this host takes, and what it
-// says of itself.
+// The table of functions that a plug-in returns, in any version that this host takes, and what the
+// plug-in says of itself.
 #pragma once
 
 #include "detector/plugin/assay_detector.h"
@@ -8,19 +8,21 @@
 
 namespace assay::properties {
 
-// One line of printable text, and no more of it than a reply may hold; empty for none.
+// The text as one printable line, no longer than a reply may hold; empty for none.
 std::string line_of(const char* text);
 
-// What the plug-in has to say of the call that failed last, one line; empty for nothing.
+// What the plug-in says about the call that failed last, in one line; empty for nothing.
 std::string text_of_error(const assay_detector_api& table);
 // "evaluate returned 3: TEXT".
 std::string text_of_code(const assay_detector_api& table, const char* function, std::int32_t code);
 
-// The table as one of this host's version: what an older version does not have is NULL.
-// not_a_plugin, other_abi_version; broken_plugin: a gap. The library is not named.
+// The table as one of this host's version; functions that an older version does not have are NULL.
+// The problems are not_a_plugin, other_abi_version, and broken_plugin if there is a gap. They do
+// not name the library.
 Expected<assay_detector_api> read_table(const assay_detector_api* api);
 
-// broken_plugin: a description that says nothing sensible. The library is not named.
+// The plug-in's description; broken_plugin if it makes no sense. The problem does not name the
+// library.
 Expected<PluginDescription> read_description(const assay_detector_api& table);
 
 }  // namespace assay::properties

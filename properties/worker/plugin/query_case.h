@@ -1,9 +1,10 @@
-// An elementary query as a case: what campaigns, the reducer and `replay` know how to treat.
+// An elementary query as a case, so that campaigns, the reducer and `replay` can treat it like any
+// other.
 //
-// Four vertices in the order of detector/contact/four_points.h, two triangles (0,1,2) and (1,3,2),
-// one step, and the option `query`: `vertex-face`, of vertex 0 and the face (1,2,3), or
-// `edge-edge`, of the edges 01 and 23. The triangles hold these features, so that a picture shows
-// them; whatever else of them meets is not asked.
+// The case has four vertices in the order of detector/contact/four_points.h, two triangles (0,1,2)
+// and (1,3,2), one step, and the option `query`. The option is `vertex-face`, for vertex 0 and the
+// face (1,2,3), or `edge-edge`, for the edges 01 and 23. The triangles hold these features, so
+// that a picture shows them; whatever else of the triangles meets is not asked.
 #pragma once
 
 #include <optional>
@@ -17,23 +18,23 @@
 
 namespace assay::properties {
 
-// What a plug-in says of a query.
+// What a plug-in answers to a query.
 struct QueryAnswer {
   detector::Answer answer = detector::Answer::error;
-  detector::TimeEnclosure first;  // with a collision
-  std::string what;               // of an error, one line
+  detector::TimeEnclosure first;  // only with a collision
+  std::string what;               // only with an error: one line
 };
 
 corpus::Case case_of_query(const detector::FourPoints& query, std::string id);
 
 // Whether the case says that it is a query, rightly or not.
 bool says_query(const corpus::Case& c);
-// The query of such a case; nothing where it is none.
+// The query of such a case; nothing if the case is none.
 std::optional<detector::FourPoints> query_of(const corpus::Case& c);
 
 const char* query_word(const detector::FourPoints& query);  // "vertex-face", "edge-edge"
 
-// The run of the case of one query.
+// The answer as the run of the query's case.
 CaseRun run_of(QueryAnswer answer);
 
 }  // namespace assay::properties

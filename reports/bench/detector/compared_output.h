@@ -9,14 +9,14 @@
 
 namespace assay::reports {
 
-// With what it is compared, then a row a sequence: times of both, their ratio with its interval,
-// the same of preprocessing, and errors.
+// What is compared, then one row for each sequence: the times of both, their ratio with its
+// interval, the same for preprocessing, and errors.
 std::string text_of(const ComparedDetector& detector, std::span<const ComparedSequence> sequences);
 
 nlohmann::ordered_json to_json(const ComparedDetector& detector);
 nlohmann::ordered_json to_json(std::span<const ComparedSequence> sequences);
 
-// A line a sequence and round; one without times where there are none.
+// One line for each sequence and round; a single line for a sequence without times.
 std::string csv_of(std::span<const ComparedSequence> sequences);
 
 }  // namespace assay::reports

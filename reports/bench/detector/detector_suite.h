@@ -1,4 +1,4 @@
-// A plug-in beside the built-in detector, on the same steps of scenes and public sequences.
+// Times a plug-in beside the built-in detector, on the same steps of scenes and public sequences.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +9,25 @@
 
 namespace assay::reports {
 
-// The plug-in that is timed; it has steps.
+// The plug-in that is timed. REQUIRES that it has steps.
 struct BenchedPlugin {
   std::string library;
   properties::PluginDescription description;
-  // `seconds`: processor time of one run of a sequence at most.
+  // `limits.seconds` is the processor time that one run of a sequence may take.
   properties::WorkerLimits limits;
   int jobs = 1;  // threads of the oracle
 };
 
-// Each runs in a worker of its own, in turn, a whole sequence a time: what is told is what they
-// took there by that process's own clock, with all of its threads. The built-in detector answers
-// what the plug-in claims: all pairs, or those of the first contact; and it verifies the start
-// where the plug-in's contract takes any.
+// Each detector runs in a worker of its own, in turn, a whole sequence each time. The times
+// reported are those of that process's own clock, with all of its threads. The built-in detector
+// is set to answer what the plug-in claims: all pairs, or those of the first contact; and it
+// verifies the start if the plug-in's contract takes any start.
 //
-// The oracle judges the plug-in's first answers by its claims under its contract. A claim that is
-// broken is a wrong answer of the report, and so is anything that the built-in detector has wrong.
-// A sequence that the contract does not take has no times, nor has one on which the plug-in's run
-// ends early: the row says so. With a scale below 1 public sequences of more than 10,000
-// triangles are left out.
+// The oracle judges the plug-in's first answers by its claims under its contract. A broken claim
+// is a wrong answer of the report, and so is anything that the built-in detector has wrong. There
+// are no times for a sequence that the contract does not take, or on which the plug-in's run ends
+// early; the row says so. With a scale below 1, public sequences of more than 10,000 triangles are
+// left out.
 BenchReport detector_suite(const BenchSettings& settings, const BenchedPlugin& plugin,
                            Progress& progress);
 

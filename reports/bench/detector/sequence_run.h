@@ -1,4 +1,4 @@
-// One sequence through a plug-in and through the built-in detector, timed in turn and judged.
+// Runs one sequence through a plug-in and through the built-in detector, timed in turn and judged.
 #pragma once
 
 #include <functional>
@@ -13,22 +13,22 @@ namespace assay::reports {
 struct SequenceToCompare {
   corpus::Case c;
   std::string kind;
-  bool starts_clean = false;  // in no contact at its first frame, and closed
+  bool starts_clean = false;  // closed, and without contact at the first frame
   int rounds = 5;
 };
 
-// A worker each, kept from sequence to sequence.
+// One worker for each of the two detectors, kept from sequence to sequence.
 class ComparedWorkers {
  public:
   explicit ComparedWorkers(const BenchedPlugin& plugin);
 
-  // Lines for `wrong`: a claim of the plug-in that is broken, two runs that differ where it claims
-  // to be deterministic, anything that the built-in detector has wrong. `tick` is called between
-  // runs.
+  // Adds a line to `wrong` for a broken claim of the plug-in, for two runs that differ although it
+  // claims to be deterministic, and for anything that the built-in detector has wrong. `tick` is
+  // called between runs.
   ComparedSequence compare(const SequenceToCompare& sequence, std::vector<std::string>& wrong,
                            const std::function<void()>& tick);
 
-  // How the plug-in's process is isolated, once it has run.
+  // How the plug-in's process is isolated. Known once it has run.
   const properties::Isolation& isolation() const { return of_plugin_.isolation(); }
 
  private:

@@ -1,5 +1,5 @@
-// The slowest single queries, of the family that is kept for this: the elementary test and the view
-// test in exact arithmetic (properties/queries/extreme_queries.h).
+// Times the slowest single queries, from the family that is kept for this: the elementary test and
+// the view test in exact arithmetic (properties/queries/extreme_queries.h).
 #pragma once
 
 #include "reports/bench/suites.h"

@@ -1,4 +1,4 @@
-// How much memory a detector takes for a mesh, at its highest.
+// Measures the highest memory that a detector takes for a mesh.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace assay::reports {
 
-// Bytes a triangle of a mesh of 20,480 triangles, for preprocessing and one step of it: how far the
-// resident memory of a new process rises above that with a mesh of 20 triangles. Nothing where a
+// Bytes for each triangle of a mesh of 20,480 triangles, for preprocessing and one step: how far
+// the resident memory of a new process rises above that with a mesh of 20 triangles. Nothing if a
 // run does not complete.
 std::optional<double> bytes_a_triangle(const PeerSubject& subject);
 

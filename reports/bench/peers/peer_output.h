@@ -9,11 +9,12 @@
 
 namespace assay::reports {
 
-// A line a detector, then what the columns say, the runs that ended early, and who is absent.
+// A table with one line for each detector; then what its columns say, the runs that ended early,
+// and who is absent.
 std::string text_of(std::span<const PeerRow> rows, std::span<const PeerFamily> families,
                     std::span<const AbsentPeer> absent);
 
-// A line each unsafe answer that the oracle alone calls so; empty where there is none.
+// One line for each unsafe answer that only the oracle calls so; empty if there is none.
 std::string unconfirmed_text(std::span<const UnsafeAnswer> answers);
 
 nlohmann::ordered_json to_json(std::span<const UnsafeAnswer> answers);
@@ -21,7 +22,7 @@ nlohmann::ordered_json to_json(std::span<const PeerRow> rows);
 nlohmann::ordered_json to_json(std::span<const PeerFamily> families);
 nlohmann::ordered_json to_json(std::span<const AbsentPeer> absent);
 
-// A line a family and detector.
+// One line for each family and detector.
 std::string csv_of(std::span<const PeerFamily> families);
 
 }  // namespace assay::reports

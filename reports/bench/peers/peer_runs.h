@@ -1,4 +1,4 @@
-// A case through every subject of suite `peers`, each in a worker of its own, in turn.
+// Runs a case through every subject of suite `peers`, each in a worker of its own, in turn.
 #pragma once
 
 #include <functional>
@@ -11,22 +11,23 @@
 
 namespace assay::reports {
 
-// One subject on one case.
+// What one subject did on one case.
 struct PeerCase {
   std::size_t subject = 0;
   std::string family, kind, case_id;
   PeerCounts counts;
-  // A sample a round, of the subject and of the built-in detector (exact, bvh) on the same steps;
-  // none where the contract takes no step of the case, or a run did not complete.
+  // One sample for each round: the time of the subject, and that of the built-in detector (exact,
+  // bvh) on the same steps. None if the contract takes no step of the case, or a run did not
+  // complete.
   std::vector<double> ms, reference_ms;
   double create_ms = 0, reference_create_ms = 0;  // preprocessing, of the last round
-  bool is_once = false;  // a step took more than 5 s: all samples are of one run
-  std::string ended;     // how a run of it ended early, or empty
+  bool is_once = false;  // a step took more than 5 s: it was run once, all samples are equal
+  std::string ended;     // how a run of it ended early; empty: it did not
 };
 
 struct PeerLimits {
   double small_seconds = 10;  // processor time of a run of a generated or hard case
-  double large_seconds = 60;  // of a scene or a public sequence
+  double large_seconds = 60;  // processor time of a run of a scene or a public sequence
   int jobs = 1;               // threads of the oracle
 };
 
@@ -34,12 +35,12 @@ class PeerRuns {
  public:
   PeerRuns(const std::vector<PeerSubject>& subjects, const PeerLimits& limits);
 
-  // One entry a subject, in their order. The steps are those that its contract takes, and so are
-  // those of its reference. A step that starts where the caller does not vouch for it is verified
-  // by the built-in detector.
+  // Returns one entry for each subject, in their order. A subject is given the steps that its
+  // contract takes, and its reference is given the same. If steps were left out, nobody vouches
+  // for the start of the others, so the built-in detector verifies it.
   //
-  // Lines for `wrong`: exact or bounded arithmetic of the built-in detector breaks what it claims,
-  // or gives two answers. Adds to `unsafe`. `tick` is called between runs.
+  // Adds a line to `wrong` if exact or bounded arithmetic of the built-in detector breaks what it
+  // claims, or gives two answers. Adds to `unsafe`. `tick` is called between runs.
   std::vector<PeerCase> run(const ErrorFamily& family, const TimedCase& timed,
                             std::vector<std::string>& wrong, std::vector<UnsafeAnswer>& unsafe,
                             const std::function<void()>& tick);

@@ -13,16 +13,17 @@ struct PeerSubject {
   std::string name, version;
   std::string library;        // empty: the built-in detector
   detector::Options options;  // of the built-in detector
-  properties::Claims claims;  // its own
+  properties::Claims claims;  // what it claims itself
   properties::Contract contract;
 
   bool is_built_in() const { return library.empty(); }
-  // What exact arithmetic claims is asked of every form of the built-in detector, so that their
-  // errors are seen; a peer is asked for what it claims.
+  // The claims by which its errors are counted. Every form of the built-in detector is asked for
+  // what exact arithmetic claims, so that the errors of all forms are seen; a peer is asked for
+  // what it claims.
   properties::Claims asked() const;
 };
 
-// A peer that is known and cannot be run here.
+// A peer that is known but cannot be run here.
 struct AbsentPeer {
   std::string name, why;
 };
@@ -32,8 +33,8 @@ struct Peers {
   std::vector<AbsentPeer> absent;
 };
 
-// The libraries of the folder by name, NAME.so. One that cannot be loaded, or has no steps, is
-// absent, and so is one that is known and not there: whoever misses it reads what it needs.
+// The peers in the folder: each library NAME.so, by name. A library that cannot be loaded, or has
+// no steps, is absent. So is a known peer whose library is not there; `why` says what it needs.
 Peers find_peers(const std::string& folder);
 
 }  // namespace assay::reports

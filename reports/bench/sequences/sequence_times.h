@@ -1,4 +1,5 @@
-// How long each step of a sequence takes with each culling and number of threads, side by side.
+// Measures how long each step of a sequence takes with each culling and number of threads, side by
+// side.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +17,18 @@ struct SequenceVariant {
   std::uint32_t threads;
   std::vector<std::vector<double>> ms = {};  // [round][step], by the clock on the wall
 
-  // Of a round.
+  // For each round: the sum over its steps.
   std::vector<double> sums() const;
-  // Of a step over the rounds.
+  // The times of one step, one for each round.
   std::vector<double> of_step(std::size_t step) const;
 };
 
-// In each round every variant makes a detector and plays the whole sequence, forward and backward
-// by turns; a round before them is thrown away. What took three times as long as another variant
-// in that one is played in the first two rounds only. Answers, pairs and times that differ from
-// those of the first variant are wrong answers of the report, and of variants that differ in
-// threads alone so is anything else.
+// In each round every variant makes a detector and plays the whole sequence, with the variants in
+// forward and backward order by turns. One round before them is thrown away. A variant that took
+// three times as long in it as another one is played in the first two rounds only.
+//
+// Answers, pairs and times that differ from those of the first variant are wrong answers of the
+// report. Between variants that differ in threads alone, so is any other difference.
 void time_sequence(const std::string& name, const corpus::Sequence& sequence, bool starts_clean,
                    int rounds, std::vector<SequenceVariant>& variants, BenchReport& report);
 

@@ -24,16 +24,16 @@ struct ErrorFamily {
   std::function<std::vector<TimedCase>()> cases;  // made when they are run
 };
 
-// Scenes of corpus/: the steps around the first contact, where there is one. The random families of
-// the campaigns. The hard families of corpus/hard. Real sequences, as far as they are there:
-// `missing` gets the files that are not. Starts are vouched for where the oracle, or the scene,
-// knows them to be clean; a step's time is then without the verification that only a new start
-// takes.
+// All families of the suite: scenes of corpus/, by the steps around their first contact if there
+// is one; the random families of the campaigns; the hard families of corpus/hard; and those real
+// sequences that are there (`missing` gets the files that are not). A start is vouched for if the
+// oracle, or the scene, knows that it is clean. The time of a step is then without the
+// verification that only a new start takes.
 std::vector<ErrorFamily> error_families(const BenchSettings& settings,
                                         std::vector<std::string>& missing);
 
-// The steps of a sequence that are worth judging: up to three before the first contact and two from
-// there on; the first five where there is none.
+// The steps of a sequence that are worth judging: up to three before the first contact and two
+// from there on. If there is no contact: the first five.
 corpus::Sequence around_first_contact(const corpus::Sequence& sequence);
 
 }  // namespace assay::reports

@@ -1,4 +1,4 @@
-// A case through every variant of the detector, timed in turn and judged by the oracle.
+// Runs a case through every variant of the detector, timed in turn and judged by the oracle.
 #pragma once
 
 #include <functional>
@@ -8,12 +8,14 @@
 
 namespace assay::reports {
 
-// Each variant carries its own state from step to step, as a user's would; every step is evaluated
-// rounds + 1 times by all of them in turn (interleave.h) before it is committed. Culling none takes
-// part up to 64 triangles: every pair of a large mesh would take the suite's whole time.
+// Each variant carries its own state from step to step, as it would for a user. All of them
+// evaluate every step rounds + 1 times in turn (interleave.h) before it is committed. Culling none
+// takes part up to 64 triangles, because every pair of a large mesh would take the suite's whole
+// time.
 //
-// Lines for `wrong`: exact arithmetic differs from the oracle in anything, bounded misses or is
-// late, two evaluations of one step differ. `tick` is called between evaluations.
+// Adds a line to `wrong` if exact arithmetic differs from the oracle in anything, if bounded
+// arithmetic misses or is late, or if two evaluations of one step differ. `tick` is called between
+// evaluations.
 std::vector<JudgedStep> run_case(const ErrorFamily& family, const TimedCase& timed,
                                  std::vector<std::string>& wrong,
                                  const std::function<void()>& tick);

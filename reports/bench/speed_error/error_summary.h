@@ -1,5 +1,5 @@
-// What the judged steps of suite speed-error come to: by family and variant, and by variant over
-// all families.
+// Sums up the judged steps of suite speed-error: by family and variant, and by variant over all
+// families.
 #pragma once
 
 #include <span>
@@ -9,16 +9,17 @@
 
 namespace assay::reports {
 
-// First times on one side of the truth, over the steps that have one.
+// How far first times are off on one side of the truth, over the steps whose time is off on that
+// side.
 struct TimeErrors {
   std::size_t steps = 0;
   double median_ulps = 0, largest_ulps = 0;
-  double median_share = 0, largest_share = 0;  // of the step
+  double median_share = 0, largest_share = 0;  // shares of the step
 };
 
 struct ErrorCounts {
   std::size_t steps = 0, judged = 0, contact = 0;  // contact: by the oracle
-  std::size_t unsafe = 0, alarming = 0;            // judged steps, see JudgedStep
+  std::size_t unsafe = 0, alarming = 0;            // judged steps (JudgedStep)
   std::size_t missed = 0, false_alarms = 0;        // steps
   std::size_t missing = 0, spurious = 0;           // pairs
   TimeErrors late, early;
@@ -30,13 +31,13 @@ struct FamilySummary {
   Variant variant;
   double triangles = 0;                                        // sum over steps
   double box_tests = 0, candidates = 0, elementary_tests = 0;  // sums over steps
-  std::uint64_t hash = 0;                       // of the results of all steps, in order
+  std::uint64_t hash = 0;                       // over the results of all steps, in order
   Estimate ns_a_step = {}, ns_a_triangle = {};  // medians over rounds, bootstrap intervals
-  Estimate over_reference = {};                 // of the same steps, round by round
+  Estimate over_reference = {};                 // time over that of the reference, round by round
   ErrorCounts errors = {};
 };
 
-// Of the judged steps, with the interval of Clopper and Pearson, 95 %.
+// A share of the judged steps, with its interval of Clopper and Pearson, 95 %.
 struct ShareOfSteps {
   double share = 0, lo = 0, hi = 0;
   bool on_pareto_line = false;  // no variant with the same pairs is as fast and better
@@ -47,25 +48,25 @@ ShareOfSteps share_of(std::size_t part, std::size_t all);
 // One variant on everything.
 struct VariantSummary {
   Variant variant;
-  Estimate over_reference;  // median over the families, interval by drawing families
+  Estimate over_reference;  // median of the families; interval by drawing families
   ErrorCounts errors;
   ShareOfSteps unsafe, alarming;
 };
 
-// In the order of families, then of variants. Not empty.
+// In the order of families, then of variants. REQUIRES `steps` not empty.
 std::vector<FamilySummary> by_family(std::span<const JudgedStep> steps);
 
-// In the order of all_variants. `steps` are those that `families` was made of.
+// In the order of all_variants. `families` are what by_family made of `steps`.
 std::vector<VariantSummary> by_variant(std::span<const JudgedStep> steps,
                                        std::span<const FamilySummary> families);
 
-// Variants of `summaries` whose pairs are `pairs`, fastest first, each of a smaller share than all
-// that are faster: what lies on no line is beaten by another in speed and error at once. Culling
-// none is left out: it takes part in the smallest meshes alone.
+// The variants with these `pairs` that no other variant beats in speed and error at once: fastest
+// first, each with a smaller share of errors than all that are faster. Culling none is left out,
+// because only the smallest meshes are run with it.
 std::vector<VariantSummary> pareto_line(std::span<const VariantSummary> summaries,
                                         detector::Pairs pairs, ShareOfSteps VariantSummary::*error);
 
-// Time of `of` over that of `over` on one family, round by round.
+// The time of variant `of` over that of variant `over` on one family, round by round.
 Estimate time_over(std::span<const FamilySummary> families, const std::string& family,
                    const Variant& of, const Variant& over);
 

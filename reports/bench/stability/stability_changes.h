@@ -13,21 +13,23 @@ namespace assay::reports {
 
 struct ChangedCase {
   corpus::Case changed;
-  std::vector<std::int32_t> triangle;  // its index in the changed case, by triangle
+  std::vector<std::int32_t> triangle;  // by triangle: its index in the changed case
 };
 
 struct CaseChange {
   const char* name;
-  // Nothing where a coordinate would be rounded. The case's id is the only randomness.
+  // Makes the change; nothing if a coordinate would be rounded. The case's id is the only source
+  // of randomness.
   std::optional<ChangedCase> (*make)(const corpus::Case& c);
 };
 
-// permutation (vertices, triangles, first corners), mirror (and all triangles turned, so that
-// outside stays outside), power of two (both ways, as the id has it), translation (as far as can be
-// exact).
+// The changes: permutation (of vertices, triangles, first corners), mirror (with all triangles
+// turned, so that outside stays outside), power of two (up or down, by the case's id), and
+// translation (as far as it can be exact).
 std::span<const CaseChange> case_changes();
 
-// The same answer and, triangle by triangle, the same pairs; `times`: with the same times.
+// Whether both have the same answer and, triangle by triangle, the same pairs; if `times`, also
+// the same times.
 bool same_but_for_numbering(const detector::StepResult& original,
                             const detector::StepResult& changed,
                             std::span<const std::int32_t> triangle, bool times);

@@ -1,4 +1,4 @@
-// A family of hard cases at all strengths, in several arithmetics.
+// Runs a family of hard cases at all strengths, in several arithmetics.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@
 namespace assay::reports {
 
 struct StabilityPlan {
-  int strength_step = 1;  // of 0, step, 2 step ...; strongest and touching are always among them
-  int rounds = 2;         // of all kinds of the family, at each strength
+  int strength_step = 1;  // 0, step, 2 step ...; strongest and touching always too
+  int rounds = 2;         // rounds of all kinds of the family, at each strength
   int touching_rounds = 10;
   int most_triangles = 5000;  // strengths of larger meshes are left out
 };
 
-// Answers kept under a change, of those in which it is exact.
+// How many answers stay the same under a change, of those cases in which the change is exact.
 struct Survival {
   int changed = 0, same = 0;
 };
@@ -30,17 +30,17 @@ struct Survival {
 struct FamilyStability {
   std::vector<StabilityCell> cells;   // by strength, ascending
   std::vector<Survival> survivals;    // in the order of case_changes()
-  detector::ContactRungCounts rungs;  // of elementary tests past axis order
+  detector::ContactRungCounts rungs;  // of elementary tests that axis order did not settle
   detector::ViewCounts view_rungs;
   std::string first_wrong, first_missed, first_late;  // ids of cases; empty: none
 
   // The least strength at which a case is not right.
   std::optional<int> breaks_at() const;
-  StabilityCell total() const;  // of all strengths; strength, exponent and knob are those of none
+  StabilityCell total() const;  // of all strengths; strength, exponent, knob unset
 };
 
-// One for each subject. `disagreements`: ids of cases of which the oracle says another thing than
-// their construction. `tick` is called after each case.
+// Returns one result for each subject. `disagreements` gets the ids of cases for which the oracle
+// says something else than their construction. `tick` is called after each case.
 std::vector<FamilyStability> measure_stability(const corpus::HardFamily& family,
                                                std::span<const StabilitySubject> subjects,
                                                const StabilityPlan& plan,

@@ -10,7 +10,7 @@
 namespace assay::reports {
 
 nlohmann::ordered_json to_json(std::span<const StabilityCell> heat);
-// A line a cell, without the single time errors.
+// One line for each cell, without the single time errors.
 std::string csv_of(std::span<const StabilityCell> heat);
 
 }  // namespace assay::reports

@@ -1,4 +1,4 @@
-// One hard case in one arithmetic, held against the oracle.
+// Runs one hard case in one arithmetic and compares the result with the oracle.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace assay::reports {
 
-// What is held against the oracle: an arithmetic, in stages that a test may replace.
+// What is compared with the oracle: an arithmetic, in stages that a test may replace.
 struct StabilitySubject {
   std::string name;
   detector::Arithmetic arithmetic = detector::Arithmetic::exact;
@@ -22,21 +22,21 @@ struct StabilitySubject {
 // exact, bounded, double, float.
 std::vector<StabilitySubject> all_arithmetics();
 
-// The step of the case in this arithmetic, all pairs, start verified, by the case's own culling and
-// from its view primitive where it has them, else by view-point from the detector's own primitives.
-// A mesh that is refused gives that error.
+// Runs the step of the case in this arithmetic, with all pairs and start verified. If the case
+// states a culling and a view primitive, they are used; else culling view-point, from the
+// detector's own primitives. If the mesh is refused, the result is that error.
 detector::StepResult run_hard_case(const corpus::Case& c, const StabilitySubject& subject);
 
-// What the oracle says of a case, found once.
+// What the oracle says of a case, computed once.
 class HardTruth {
  public:
   explicit HardTruth(const corpus::Case& c);
 
   const oracle::StepJudgement& judgement() const { return judgement_; }
   bool gives_view() const { return case_.view.has_value(); }
-  // Whether it is what the case was built for: answer, first time, view signs.
+  // Whether the oracle finds what the case was built for: answer, first time, view signs.
   bool agrees_with_construction() const;
-  // The signs seen from the primitives of this result, one for each triangle.
+  // The exact signs as seen from the primitives of this result, one for each triangle.
   const std::vector<detector::ViewSign>& signs(const detector::StepResult& result);
 
  private:
@@ -48,19 +48,20 @@ class HardTruth {
 };
 
 struct HardOutcome {
-  // The answer and the set of pairs are the oracle's; where the case gives the view primitive, no
-  // triangle is V+ or V- that is not. (The detector's own primitives may lie on the surface, which
-  // is not what the other families are about.)
+  // The answer and the set of pairs are the oracle's, and if the case gives the view primitive, no
+  // triangle is V+ or V- that really is not. (The detector's own primitives may lie on the
+  // surface, which is not what the other families are about.)
   bool right = false;
-  // right, every time is the enclosure of exact arithmetic, every sign is the oracle's.
+  // In addition to `right`, every time is the enclosure of exact arithmetic and every sign is the
+  // oracle's.
   bool exactly_right = false;
-  bool missed = false;       // free against a contact, or a missing pair
-  bool spurious = false;     // collision against none, or a pair too many
-  bool late = false;         // the first time begins after t*, or that of a pair after its own
+  bool missed = false;       // `free`, although there is a contact, or a missing pair
+  bool spurious = false;     // `collision`, although there is none, or a pair too many
+  bool late = false;         // a first time, or a pair's time, begins after the exact one
   bool early = false;        // the first time ends before t*
-  bool wrong_signs = false;  // a triangle is V+ or V- that is not
-  // First time less t*, where both collide: that of the end which is wrong, else 0. As a share of
-  // the step, and in ulps of the greater of the two.
+  bool wrong_signs = false;  // a triangle is V+ or V- that really is not
+  // If both collide: the first time minus t*, for the end of its interval that is wrong, else 0.
+  // Given as a share of the step, and in ulps of the greater of the two times.
   double time_error = 0, time_error_ulps = 0;
 };
 

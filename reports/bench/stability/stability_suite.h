@@ -1,4 +1,4 @@
-// Suite `stability` over any families and subjects: tests hand in wrong ones.
+// Suite `stability` over any families and subjects, so that tests can hand in wrong ones.
 #pragma once
 
 #include <span>
@@ -9,8 +9,9 @@
 
 namespace assay::reports {
 
-// Rows family by family and subject by subject; an exact subject that is wrong, a bounded one that
-// misses or is late, and an oracle that contradicts a construction are wrong answers.
+// The rows are family by family and subject by subject. These are wrong answers: an exact subject
+// that is wrong, a bounded one that misses or is late, and an oracle that contradicts a
+// construction.
 BenchReport stability_of(std::span<const corpus::HardFamily> families,
                          std::span<const StabilitySubject> subjects, const BenchSettings& settings,
                          Progress& progress);

@@ -1,4 +1,4 @@
-// The failures of a run, each signature with one mesh that is run again to be shown.
+// The failures of a run as the page shows them: one mesh of each signature is run again.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,8 +7,8 @@
 
 namespace assay::reports {
 
-// `failures` of assay-report/2: for each of the predicate's failures, in their order, the scene and
-// the picture of its smallest mesh, and the others of its kind.
+// `failures` of assay-report/2: for each failure of the predicate, in their order, the scene and
+// the picture of its smallest mesh, and the others with its signature.
 nlohmann::ordered_json failure_scenes(const properties::RunFindings& findings);
 
 }  // namespace assay::reports

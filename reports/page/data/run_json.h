@@ -7,9 +7,9 @@
 
 namespace assay::reports {
 
-// Everything but `failures`. statement: of the certificate in the run's folder; null where there is
-// none. `unverified`: the first line of what keeps it from being verified; then the run's verdict
-// is "unverified", whatever its gates say.
+// Everything but `failures`. `statement` is that of the certificate in the run's folder; null if
+// there is none. `unverified` is the first line of what keeps it from being verified; if it is not
+// empty, the run's verdict is "unverified", whatever its gates say.
 nlohmann::ordered_json run_json(const properties::RunFindings& findings,
                                 const properties::Judgement& judgement,
                                 const nlohmann::ordered_json& statement = nullptr,
