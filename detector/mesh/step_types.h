@@ -63,8 +63,8 @@ struct PairContact {
 
 enum class Answer : std::uint8_t { free, collision, undecided, error };
 
-// What a method says of a question that it may be unable to decide. `no` and `yes` are proved. `open`
-// says that this method cannot tell; another one may.
+// What a method says of a question that it may be unable to decide. `no` and `yes` are proved.
+// `open` says that this method cannot tell; another one may.
 enum class Decision : std::uint8_t { no, yes, open };
 
 // Sign of a triangle over the whole step, seen from the view primitive (L1, L2).

@@ -18,9 +18,8 @@ struct PolicyState {
   double best_share = 0;   // the greatest share of pairs that the signs from these anchors saved
   double replaced_at = 0;  // the share to which the anchors before them had come down
 
-  std::uint64_t pause = 0;  // so many steps to come do without views
-  std::uint64_t next_pause =
-      1;  // the pause that follows if views do not pay when they are next due
+  std::uint64_t pause = 0;       // so many steps to come do without views
+  std::uint64_t next_pause = 1;  // the pause if views do not pay when they are next due
   std::uint64_t candidates = 0;  // of the last search that proved nothing apart; 0: there was none
   // What closure, ghost sweep and release cost, in candidates, when views were last used in a
   // search. It is halved by each step since in which views were due.

@@ -8,18 +8,15 @@
 // The unit of cost is one candidate pair of culling bvh with all that belongs to it (box tests,
 // axis order, elementary tests, its share of the refit): 0.15 to 0.2 us.
 //
-// From step to step the model is in one of these states:
+// From step to step the model is in one of two states, and the first step finds views due:
 //
-//                     views pay: the next pause is halved
-//                          +-----+
-//                          |     v
-//     first step ------>  views are due  ---- views do not pay ---->  pause of `next_pause` steps,
-//                          ^        ^                                 which is then doubled (<= 32)
-//                          |        |                                     |
-//                          |        +----- the pause is over -------------+
-//                          |
-//           anchors chosen again: they had lost an eighth of the pairs that they once saved, or
-//           views did not pay, and the anchors had served for `least_anchor_age` steps
+//   state          event               next state
+//   views are due  views pay           views are due; next_pause is halved, to 1 at least
+//   views are due  views do not pay    a pause of next_pause steps; next_pause doubles, to 32 at most
+//   pause          its last step ends  views are due
+//
+// When views are due, anchors are chosen again first if they have worn: they had served for
+// least_anchor_age steps, and views did not pay or saved an eighth of the pairs less than at best.
 //
 // Example: on a sheet seen along itself views do not pay in steps 1, 3, 6, 11, 20; the pauses
 // between these are of 1, 2, 4 and 8 steps.

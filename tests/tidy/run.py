@@ -26,7 +26,8 @@ CHEAP = ("bugprone-use-after-move", "bugprone-dangling-handle", "bugprone-unused
          "performance-move-const-arg", "performance-unnecessary-value-param",
          "misc-unused-parameters", "modernize-use-override")
 # The flags are g++'s: clang does not know all of its warnings, and cannot read its precompiled headers.
-PRECOMPILED = re.compile(r" -Winvalid-pch -include \S+/cmake_pch\.hxx| -fpch-preprocess")
+PRECOMPILED = re.compile(r" -Winvalid-pch -include \S+/cmake_pch\.hxx| -fpch-preprocess"
+                         r"| --param ggc-min-heapsize=\d+")
 FOR_CLANG = ["--extra-arg=-Wno-unknown-warning-option"]
 FINDING = re.compile(r"^/\S+?:\d+:\d+: (?:error|warning): .*$", re.M)
 

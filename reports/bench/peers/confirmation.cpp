@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "oracle/referee/rational_bracket.h"
 #include "oracle/referee/referee.h"
 #include "oracle/referee/static_check.h"
 
@@ -68,11 +69,12 @@ class StepWitness {
           times.emplace_back(*time);
       }
     }
-    return std::any_of(times.begin(), times.end(), [&](const oracle::StaticTime& time) {
+    const bool is_seen = std::any_of(times.begin(), times.end(), [&](const auto& time) {
       if (oracle::compare(time, 0) < 0 || oracle::compare(time, end) > 0) return false;
       if (told && oracle::compare(time, *told) >= 0) return false;
       return meet_at(contact, time);
     });
+    return is_seen || by_bracket(contact.feature, std::nextafter(contact.time.lo, 0.), end);
   }
 
  private:
@@ -93,6 +95,20 @@ class StepWitness {
     if (feature.kind != FeatureKind::edge_edge) return false;
     const detector::EdgeEdge query{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}};
     return referee(query, options) == detector::Decision::yes;
+  }
+
+  // Whether it proves a contact of these features between two times.
+  bool by_bracket(const detector::Feature& feature, double from, double until) const {
+    using oracle::meet_between;
+    if (from >= until) return false;
+    const auto& v = feature.vertices;
+    if (feature.kind == FeatureKind::vertex_face) {
+      const detector::VertexFace query{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}};
+      return meet_between(query, from, until);
+    }
+    if (feature.kind != FeatureKind::edge_edge) return false;
+    const detector::EdgeEdge query{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}};
+    return meet_between(query, from, until);
   }
 
   // The features alone are triangles that have become a point, a segment, or are one.
