@@ -12,7 +12,7 @@
 //
 //   state          event               next state
 //   views are due  views pay           views are due; next_pause is halved, to 1 at least
-//   views are due  views do not pay    a pause of next_pause steps; next_pause doubles, to 32 at most
+//   views are due  views do not pay    a pause of next_pause steps; that doubles, to 32 at most
 //   pause          its last step ends  views are due
 //
 // When views are due, anchors are chosen again first if they have worn: they had served for
