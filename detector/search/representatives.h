@@ -15,6 +15,11 @@
 // asked for (feature_pairs.h). Representatives change with types. They are therefore kept from
 // step to step and brought up to date around the triangles that changed.
 //
+// Example: triangles 0 (V+) and 1 (V0) share the edge e, and triangle 5 (V-) has the edge f. Both 0
+// and 1 represent e, each for its own type, and 5 represents f. K asks for (V+,V-) and for (V0,V-),
+// so the edges come up twice, at (0,5) and at (1,5). They are tested at (0,5) alone, because
+// positive comes before zero in the order of types.
+//
 // Memory: 5 bytes a triangle.
 #pragma once
 

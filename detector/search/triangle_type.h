@@ -1,5 +1,20 @@
 // What a search knows of a triangle. The type determines the triangle's flags, and it tells apart
 // triangles that have the same flags.
+//
+// The first search of a step knows five types. The closure (L7) searches again, round by round, for
+// partners of the triangles of V+ and V- that were found in contact. Their types follow the rounds:
+//
+//   positive -> positive_grown -> positive_joined
+//   negative -> negative_grown -> negative_joined
+//
+// The first arrow is taken when a contact of the triangle is found, the second at the end of the
+// next round. In the round between them the triangle has the flag `grown`: it is tested against its
+// whole component, and what earlier searches tested is passed over. The other types stay, because
+// V0 and Vv were tested against everything in the first search.
+//
+// Example: the first search finds V+ triangle 3 in contact with V0 triangle 7, so 3 becomes
+// positive_grown. Round 1 finds that 3 meets V+ triangle 9 too, so 3 becomes positive_joined and 9
+// positive_grown. Round 2 tests 9, finds nothing new, and the closure ends.
 #pragma once
 
 #include <array>
@@ -10,12 +25,11 @@
 namespace assay::detector {
 
 enum class TriangleType : std::uint8_t {
-  positive,  // V+
-  negative,  // V-
-  zero,      // V0
-  violated,  // Vv: touched by a ghost; in a step without views, every clean triangle
-  dirty,     // Vv: it may be in contact with its own component already at t=0
-  // Types of the closure (L7). V0 and Vv need none, because they were tested against everything.
+  positive,        // V+
+  negative,        // V-
+  zero,            // V0
+  violated,        // Vv: touched by a ghost; in a step without views, every clean triangle
+  dirty,           // Vv: it may be in contact with its own component already at t=0
   positive_grown,  // V+, joined H in this round
   negative_grown,
   positive_joined,  // V+, joined H in an earlier round
