@@ -94,6 +94,8 @@ SLOW = {
 
 NOT_RUN = {
     "README.md": {
+        "build/release/assay run --campaign smoke --detector build/release/peers/bullet_bernstein.so --out build/bullet":
+            "ends with 1, for it finds defects, and wants Bullet; PeersSuite judges all peers that are present",
         "build/release/assay check --detector python:mine:MyDetector build/bend/frame_*.ply":
             "of a file of the reader's; tests/reports/python judges such",
         "reports/certify": "installs packages and builds; the slow list certifies by the program",
@@ -137,6 +139,7 @@ NOT_RUN = {
 PYTHON = "Python; tests/reports/python/examples_test.py runs all of it"
 NO_COMMAND = {
     "README.md": {
+        "claims     FAILS": "what `assay run` prints of a detector that misses contacts",
         "building build/release (log": "what reports/certify and tests/run print",
         "verdict: certified in": "what reports/certify prints",
         "step 11: collision at": "what `assay check` prints",
