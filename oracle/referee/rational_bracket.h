@@ -1,8 +1,8 @@
 // A proof of contact by rational arithmetic between two times.
 //
 // It is there for contacts that begin and end within one step of the doubles, or at a time that is
-// no fraction: no time that a caller could name shows them. It shares no code with the rungs and
-// none with the rest of the referee.
+// no fraction: no time that a caller could name shows them. With the rungs it shares the order of
+// the four points (query/four_points.h), with the rest of the referee nothing.
 #pragma once
 
 #include "detector/mesh/step_types.h"

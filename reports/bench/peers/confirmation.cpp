@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "oracle/referee/rational_bracket.h"
@@ -82,33 +83,32 @@ class StepWitness {
     return detector::moving_point(x_t0_, x_t1_, v);
   }
 
+  using Query = std::variant<detector::VertexFace, detector::EdgeEdge>;
+
+  // Nothing for a contact of whole triangles.
+  std::optional<Query> query_of(const detector::Feature& feature) const {
+    const auto& v = feature.vertices;
+    if (feature.kind == FeatureKind::vertex_face)
+      return detector::VertexFace{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}};
+    if (feature.kind == FeatureKind::edge_edge)
+      return detector::EdgeEdge{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}};
+    return std::nullopt;
+  }
+
   // Whether it proves a contact of these features up to a time.
   bool by_referee(const detector::Feature& feature, double until) const {
-    using oracle::referee;
-    if (until <= 0) return false;
+    const auto query = query_of(feature);
+    if (!query || until <= 0) return false;
     const oracle::RefereeOptions options{.until = until};
-    const auto& v = feature.vertices;
-    if (feature.kind == FeatureKind::vertex_face) {
-      const detector::VertexFace query{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}};
-      return referee(query, options) == detector::Decision::yes;
-    }
-    if (feature.kind != FeatureKind::edge_edge) return false;
-    const detector::EdgeEdge query{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}};
-    return referee(query, options) == detector::Decision::yes;
+    return std::visit([&](const auto& q) { return oracle::referee(q, options); }, *query) ==
+           detector::Decision::yes;
   }
 
   // Whether it proves a contact of these features between two times.
   bool by_bracket(const detector::Feature& feature, double from, double until) const {
-    using oracle::meet_between;
-    if (from >= until) return false;
-    const auto& v = feature.vertices;
-    if (feature.kind == FeatureKind::vertex_face) {
-      const detector::VertexFace query{path(v[0]), {path(v[1]), path(v[2]), path(v[3])}};
-      return meet_between(query, from, until);
-    }
-    if (feature.kind != FeatureKind::edge_edge) return false;
-    const detector::EdgeEdge query{{path(v[0]), path(v[1])}, {path(v[2]), path(v[3])}};
-    return meet_between(query, from, until);
+    const auto query = query_of(feature);
+    if (!query || from < 0 || from >= until) return false;
+    return std::visit([&](const auto& q) { return oracle::meet_between(q, from, until); }, *query);
   }
 
   // The features alone are triangles that have become a point, a segment, or are one.

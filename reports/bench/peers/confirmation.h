@@ -12,7 +12,8 @@ namespace assay::reports {
 // of the pairs that are missing. If any time of the step will do, this is the referee (a proof
 // without roots). Otherwise it is rational arithmetic at a witness: a time before the one that the
 // detector told at which the two features meet or, if the contract asks for all features, their
-// two triangles. REQUIRES an unsafe diff of that step.
+// two triangles; or two times between which the features are proved to meet
+// (oracle/referee/rational_bracket.h). REQUIRES an unsafe diff of that step.
 bool is_confirmed(const corpus::Case& c, std::size_t s, const properties::StepDiff& diff,
                   const detector::StepResult& result, const properties::Contract& contract);
 
