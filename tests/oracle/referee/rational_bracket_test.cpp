@@ -36,6 +36,16 @@ TEST(RationalBracket, NamesNoContactBesideTheFace) {
   EXPECT_FALSE(meet_between(grazing(0x1p-40), .75, 1));
 }
 
+// A time told is late only if the contact is before it, so neither end belongs to the interval.
+TEST(RationalBracket, TheEndsDoNotBelongToTheInterval) {
+  const detector::Point a = {0, 0, 0}, b = {4, 0, 0}, c = {0, 4, 0};
+  const VertexFace at_half = {{{1, 1, 1}, {1, 1, -1}}, {{{a, a}, {b, b}, {c, c}}}};
+  EXPECT_TRUE(meet_between(at_half, .25, .75));
+  EXPECT_TRUE(meet_between(at_half, 0, 1));
+  EXPECT_FALSE(meet_between(at_half, .25, .5));
+  EXPECT_FALSE(meet_between(at_half, .5, 1));
+}
+
 template <class Query>
 void expect_what_the_oracle_says(const Query& query, const ContactAnswer& answer, int& contacts) {
   EXPECT_EQ(meet_between(query, 0, 1), answer.contact);
