@@ -10,10 +10,11 @@ namespace assay::properties {
 // base^exponent in whole numbers. REQUIRES exponent >= 0.
 int power(int base, int exponent);
 
-// `image_of(side)` gives the image of each point, by point, on the grid of that side. It is the
-// same map for all sides.
+// One map of the grid onto itself, for a grid of any side. Element i of what it returns is the
+// number of the point onto which point i is mapped.
 using ImageOfGrid = std::function<std::vector<int>(int side)>;
-// Calls `visit` for each exchange of axes with each choice of mirrored axes, the identity first.
+// Calls `visit` for each permutation of the axes with each choice of mirrored axes, the identity
+// first. `visit` may keep the map.
 void for_each_symmetry(int dimensions, const std::function<void(const ImageOfGrid&)>& visit);
 
 }  // namespace assay::properties

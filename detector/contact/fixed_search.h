@@ -1,14 +1,22 @@
-// Finds the first contact by exact Bernstein coefficients over pieces of [0,1], in time order. No
-// sign is uncertain as in contact_pieces.h. The ends of a piece are looked at by themselves,
-// because the coefficients there are the values. Inside a piece a contact is decided if the cubic
-// has one root only and each dependency has at most one: SignAtRoot tells the order of these
-// roots. In the end the following stay open: roots close together, double roots, and collinear
-// points.
+// Finds the first contact by exact Bernstein coefficients over pieces of [0,1], in time order. All
+// signs are exact here; in contact_pieces.h, which works in doubles, some are uncertain.
 //
-// Now let the points be coplanar throughout, without a contact where the piece begins. Take an
-// axis of which not all dependencies vanish throughout. The times of contact are a closed set, so
-// at the first contact inside the piece the signs along that axis change. So that time is a root
-// of one of its dependencies.
+// The cubic is the coplanarity of the four points over time. The dependencies of an axis are four
+// quadratics: the coefficients of the one linear dependency of the four points, once they are
+// projected along that axis (contact_pieces.h). When the points are coplanar, they meet unless the
+// dependencies of some axis have both strict signs.
+//
+// The ends of a piece are looked at by themselves, because the first and the last coefficient have
+// the signs of the values there. Inside a piece, known signs may decide: both strict signs along
+// one axis mean no contact. Otherwise a contact is decided if the cubic has only one root there and
+// each dependency at most one. SignAtRoot then says which sign the dependency has at the root of
+// the cubic. What is still undecided when a piece is max_fixed_depth halvings deep stays open:
+// roots that are close together, double roots inside a piece, and collinear points.
+//
+// Points that are coplanar throughout have no cubic. Suppose that there is no contact where the
+// piece begins. Then each axis whose dependencies do not all vanish has both strict signs there, and
+// at the first contact it has them no longer. Hence one of its dependencies vanishes at that time,
+// so the roots of the dependencies of one such axis are all that has to be tried.
 #pragma once
 
 #include "detector/contact/fixed_piece.h"
@@ -20,13 +28,15 @@ namespace assay::detector {
 template <std::size_t W>
 class FixedSearch {
  public:
-  // REQUIRES query.bits() <= most_bits<W>.
+  // W is the number of 64-bit words of the integers. first_group is the number of points of the
+  // first primitive: 1 for vertex-face, 2 for edge-edge. REQUIRES query.bits() <= most_bits<W>.
   FixedSearch(const QueryIntegers& query, int first_group, Want want)
       : bits_(query.bits()),
         want_(want),
         products_(query, first_group),
         b_(products_.coplanarity()) {}
 
+  // Is called once.
   Decision run() {
     Piece whole;
     whole.f = {b_[0] + b_[0] + b_[0], b_[1], b_[2], b_[3] + b_[3] + b_[3]};
@@ -40,7 +50,7 @@ class FixedSearch {
     return visit(whole, 0);
   }
 
-  // The time of the contact that was found. Meaningful only if a time is wanted.
+  // The time of the contact. Meaningful only if run() said yes and a time was wanted.
   const TimeEnclosure& time() const { return time_; }
 
  private:
@@ -68,6 +78,7 @@ class FixedSearch {
     if (coplanar_ || f.changes > 0) {
       const Decision inside = coplanar_ ? look_inside_coplanar(piece) : look_inside(piece, f);
       if (inside == Decision::open && depth < max_fixed_depth) {
+        // The piece keeps what it has computed, and its halves are made of that.
         for (std::size_t k = 0; k < 3; ++k) piece.dependency(k, products_);
         for (Piece& half : piece.halves()) {
           const Decision found = visit(half, depth + 1);

@@ -157,7 +157,7 @@ bool CostModel::worth_sweeping(StepWork& work) {
   if (share_ < least_share || state_.overhead > hoped)
     return does_without(ViewUse::saving_too_little);
   if (surface_.is_closed()) return true;
-  if (!work.tree.refit(surface_.mesh, work.x_t0, work.x_t1, work.pace)) return paid_ = false;
+  if (!work.tree.refit(surface_.mesh, work.x_t0, work.x_t1, work.pace)) return false;
   const double saved = share_ * static_cast<double>(expected_candidates());
   return !has_more_ghost_pairs(work, saved / cost_of_ghost_pair) ||
          does_without(ViewUse::among_ghosts);

@@ -1,4 +1,5 @@
-// Counts how often each law was met over many cases, and whether it held.
+// Counts over many cases how often the premise of each law held, how often its values came close
+// (facts/value_range.h), and how often the law was broken.
 #pragma once
 
 #include <string>
@@ -14,15 +15,16 @@ class LawTable {
  public:
   LawTable();
 
-  // Checks every law on the case. A dear law is checked on its share of the cases, chosen by the
-  // case's id.
+  // Checks the laws on the case: all that cost little, and each costly one if the case's id is in
+  // that law's share.
   void add(CaseFacts& facts);
   void merge(const LawTable& other);
 
   // In the order of laws().
   const std::vector<LawTally>& tallies() const { return tallies_; }
   std::uint64_t broken() const;
-  // The laws met less often than `premises`, or close in a smaller share than `least_close`.
+  // The laws that were hardly tried: their premise held less often than `premises` times, or the
+  // share of these times in which they came close is below `least_close`.
   std::vector<const Law*> starved(std::uint64_t premises, double least_close) const;
 
   // One line for each law: name, premise, share of close ones, broken; below it what first broke

@@ -1,4 +1,4 @@
-// How large a case is. The reducer prefers smaller cases in this order.
+// How large a case is, as the reducer sees it: it prefers the case with the smaller size.
 #pragma once
 
 #include <compare>
@@ -10,22 +10,23 @@
 
 namespace assay::properties {
 
-// Shorter counts first, then simpler: the fields are compared one by one in this order. Every
-// field is a count that is bounded from below, so a search that only goes to smaller sizes ends.
+// The fields are compared one by one in this order: first how much there is, then how simple it is.
+// Every field is a whole number that is never negative, so a search that only goes to smaller sizes
+// ends.
 struct MeshSize {
   std::size_t steps = 0, triangles = 0, vertices = 0;
-  std::size_t frames = 0;
+  std::size_t frames = 0;  // positions of all vertices that the steps go between
   std::size_t moving = 0;  // vertices that move, summed over the steps
   // 0: no view is given; 1: a fixed point; 2: a moving point; 3: a fixed line; 4: a moving line.
   int view = 0;
-  std::size_t ghosts = 0;     // ghost triangles given
+  std::size_t ghosts = 0;     // ghost triangles that the case itself brings
   std::uint64_t numbers = 0;  // sum of number_cost over all coordinates, view and apexes included
   friend auto operator<=>(const MeshSize&, const MeshSize&) = default;
 };
 
-// The cost of a number: 0 for 0, the magnitude for -9 to 9, 10 for each digit of a longer integer;
-// for other numbers 100, and 10 for each character of the shortest decimal that reads back to the
-// same double.
+// How hard a number is to read. A whole number from -9 to 9 costs its magnitude; a longer one costs
+// 10 for each digit. Any other number costs 100, and 10 more for each character of the shortest
+// decimal that reads back to the same double. Examples: 7 costs 7, 250 costs 30, 0.5 costs 130.
 std::uint64_t number_cost(double value);
 
 // O(size of the case).

@@ -13,7 +13,8 @@
 
 namespace assay::properties {
 
-// The built-in detector with these options. For a plug-in only the name is used.
+// The built-in detector with these options. Of a plug-in's configuration only the name and is_timed
+// are used.
 struct Configuration {
   std::string name;
   detector::Options options;
@@ -21,12 +22,12 @@ struct Configuration {
   bool is_timed = false;   // whether CaseRun::times is asked for
 };
 
-// Processor seconds of the process that ran a case, with all of its threads, by that process's own
-// clock. They are for benches: a plug-in shares the process and could say what it likes, so
-// nothing is judged by them.
+// Processor seconds and memory of the process that ran a case, with all of its threads, as that
+// process tells them. They are for benches alone. A plug-in runs in that process and could forge
+// them, so nothing is judged by them.
 struct RunTimes {
   double create = 0;
-  std::vector<double> steps;  // one a step: up to its answer, and the commit if there is one
+  std::vector<double> steps;  // one for each step, until its answer; a commit is included
   // The highest resident memory of that process since it began; 0 if the system does not tell it.
   std::uint64_t peak_bytes = 0;
 };
@@ -47,7 +48,7 @@ using CandidatePairs = std::optional<std::vector<detector::TrianglePair>>;
 
 struct CaseRun {
   RunEnd end = RunEnd::completed;
-  // One line: the signal, the refusal, or the first step's error. Empty if nothing is wrong.
+  // One line: the signal, the refusal, or the first error that was noted. Empty if nothing is wrong.
   std::string what;
   // One result for each step of the case if the run completed, else none. If a plug-in does not
   // state the time of a pair, or the first time, it is [0, 1].
@@ -57,8 +58,8 @@ struct CaseRun {
   // For each step why it has no answer ("step 2: ..."), or an empty text if it has one. The list
   // is empty if all steps have answers.
   std::vector<std::string> errors = {};
-  // The steps have answers. False for a library of candidates alone: each of its steps is
-  // undecided, or an error.
+  // Whether the detector answers steps at all. A library that only lists candidates does not: each
+  // of its steps is stored as undecided or, if it failed, as an error.
   bool has_answers = true;
   // Only if the run completed and its configuration asks for times.
   std::optional<RunTimes> times = {};

@@ -11,23 +11,25 @@
 
 namespace assay::reports {
 
-// Is called for each row as soon as it is known. In curated cases the built-in detector is held to
-// the expected facts, with every culling, and a plug-in to the oracle under its claims. In scenes
-// both are held to the oracle. One judgement of the oracle serves all configurations.
+// Is called for each row as soon as it is known. A row sums up all cases of one kind, such as the
+// curated ones, in one configuration of the detector.
 using OnCorpusRow = std::function<void(const properties::CorpusRow&)>;
 
-// Is called for each case that a configuration fails by the oracle, in the form in which a trial's
-// failure would be stored. Expected facts that the built-in detector fails appear in the row
-// alone.
+// Is called for each case in which a configuration contradicts the oracle. The failure has the form
+// in which a trial's failure is stored. A curated case of which only an expected fact fails is told
+// of in its row alone.
 using OnCorpusFailure = std::function<void(const properties::StoredFailure&)>;
 
-// Fails if the corpus cannot be read. `corpus` is the folder of the curated cases.
+// Runs the curated cases of the folder `corpus`, and the scenes, which are built into the program.
+// In curated cases the built-in detector is held to the expected facts, with every culling, and a
+// plug-in to the oracle under its claims. In scenes both are held to the oracle, whose judgement of
+// a case serves all configurations. Fails if the corpus cannot be read.
 Expected<void> check_corpus(const properties::CampaignRequest& request,
                             const std::filesystem::path& corpus, const OnCorpusRow& on_row,
                             const OnCorpusFailure& on_failure);
 
-// Runs the owner's cases of the request through the worker. Every detector is held to the oracle
-// in them. Their ids begin with own_cases_in_id.
+// Runs the cases that the user added to the campaign (`--corpus DIR`), in a worker. Every detector
+// is held to the oracle in them. Their ids begin with own_cases_in_id.
 void check_own_cases(const properties::CampaignRequest& request, const OnCorpusRow& on_row,
                      const OnCorpusFailure& on_failure);
 

@@ -1,4 +1,4 @@
-// Takes several nights of one detector together.
+// Adds up what several certificates of one detector say, such as those of several nights.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,13 +8,15 @@
 
 namespace assay::reports {
 
-// Adds up the strata of certificates (their predicates), with the bounds of the sums: a list of
-// {family, configuration, n, holds, bound}.
+// Takes the member "predicate" of each certificate and adds up their strata. The result is a list
+// of {family, configuration, n, holds, bound}: of n trials so many hold, and `bound` is the upper
+// bound of the rate of failures at the confidence of the campaigns.
 //
-// another_run unless all speak of one detector, generator and judge: equal digests of program,
-// worker, plug-in and generator, equal detector, families and bounds. A fixed bug is another
-// program, and starts at 0. wrong_shards if a trial would count twice: campaign and seed must
-// differ between any two.
+// Fails with another_run unless all certificates speak of one detector, generator and judge: the
+// digests of program, worker, plug-in and generator must be equal, and so must detector, families
+// and the number of bounds. A program in which a bug was fixed is another program, so its sums start at
+// 0. Fails with wrong_shards if a trial would count twice: no two certificates may have the same
+// campaign and the same seed.
 properties::Expected<nlohmann::ordered_json> pool(
     const std::vector<nlohmann::ordered_json>& predicates);
 

@@ -32,9 +32,9 @@ class QueryDetector {
   std::string title() const;
   const properties::CampaignRequest& request() const { return *request_; }
 
-  // Judges some queries. REQUIRES one name for each. Fails if no worker can be started. Queries
-  // that are not asked because the plug-in crashed too often before count as not within the
-  // contract.
+  // Judges some queries. REQUIRES one name for each. Fails if no worker can be started. A query that
+  // is not asked any more, because the plug-in crashed too often before, is counted as not asked
+  // and judged as if it lay outside of the contract.
   Expected<std::vector<JudgedQuery>> judge(const std::vector<detector::FourPoints>& queries,
                                            const std::vector<std::string>& names);
 
@@ -49,7 +49,8 @@ class QueryDetector {
  private:
   explicit QueryDetector(std::unique_ptr<properties::CampaignRequest> request);
 
-  // Both are on the heap, because the judge refers to them when this object is moved.
+  // Request and worker are on the heap, because the judge still refers to them after this object
+  // was moved.
   std::unique_ptr<properties::CampaignRequest> request_;
   std::unique_ptr<properties::WorkerProcess> worker_;
   std::unique_ptr<QueryJudge> judge_;

@@ -11,8 +11,9 @@
 
 namespace assay::reports {
 
-// The line that the user reads. The other rooms fail with named problems. Here each problem
-// becomes its line, and its kind is not looked at again.
+// The line that the user reads, and the exit code. The other rooms (detector, corpus, properties)
+// fail with problems that have a kind and a message. A problem is made into a refusal here, and
+// after that nobody asks for its kind.
 struct Refusal {
   std::string line;
   int code = exit_usage;

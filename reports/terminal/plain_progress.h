@@ -1,5 +1,5 @@
-// Shows how far long work is: by a line rewritten in place on a terminal, by plain lines now and
-// then elsewhere.
+// Shows on stdout how far some work has come. On a terminal one line is rewritten in place;
+// elsewhere, such as in a log, a line is added now and then.
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,10 @@ class PlainProgress {
   PlainProgress(const PlainProgress&) = delete;
   PlainProgress& operator=(const PlainProgress&) = delete;
 
-  // Shows the text at most five times a second on a terminal, every 20 s elsewhere.
+  // Shows the text unless the last one was shown less than 0.2 s ago, or 20 s if stdout is no
+  // terminal.
   void show(const std::string& text);
+  // Removes the line from a terminal. It may be called again; the destructor calls it too.
   void finish();
 
  private:

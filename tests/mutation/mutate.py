@@ -33,7 +33,7 @@ def arguments():
     p.add_argument("--seed", type=int, default=1)
     p.add_argument("--mutants", type=int, default=130)
     p.add_argument("--jobs", type=int, default=2)
-    p.add_argument("--only", help="files that contain this text")
+    p.add_argument("--only", nargs="+", help="files that contain one of these texts")
     p.add_argument("--these", help="a JSON list of mutants (file, line, mutated) instead of a draw")
     p.add_argument("--anew", action="store_true", help="forget the outcomes of earlier runs")
     p.add_argument("--all-killed", action="store_true", help="want every mutant killed")
@@ -109,7 +109,7 @@ def work_of(options, build):
     for file in sorted(build.users):
         if file == CLOCK:
             continue
-        if len(build.users[file]) > MOST_USERS or (options.only and options.only not in file):
+        if len(build.users[file]) > MOST_USERS or (options.only and not any(text in file for text in options.only)):
             continue
         of_file = mutants.in_random_order(options.seed, mutants.mutants_of(ROOT, file))
         if of_file:

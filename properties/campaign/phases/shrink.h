@@ -8,7 +8,8 @@
 
 namespace assay::properties {
 
-// A judge that runs a case in the worker and asks the oracle; nothing if the case holds.
+// A judge that runs a case in the worker and asks the oracle; the judge returns nothing if the case
+// holds. The arguments must outlive it.
 Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& configuration,
                         WorkerProcess& worker);
 
@@ -17,10 +18,11 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
                       const Configuration& configuration, WorkerProcess& worker,
                       const ReduceLimits& limits, const OnBetter& on_better = {});
 
-// Shrinks one failure of each signature, unless that has been done before; flaky failures are left
-// out. One whose shrinking was interrupted goes on from its smallest mesh so far. Each better mesh
-// is stored as soon as it is found. At most `limits` for each, and not beyond the deadline. Throws
-// StoreProblem; so it is for campaign/ alone.
+// Shrinks the first stored failure of each signature (failures of one signature break the same
+// claim in the same way). One that has been shrunk before is left alone, and so is one that the
+// store calls flaky. One whose shrinking was interrupted goes on from its smallest mesh so far.
+// Each better mesh is stored as soon as it is found. `limits` hold for each failure, the deadline
+// for all. Throws StoreProblem, which only campaign/ catches.
 void shrink_failures(const CampaignRequest& request, Store& store, const ReduceLimits& limits,
                      RunDeadline deadline, const std::function<void(const std::string&)>& progress);
 

@@ -1,4 +1,4 @@
-// Meshes that are valid input but no surface of a body.
+// Meshes that a detector has to accept although few of them are the surface of a body.
 #pragma once
 
 #include "properties/generators/draft.h"

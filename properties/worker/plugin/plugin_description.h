@@ -7,10 +7,10 @@
 
 namespace assay::properties {
 
-// What a library can do. The built-in detector has the part of steps.
+// What a library can do. The defaults are those of the built-in detector, which answers steps.
 struct PluginParts {
   bool steps = true, query = false, candidates = false;
-  bool takes_threads = false;  // it asks how many threads it may use
+  bool takes_threads = false;  // it has a function by which it is told how many threads it may use
   friend bool operator==(const PluginParts&, const PluginParts&) = default;
 };
 
@@ -21,10 +21,12 @@ struct PluginDescription {
   PluginParts parts = {};
 };
 
-// Those of its claims by which its steps are judged: all. For a library without steps: candidates,
-// deterministic and total.
+// Those of its claims that can be judged by playing steps. These are all that it makes, or, for a
+// library that only lists the candidates of a step, those of candidates, deterministic and total
+// that it makes.
 Claims claims_on_steps(const PluginDescription& description);
-// Those by which its query is judged: all but those on pairs and candidates.
+// Those of its claims that can be judged by asking its query: all that it makes except those about
+// pairs and candidates.
 Claims claims_on_queries(const PluginDescription& description);
 
 }  // namespace assay::properties

@@ -15,7 +15,7 @@ namespace assay::reports {
 struct SequenceVariant {
   detector::Culling culling;
   std::uint32_t threads;
-  std::vector<std::vector<double>> ms = {};  // [round][step], by the clock on the wall
+  std::vector<std::vector<double>> ms = {};  // [round][step], wall-clock time
 
   // For each round: the sum over its steps.
   std::vector<double> sums() const;
@@ -23,12 +23,14 @@ struct SequenceVariant {
   std::vector<double> of_step(std::size_t step) const;
 };
 
-// In each round every variant makes a detector and plays the whole sequence, with the variants in
-// forward and backward order by turns. One round before them is thrown away. A variant that took
-// three times as long in it as another one is played in the first two rounds only.
+// In each round every variant makes a detector and plays the whole sequence. The order of the
+// variants is reversed from round to round. The times of a first round are thrown away. A variant
+// that took three times as long as the fastest one in that round takes part in the next two rounds
+// alone, so it has fewer times than the others.
 //
-// Answers, pairs and times that differ from those of the first variant are wrong answers of the
-// report. Between variants that differ in threads alone, so is any other difference.
+// If a variant's answers, pairs or times of contact differ from those of the first variant, the
+// report counts a wrong answer. Runs with one culling must also agree in everything
+// that result_hash() covers, whatever their threads. starts_clean: the first positions are known to be free of contacts.
 void time_sequence(const std::string& name, const corpus::Sequence& sequence, bool starts_clean,
                    int rounds, std::vector<SequenceVariant>& variants, BenchReport& report);
 

@@ -193,6 +193,28 @@ TEST(Search, L3_PairsAreThoseAskedForWithAndWithoutSkipping) {
   EXPECT_LT(with, without);
 }
 
+// With one negative triangle among positive ones only pairs with it are asked for. On each level k
+// of its d levels below the root the node above it meets its sibling, and goes down to it at once:
+// d - k nodes are skipped, whether first or second children lead there.
+TEST(Search, L3_SkippingGoesDownToTheOnlyPartnerAtOnce) {
+  SearchMeshes random(4);
+  const MovingMesh mesh = random.sheets(1, 5, false);
+  BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
+  tree.refit(mesh.topology, mesh.x_t0, mesh.x_t1);
+  const PairTables tables = PairRule().candidates();
+  for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t) {
+    Marks marks(tree);
+    std::vector<TriangleType> types = marks.types;
+    types[t] = TriangleType::negative;
+    MarkingCounts marking;
+    Marking().bring_to(types, tree, marks, marking);
+    SearchCounts counts;
+    pairs_of(TreeSearch(TreeSearch::Skipping::on), {mesh.topology, tree, marks, tables}, counts);
+    const std::uint64_t levels = depth_of(tree, static_cast<std::int32_t>(t)) - 1;
+    EXPECT_EQ(counts.skipped, levels * (levels - 1) / 2) << t;
+  }
+}
+
 TEST(Search, StopsWhereTheSinkSays) {
   SearchMeshes random(5);
   const MovingMesh mesh = random.sheets(2, 4, true);

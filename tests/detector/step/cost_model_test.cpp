@@ -113,15 +113,20 @@ TEST(CostModel, ALargeSheetIsGlancedAtAndNoMore) {
   const Triangles t = sheet_triangles();
   const MovingPoint corner = {{0, 0, 0}, {0, 0, 0}};
   const ViewPrimitive along = {corner, corner};
+  Triangles turned = t;
+  turned.col(1).swap(turned.col(2));
   for (const int rising : {0, 24, 36}) {
-    const Positions x = sheet_positions(rising);
-    Positions moved = x;
-    moved.col(1).array() += .25;
-    const auto result = make(t, x).step(x, moved, {&along, 1});
-    EXPECT_FALSE(was_looked_at(result)) << rising;
-    EXPECT_TRUE(has_no_views(result)) << rising;
-    EXPECT_EQ(result.answer, Answer::free);
-    expect_same_contacts(result, make(t, x, Culling::bvh).step(x, moved));
+    for (const Triangles* sheet : {&t, &turned}) {
+      const bool is_turned = sheet == &turned;  // then the risen triangles have the other sign
+      const Positions x = sheet_positions(rising);
+      Positions moved = x;
+      moved.col(1).array() += .25;
+      const auto result = make(*sheet, x).step(x, moved, {&along, 1});
+      EXPECT_FALSE(was_looked_at(result)) << rising << is_turned;
+      EXPECT_TRUE(has_no_views(result)) << rising << is_turned;
+      EXPECT_EQ(result.answer, Answer::free);
+      expect_same_contacts(result, make(*sheet, x, Culling::bvh).step(x, moved));
+    }
   }
 }
 
