@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most_attempts = 4;
 
 struct Piece {
-  std::vector<std::int32_t> triangles;  // those in doubt, ascending
+  std::vector<std::int32_t> triangles;  // those in doubt, in the order of the flood
   bool holds_clean = false;             // whether some are linked to a clean triangle
 };
 
@@ -47,7 +47,6 @@ class Flood {
         }
       }
     }
-    std::sort(piece.triangles.begin(), piece.triangles.end());
     return piece;
   }
 

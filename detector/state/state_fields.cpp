@@ -41,7 +41,6 @@ bool fits(const StepState& state, const Surface& surface) {
 bool fits(const StateFields& state, const Surface& surface, std::size_t anchors) {
   const std::int32_t n = surface.first_apex;
   if (!fit(state.anchors, anchors, n)) return false;
-  if (!state.apex_rules.empty() && state.apex_rules.size() != surface.loops.size()) return false;
   for (const auto& rule : state.apex_rules) {
     if (!std::isfinite(rule.height)) return false;
   }

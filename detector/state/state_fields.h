@@ -23,7 +23,8 @@ struct StateFields {
 std::uint64_t digest_of(const Topology& mesh, std::int32_t vertex_count);
 
 // Whether all sizes and indices of the state fit a detector of this surface that has so many
-// anchors of its own. What the state says of its triangles is not checked. O(M).
+// anchors of its own. REQUIRES as many apex rules as that detector has. What the state says of its
+// triangles is not checked. O(M).
 bool fits(const StateFields& state, const Surface& surface, std::size_t anchors);
 
 }  // namespace assay::detector

@@ -176,7 +176,6 @@ void ReleaseRule::settle(const StepWork& work, const std::vector<PairContact>& p
                  [](std::uint8_t was_clean, std::uint8_t touched) -> std::uint8_t {
                    return was_clean != 0 && touched == 0;
                  });
-  state.met.clear();
   state.met_is_complete = complete || pairs.empty();
   if (!state.met_is_complete) std::fill(clean.begin(), clean.end(), 0);
   for (const auto& [pair, time, feature] : pairs) {

@@ -67,7 +67,7 @@ class Step {
   StepResult run(const PositionsView& mesh_x_t0, const PositionsView& mesh_x_t1,
                  std::span<const ViewPrimitive> primitives, std::optional<StepState>& next) {
     if (policy_.is_due()) place_primitives(mesh_x_t0, mesh_x_t1, primitives);
-    const bool completed = !work_.pace.stopped() && run_stages();
+    const bool completed = !work_.pace.stopped() && run_stages() && !work_.pace.stopped();
     result_.answer = !completed              ? Answer::undecided
                      : result_.pairs.empty() ? Answer::free
                                              : Answer::collision;

@@ -83,6 +83,35 @@ TEST(ApexChoice, OfAFanCostsLinearly) {
   }
 }
 
+// What one loop has used up is not there for the others.
+TEST(ApexChoice, OfSeveralFansTogetherCostsLinearly) {
+  constexpr int fans = 4, n = 2000;
+  const Mesh fan = open_fan(n);
+  Mesh all{Triangles(fans * n, 3), Positions(fans * fan.x.rows(), 3)};
+  for (int i = 0; i < fans; ++i) {
+    const auto first = static_cast<std::int32_t>(i * fan.x.rows());
+    all.triangles.middleRows(i * n, n) = fan.triangles.array() + first;
+    all.x.middleRows(first, fan.x.rows()) = fan.x.rowwise() + Eigen::RowVector3d(4 * i, 0, 0);
+  }
+  const auto result = choose(all);
+  EXPECT_GT(result.cut_short, 0u) << "each of them would take more than its share";
+  EXPECT_LE(result.counts.work(), most_work(all, fans * (n + 2), 1));
+}
+
+// Small loops come first: what they leave over is there for a large one that takes all it gets.
+TEST(ApexChoice, ALargeLoopGetsWhatSmallOnesLeaveOver) {
+  const Mesh fan = open_fan(2000), small = soup(9);
+  Mesh all{Triangles(fan.triangles.rows() + small.triangles.rows(), 3),
+           Positions(fan.x.rows() + small.x.rows(), 3)};
+  all.triangles << fan.triangles, small.triangles.array() + static_cast<std::int32_t>(fan.x.rows());
+  all.x << fan.x, small.x.rowwise() + Eigen::RowVector3d(4, 0, 0);
+  const auto result = choose(all);
+  const std::uint64_t ghosts = 2002 + 3 * 729, triangles = 2000 + 729 + ghosts;
+  EXPECT_GT(result.cut_short, 0u);
+  EXPECT_GE(result.counts.work(),
+            (ApexChoice::base_work + ApexChoice::work_per_triangle * triangles) * 3 / 4);
+}
+
 TEST(ApexChoice, OfASoupCostsTheSameForEachTriangle) {
   const auto few = choose(soup(5)), many = choose(soup(20));
   const double of_few = static_cast<double>(few.counts.work()) / 125,

@@ -83,6 +83,21 @@ TEST(Apex, IsFiniteForEveryFiniteLoop) {
 }
 
 // Each by its own rule at both ends of a step: where it stood at the end of the one before.
+// A loop that is long along one axis alone, whichever that is.
+TEST(Apex, IsFiniteForEveryLongLoop) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    for (const double length : {1e100, 1e200, 1e307}) {
+      Positions x = tests::positions({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 1}});
+      x(1, axis) = length;
+      x(2, axis) = -length;
+      for (const auto& rule : apex_rules) {
+        for (const double c : place_apex(rule, {0, 1, 2, 3}, x))
+          EXPECT_TRUE(std::isfinite(c)) << axis << " " << length;
+      }
+    }
+  }
+}
+
 TEST(Apex, OfEachHoleIsPlacedByTheRuleOfThatHole) {
   const Surface surface = make_surface(without({0, 6}), 6);
   ASSERT_EQ(surface.loops.size(), 2u);

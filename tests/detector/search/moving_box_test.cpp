@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "detector/mesh/paced_stop.h"
+#include "detector/parallel/workers.h"
 #include "detector/search/bounding_volume_tree.h"
 #include "tests/detector/points.h"
 
@@ -163,6 +165,37 @@ TEST(MovingBox, NodesHoldTheirTriangles) {
           EXPECT_EQ(all.hi_t1[k], tree.box(node).hi_t1[k]);
         }
         if (node == BoundingVolumeTree::root) break;
+      }
+    }
+  }
+}
+
+// One power of two for all axes brings every position of the step near 1: that of the longest.
+TEST(FloatGrid, ScalesAllAxesByTheLongest) {
+  for (Eigen::Index longest = 0; longest < 3; ++longest) {
+    Positions x = positions({{-1, -1, -1}, {1, 1, 1}});
+    x.col(longest) *= 1000;
+    const FloatGrid grid(x, x);
+    for (std::int32_t v = 0; v < 2; ++v) {
+      for (const double y : grid.scaled(x, v)) EXPECT_LE(std::abs(y), 2) << longest;
+    }
+  }
+}
+
+// The bounds that several threads found are put together, wherever the least and the greatest are.
+TEST(FloatGrid, IsTheSameForAnyNumberOfThreads) {
+  constexpr Eigen::Index count = 500'000;  // so many that all threads take some
+  for (const Eigen::Index extreme : {Eigen::Index{1}, count / 2, count - 1}) {
+    for (const double far : {-1000., 1000.}) {
+      Positions x = Positions::Constant(count, 3, .25);
+      x(extreme, 1) = far;
+      const FloatGrid alone(x, x);
+      for (const std::uint32_t threads : {2u, 3u, 8u}) {
+        const Workers workers(threads);
+        PacedStop pace(never_stops, workers);
+        const FloatGrid shared(x, x, &pace);
+        for (const std::int32_t v : {0, static_cast<std::int32_t>(extreme)})
+          EXPECT_EQ(shared.scaled(x, v), alone.scaled(x, v)) << extreme << " " << threads;
       }
     }
   }

@@ -2,6 +2,10 @@
 #include "detector/state/state_bytes.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
 
 #include "detector/detector.h"
 #include "tests/detector/points.h"
@@ -201,6 +205,38 @@ TEST(StateBytes, WrongFieldsUnderARightChecksumAreRefused) {
   seal(later);
   EXPECT_EQ(read_state(later).error().error, InputError::other_state_version);
 }
+
+// By component there may be a view primitive or none, in any order.
+TEST(StateBytes, WhatIsKnownOfComponentsMayHaveGaps) {
+  StateFields state = full_state();
+  auto& inside = state.committed->inside;
+  inside = {std::nullopt, inside[0], std::nullopt, inside[0]};
+  const Bytes bytes = bytes_of(state);
+  const auto read = read_state(bytes);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read.value().committed->inside, inside);
+  EXPECT_EQ(bytes_of(read.value()), bytes);
+}
+
+// Sanitizers need address space of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// The number of positions that the bytes claim would take 24 times the memory of the bytes.
+TEST(StateBytes, AClaimedLengthTakesNoMemory) {
+  constexpr std::size_t size = std::size_t{64} << 20;
+  Bytes bytes = bytes_of(full_state());
+  bytes.resize(size);
+  set_number(bytes, 34, size / 2);
+  seal(bytes);
+  const auto read_in_little_memory = [&] {
+    rlimit limit = {};
+    getrlimit(RLIMIT_AS, &limit);
+    limit.rlim_cur = std::min<rlim_t>(2 * size + (std::size_t{256} << 20), limit.rlim_max);
+    _exit(setrlimit(RLIMIT_AS, &limit) == 0 && !read_state(bytes) ? 0 : 1);
+  };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(read_in_little_memory(), testing::ExitedWithCode(0), "");
+}
+#endif
 
 // What does not fit the mesh although its sizes are right.
 TEST(StateBytes, WhatContradictsTheMeshIsRefused) {

@@ -6,6 +6,7 @@
 #include "detector/state/layers.h"
 #include "detector/step/release_rule.h"
 #include "tests/detector/points.h"
+#include "tests/detector/view/revolved.h"
 
 namespace assay::detector {
 namespace {
@@ -55,6 +56,114 @@ TEST(Layers, L9_TouchedTrianglesStayDirty) {
   touched[2] = 1;
   mark_clean_by_layers({surface, octahedron_positions(1), touched}, 0, seen, clean);
   EXPECT_EQ(clean, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 1, 1, 1}));
+}
+
+// However its triangles are numbered, all that is linked is one piece: one winding number.
+TEST(Layers, L9_AFloodGoesBothWaysOverAnEdge) {
+  const Triangles sphere = tests::revolved(tests::sphere_rings);
+  const auto count = static_cast<std::size_t>(sphere.rows());
+  Triangles mixed(sphere.rows(), 3);
+  constexpr Eigen::Index stride = 37;  // prime to the number of triangles
+  for (Eigen::Index t = 0; t < sphere.rows(); ++t)
+    mixed.row(t) = sphere.row(t * stride % sphere.rows());
+  const Surface surface = make_surface(mixed, tests::sphere(1).rows());
+  ASSERT_TRUE(surface.is_closed());
+  std::vector<std::uint8_t> clean(count, 0), seen(count, 0);
+  const std::vector<std::uint8_t> untouched(count, 0);
+  EXPECT_EQ(mark_clean_by_layers({surface, tests::sphere(1), untouched}, 0, seen, clean), 1u);
+  EXPECT_EQ(clean, std::vector<std::uint8_t>(count, 1));
+}
+
+// What hangs together with a clean triangle has its layer: no winding number is counted.
+TEST(Layers, L9_APieceBesideACleanTriangleNeedsNoWindingNumber) {
+  const Surface surface = make_surface(octahedron(), 6);
+  std::vector<std::uint8_t> clean = {1, 1, 0, 0, 0, 0, 1, 1}, seen(8, 0);
+  const std::vector<std::uint8_t> untouched(8, 0);
+  const std::vector<std::int32_t> in_doubt = {2, 3, 4, 5};
+  EXPECT_EQ(
+      release_pieces({surface, octahedron_positions(1), untouched}, 0, in_doubt, {0}, seen, clean),
+      0u);
+  EXPECT_EQ(clean, std::vector<std::uint8_t>(8, 1));
+}
+
+// An octahedron whose first triangle has no area, because its tip 4 lies on the edge 0 2.
+Positions with_flat_first() {
+  Positions x = octahedron_positions(1);
+  x.row(4) = .5 * (x.row(0) + x.row(2));
+  return x;
+}
+
+// From a triangle without area no ray can start. If it is a piece of its own, nobody knows its
+// layer, and the other pieces are released all the same.
+TEST(Layers, L9_APieceOfUnknownLayerHoldsUpNoOther) {
+  const Surface surface = make_surface(octahedron(), 6);
+  const std::vector<std::uint8_t> touched = {0, 1, 1, 1, 1, 1, 0, 1};
+  std::vector<std::uint8_t> clean(8, 0), seen(8, 0);
+  mark_clean_by_layers({surface, with_flat_first(), touched}, 0, seen, clean);
+  EXPECT_EQ(clean, (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 1, 0}));
+}
+
+// Where doubles cannot tell the number at the first triangle of a piece they may at the next one.
+TEST(Layers, L9_DoublesTryMoreThanOneTriangle) {
+  const Triangles sphere = tests::revolved(tests::sphere_rings);
+  const auto count = static_cast<std::size_t>(sphere.rows());
+  Positions x = tests::sphere(1);
+  x.row(sphere(0, 2)) = .5 * (x.row(sphere(0, 0)) + x.row(sphere(0, 1)));
+  const Surface surface = make_surface(sphere, x.rows());
+  std::vector<std::uint8_t> clean(count, 0), seen(count, 0);
+  const std::vector<std::uint8_t> untouched(count, 0);
+  mark_clean_by_layers({surface, x, untouched, Arithmetic::bounded}, 0, seen, clean);
+  EXPECT_EQ(clean, std::vector<std::uint8_t>(count, 1));
+}
+
+// The state holds at positions that are equal in every bit, whatever the stride of their rows.
+TEST(StepState, HoldsAtEqualPositionsAlone) {
+  const Positions x = octahedron_positions(1);
+  StepState state;
+  state.keep(x);
+  for (const Eigen::Index stride : {3, 4}) {
+    using Rows = Eigen::Map<Positions, 0, Eigen::OuterStride<>>;
+    std::vector<double> memory(6 * 4, 0);
+    Rows rows(memory.data(), 6, 3, Eigen::OuterStride<>(stride));
+    rows = x;
+    EXPECT_TRUE(state.holds_at(rows)) << stride;
+    for (Eigen::Index v = 0; v < 6; ++v) {
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const double before = rows(v, k);
+        rows(v, k) = before == 0 ? -0.0 : std::nextafter(before, 0);
+        EXPECT_FALSE(state.holds_at(rows)) << stride << " " << v << " " << k;
+        rows(v, k) = before;
+      }
+    }
+  }
+}
+
+// Nobody swept the ghosts of an open component in a step without views, so it is not known to be
+// clean at the end; a closed one beside it is.
+TEST(StepState, L15_AfterAStepWithoutViewsOnlyClosedComponentsAreClean) {
+  for (const bool closed_first : {true, false}) {
+    const Triangles closed = octahedron(), open = octahedron().bottomRows(7);
+    Triangles both(15, 3);
+    if (closed_first) {
+      both << closed, open.array() + 6;
+    } else {
+      both << open, closed.array() + 6;
+    }
+    Positions x(12, 3);
+    x << octahedron_positions(1), octahedron_positions(1).rowwise() + Eigen::RowVector3d(9, 0, 0);
+    auto made = Detector::create(both, x, {Culling::view_auto, Start::clean});
+    ASSERT_TRUE(made);
+    const MovingPoint far = {{90, 60, 30}, {90, 60, 30}};
+    const ViewPrimitive outside = {far, far};
+    const auto result = made.value().step(x, x, {&outside, 1});
+    ASSERT_TRUE(result.primitives.empty()) << "ghosts cost more than the views save";
+    ASSERT_EQ(result.answer, Answer::free);
+    const auto clean = made.value().state().fields().committed->clean;
+    for (std::size_t t = 0; t < 15; ++t) {
+      const bool is_of_closed = closed_first ? t < 8 : t >= 7;
+      EXPECT_EQ(clean[t], is_of_closed ? 1 : 0) << t;
+    }
+  }
 }
 
 // A step that stays at x, before its stages have run.

@@ -96,6 +96,75 @@ TEST(Release, TheCoarseFormsReleaseNoMore) {
   }
 }
 
+// By L5 alone nothing is released that is not free: the tip is back, and no longer seen positive.
+TEST(Release, L5_ByViewAloneWhatIsNotFreeStaysInDoubt) {
+  const Positions in = octahedron_positions(2), out = tip_at(1.5), near = tip_at(.5);
+  Options options = with_points();
+  options.release = Release::view;
+  Detector detector = make(options);
+  Detector fine = make();
+  for (Detector* each : {&detector, &fine}) {
+    each->step(in, out);
+    each->step(out, near);
+  }
+  const auto after = detector.step(near, near);
+  EXPECT_GT(fine.step(near, near).counts.release.released, 0u) << "L9 releases more";
+  EXPECT_GT(after.counts.release.in_doubt, 0u);
+  EXPECT_EQ(after.counts.release.released, 0u);
+  EXPECT_EQ(after.dirty, after.counts.release.in_doubt);
+}
+
+// Release::model takes each component by itself: a tip that is still out keeps its own component in
+// doubt and no other one.
+TEST(Release, L9_ByModelAComponentInDoubtHoldsUpNoOther) {
+  constexpr double apart = 20;
+  const auto both = [apart](const Positions& a, const Positions& b) {
+    Positions x(12, 3);
+    x << a, b.rowwise() + Eigen::RowVector3d(apart, 0, 0);
+    return x;
+  };
+  Triangles two(14, 3);
+  two << with_hole(), with_hole().array() + 6;
+  const Positions in = octahedron_positions(2), out = tip_at(1.5), near = tip_at(.5);
+  Options options = with_points();
+  options.release = Release::model;
+  for (const bool first_stays : {true, false}) {
+    const auto x = [&](const Positions& stays, const Positions& returns) {
+      return first_stays ? both(stays, returns) : both(returns, stays);
+    };
+    Detector detector = std::move(Detector::create(two, x(in, in), options).value());
+    Detector alone = make(options);
+    const Positions* from[] = {&in, &in};
+    for (const auto& to : {std::array{&out, &out}, {&out, &in}, {&out, &near}}) {
+      const auto result = detector.step(x(*from[0], *from[1]), x(*to[0], *to[1]));
+      const auto expected = alone.step(*from[1], *to[1]);
+      from[0] = to[0], from[1] = to[1];
+      EXPECT_EQ(result.counts.release.released, expected.counts.release.released) << first_stays;
+      if (to[1] != &near) continue;
+      EXPECT_GT(expected.counts.release.released, 0u);
+      EXPECT_GT(result.dirty, 0u) << "of the one that stays out";
+    }
+  }
+}
+
+// A component with two holes: what stays out of either is in doubt, as it is at a new start.
+TEST(Release, L9_WhatStaysOutOfOneOfTwoHolesStaysInDoubt) {
+  Triangles two_holes(6, 3);
+  two_holes << octahedron().middleRows(1, 5), octahedron().bottomRows(1);
+  const Positions in = octahedron_positions(2);
+  for (const bool through_first : {true, false}) {
+    Positions out = in;
+    out.row(through_first ? 5 : 4).setConstant(through_first ? 1.5 : -1.5);
+    auto made = Detector::create(two_holes, in, with_points()),
+         anew = Detector::create(two_holes, in, with_points());
+    ASSERT_TRUE(made && anew);
+    EXPECT_GT(made.value().step(in, out).violated, 0u);
+    const auto stays = made.value().step(out, out), expected = anew.value().step(out, out);
+    EXPECT_GT(expected.dirty, 0u) << through_first;
+    EXPECT_GE(stays.dirty, expected.dirty) << through_first;
+  }
+}
+
 TEST(Release, L8_TheCallerAnswersACollision) {
   const Positions in = octahedron_positions(2);
   Positions hit = in;

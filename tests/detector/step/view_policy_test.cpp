@@ -112,5 +112,50 @@ TEST(ViewPolicy, RestsAreForgottenByHalves) {
   }
 }
 
+TEST(ViewPolicy, CandidatesAreThoseOfTheLastSearchThatProvedNothing) {
+  const TwoOpen mesh;
+  PolicyState before;
+  before.candidates = 500;
+  CostModel policy(mesh.surface, 100, before);
+  StepCounts counts;
+  EXPECT_EQ(policy.next(counts, true).candidates, 500u) << "nothing was searched";
+  counts.search.candidate_pairs = 300;
+  EXPECT_EQ(policy.next(counts, true).candidates, 300u);
+  ASSERT_TRUE(policy.worth_proving({1, 1}, 1, 0));
+  EXPECT_EQ(policy.next(counts, true).candidates, 500u) << "proofs have left out some";
+}
+
+// least_anchor_age after a step that chose anchors again.
+std::uint64_t kept_for(std::uint64_t before, double replaced_at) {
+  const TwoOpen mesh;
+  PolicyState state;
+  state.anchors_are_due = true;
+  state.least_anchor_age = before;
+  state.replaced_at = replaced_at;
+  CostModel policy(mesh.surface, 100, state);
+  PacedStop pace(never_stops);
+  policy.anchors({}, mesh.x, pace);
+  return policy.next({}, true).least_anchor_age;
+}
+
+TEST(ViewPolicy, AnchorsThatAreNoBetterAreKeptTwiceAsLong) {
+  EXPECT_EQ(kept_for(16, 1), 32u);
+  EXPECT_EQ(kept_for(1024, 1), 2048u);
+  EXPECT_EQ(kept_for(4096, 1), 4096u);
+  EXPECT_EQ(kept_for(1024, .5), 16u) << "better ones may soon be better still";
+}
+
+TEST(ViewPolicy, ChoosingAnchorsIsWorkThatCanBeStopped) {
+  const TwoOpen mesh;
+  PolicyState state;
+  state.anchors_are_due = true;
+  constexpr std::uint64_t work_of_each = 400;
+  int asked = 0;
+  const StopFunction stop = [&] { return ++asked, false; };
+  PacedStop pace(stop, work_of_each);
+  CostModel(mesh.surface, 100, state).anchors({}, mesh.x, pace);
+  EXPECT_GE(asked, 2) << "once for each component";
+}
+
 }  // namespace
 }  // namespace assay::detector
