@@ -123,7 +123,7 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
 StepResult Detector::evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
                               std::span<const ViewPrimitive> primitives, const StopFunction& stop) {
   parts_->evaluated.reset();
-  return evaluate_step(parts_->context, parts_->committed, x_t0, x_t1, primitives, stop,
+  return evaluate_step(parts_->context, parts_->committed, {x_t0, x_t1}, primitives, stop,
                        parts_->evaluated);
 }
 

@@ -32,13 +32,11 @@ class CandidateSearch {
  public:
   // REQUIRES a tree refitted to the step. The references must outlive this object.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
-                  SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const StopFunction& stop);
+                  SearchMemory& memory, const SteppedMesh& motion, const StopFunction& stop);
   // The same with the workers of `pace`. REQUIRES a stop function that all of them may call, such
   // as that of SharedStop.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
-                  SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const PacedStop& pace);
+                  SearchMemory& memory, const SteppedMesh& motion, const PacedStop& pace);
 
   // A step calls mark, collect and, if it closes the set of pairs, close; each returns false if it
   // was stopped.
@@ -81,7 +79,7 @@ class CandidateSearch {
   const Topology& mesh_;
   const BoundingVolumeTree& tree_;
   SearchMemory& memory_;
-  const PositionsView x_t0_, x_t1_;
+  const SteppedMesh motion_;
   const StopFunction& stop_;
   PacedStop pace_;
   FeatureContacts contacts_;

@@ -84,7 +84,7 @@ struct SearchInput {
   const Marks& marks;              // of the step's types
   const PairTables& tables;
   KeptBySearch* kept = nullptr;  // from PairSearch::prepare
-  const PositionsView *x_t0 = nullptr, *x_t1 = nullptr;
+  const SteppedMesh* motion = nullptr;
   // Its stop function is asked during work that gives the sink no pairs, and its workers do the
   // search. Null: nothing is asked, and the calling thread searches alone.
   PacedStop* pace = nullptr;
@@ -103,9 +103,9 @@ class PairSearch {
     return nullptr;
   }
   // Fits the tree to a step, before the searches of that step.
-  virtual bool fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-                   const PositionsView& x_t1, PacedStop& pace) const {
-    return tree.refit(mesh, x_t0, x_t1, pace);
+  virtual bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+                   PacedStop& pace) const {
+    return tree.refit(mesh, motion, pace);
   }
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;
@@ -144,8 +144,7 @@ class TreeSearch : public PairSearch {
 // Takes every pair that the tables ask for, without boxes. O(M^2).
 class ExhaustiveSearch : public PairSearch {
  public:
-  bool fit(BoundingVolumeTree&, const Topology&, const PositionsView&, const PositionsView&,
-           PacedStop&) const override {
+  bool fit(BoundingVolumeTree&, const Topology&, const SteppedMesh&, PacedStop&) const override {
     return true;
   }
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;

@@ -49,7 +49,7 @@ bool has_more_ghost_pairs(const StepWork& work, double limit) {
     if (work.free[c]) continue;
     for (const auto ghost : work.ghosts(c)) {
       const auto box =
-          work.tree.box_of_triangle(work.surface.all().triangles[at(ghost)], work.x_t0, work.x_t1);
+          work.tree.box_of_triangle(work.surface.all().triangles[at(ghost)], work.motion);
       const std::uint64_t before = counts.box_tests;
       if (!search_box(work.tree, box, counts, count)) return true;
       if (work.pace.after(work_of_box + counts.box_tests - before)) return true;
@@ -94,14 +94,15 @@ std::uint64_t adjacent_pairs(const Topology& mesh) {
 }
 
 const std::vector<ViewAnchor>& CostModel::anchors(const std::vector<ViewAnchor>& first,
-                                                  const PositionsView& x_t0, PacedStop& pace) {
+                                                  const PositionsView& vertices_t0,
+                                                  PacedStop& pace) {
   if (state_.anchors_are_due) {
     auto chosen = std::make_shared<std::vector<ViewAnchor>>();
     for (const auto& component : surface_.all().components) {
       const Effort effort = effort_for(component, surface_.mesh, Effort::quick);
       pace.after(effort == Effort::least ? 400 : 10'000);
-      chosen->push_back(
-          choose_view_anchor(surface_.all(), component, surface_.first_apex, x_t0, effort, &pace));
+      chosen->push_back(choose_view_anchor(surface_.all(), component, surface_.first_apex,
+                                           vertices_t0, effort, &pace));
     }
     state_.anchors = std::move(chosen);
     chose_anchors_ = true;
@@ -133,9 +134,8 @@ bool CostModel::worth_classifying(const StepWork& work) {
     ViewCounts rungs;
     for (std::size_t i = 0; i < sample_size; ++i) {
       const auto& v = work.surface.mesh.triangles[at(own[i * own.size() / sample_size])];
-      const MovingTriangle triangle = {moving_point(work.x_t0, work.x_t1, v[0]),
-                                       moving_point(work.x_t0, work.x_t1, v[1]),
-                                       moving_point(work.x_t0, work.x_t1, v[2])};
+      const MovingTriangle triangle = {work.motion.path(v[0]), work.motion.path(v[1]),
+                                       work.motion.path(v[2])};
       const ViewSign sign = view_sign(triangle, work.primitives[c], rungs, Arithmetic::bounded);
       positive += sign == ViewSign::positive;
       negative += sign == ViewSign::negative;
@@ -157,7 +157,7 @@ bool CostModel::worth_sweeping(StepWork& work) {
   if (share_ < least_share || state_.overhead > hoped)
     return does_without(ViewUse::saving_too_little);
   if (surface_.is_closed()) return true;
-  if (!work.tree.refit(surface_.mesh, work.x_t0, work.x_t1, work.pace)) return paid_ = false;
+  if (!work.tree.refit(surface_.mesh, work.motion, work.pace)) return paid_ = false;
   const double saved = share_ * static_cast<double>(expected_candidates());
   return !has_more_ghost_pairs(work, saved / cost_of_ghost_pair) ||
          does_without(ViewUse::among_ghosts);

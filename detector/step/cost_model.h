@@ -43,7 +43,8 @@ class CostModel : public CullingPolicy {
   bool is_due() const override { return state_.pause == 0; }
   // Chooses anchors again when they are due, from the positions at the start of the step.
   const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
-                                         const PositionsView& x_t0, PacedStop& pace) override;
+                                         const PositionsView& vertices_t0,
+                                         PacedStop& pace) override;
 
   // Classifies a few triangles of each large component, in doubles alone. No where doubles can tell
   // few of their signs, as on a sheet that is seen along itself: integers would have to decide the

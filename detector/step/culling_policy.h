@@ -28,7 +28,8 @@ class CullingPolicy {
   virtual bool is_due() const = 0;
   // Where each component is seen from. `first`: the anchors of preprocessing.
   virtual const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
-                                                 const PositionsView& x_t0, PacedStop& pace) = 0;
+                                                 const PositionsView& vertices_t0,
+                                                 PacedStop& pace) = 0;
   // Whether the triangles are classified. REQUIRES that primitives are placed.
   virtual bool worth_classifying(const StepWork& work) = 0;
   // Whether the ghosts are swept. REQUIRES that the triangles are classified.

@@ -29,7 +29,7 @@ bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& compo
   Marking().bring_to(types, work.tree, marks, marking);
   if (work.pace.after(work_of_mark * types.size())) return false;
   const PairTables tables = {PairTable().add(flag::violated, flag::violated), {}};
-  FeatureContacts contacts(mesh, work.x_t0, work.x_t0, work.elementary, Want::yes_no, &work.pace);
+  FeatureContacts contacts(mesh, work.motion.at_start(), work.elementary, Want::yes_no, &work.pace);
   if (work.pace.stopped()) return false;
   SearchCounts counts;
   std::uint64_t pairs = 0;
@@ -67,24 +67,24 @@ bool ReleaseRule::is_free(StepWork& work, std::size_t c) const {
   const std::array<Point, 2> start = {primitive.q0.t0, primitive.q1.t0};
   if (work.known && work.known->inside[c] == start) return true;
   ++work.counts.winding_numbers;
-  return winding_number(work.surface.all(), triangles, work.x_t0, primitive.q0.t0, arithmetic_,
-                        &work.pace) == 1;
+  return winding_number(work.surface.all(), triangles, work.motion.vertices_t0, primitive.q0.t0,
+                        arithmetic_, &work.pace) == 1;
 }
 
 bool ReleaseRule::released_at_start(const StepWork& work, std::size_t c) const {
   const Component& component = work.component(c);
   const ViewPrimitive& primitive = work.primitives[c];
-  return all_positive_at(work.surface.all(), component, work.x_t0, primitive.q0.t0, primitive.q1.t0,
-                         arithmetic_, &work.pace) &&
-         winding_number(work.surface.all(), component.triangles, work.x_t0, primitive.q0.t0,
-                        arithmetic_, &work.pace) == 1;
+  return all_positive_at(work.surface.all(), component, work.motion.vertices_t0, primitive.q0.t0,
+                         primitive.q1.t0, arithmetic_, &work.pace) &&
+         winding_number(work.surface.all(), component.triangles, work.motion.vertices_t0,
+                        primitive.q0.t0, arithmetic_, &work.pace) == 1;
 }
 
 bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& components) const {
-  if (!work.tree.refit(work.surface.mesh, work.x_t0, work.x_t0, work.pace)) return false;
+  if (!work.tree.refit(work.surface.mesh, work.motion.at_start(), work.pace)) return false;
   std::vector<std::uint8_t> touched(work.surface.mesh.triangles.size(), 0);
   if (!find_static_contacts(work, components, touched)) return false;
-  const GhostSweep still{work.surface, work.tree, work.x_t0, work.x_t0, work.elementary, true};
+  const GhostSweep still{work.surface, work.tree, work.motion.at_start(), work.elementary, true};
   for (const auto c : components) {
     if (work.pace.after(work_of_component) ||
         !work.boundary.sweep(still, work.ghosts(at(c)), work.stop, touched, work.counts.ghosts))
@@ -93,8 +93,8 @@ bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& 
   std::vector<std::uint8_t> seen(work.surface.all().triangles.size(), 0);
   for (const auto c : components) {
     if (work.pace.after(work_of_component)) return false;
-    mark_clean_by_layers({work.surface, work.x_t0, touched, arithmetic_, &work.pace}, at(c), seen,
-                         work.clean);
+    mark_clean_by_layers({work.surface, work.motion.vertices_t0, touched, arithmetic_, &work.pace},
+                         at(c), seen, work.clean);
   }
   return !work.pace.stopped();
 }
@@ -129,15 +129,15 @@ bool ReleaseRule::release(StepWork& work, const std::vector<std::int32_t>& compo
   } else {
     std::vector<std::uint8_t> touched(work.surface.mesh.triangles.size(), 0), seen(touched);
     if (!add_lasting_contacts(work, touched)) return false;
-    const FloatGrid grid(work.x_t0, work.x_t0);
+    const FloatGrid grid(work.motion.at_start());
     for (std::size_t i = 0; i < components.size(); ++i) {
       const auto c = at(components[i]);
       if (!add_ghost_touches(work, grid, c, may_touch_ghosts(work, in_doubt[i]), touched))
         return false;
       if (work.pace.after(work_of_component)) return false;
       work.counts.release.winding_numbers +=
-          release_pieces({work.surface, work.x_t0, touched, arithmetic_, &work.pace}, c,
-                         in_doubt[i], witnesses(work, c), seen, work.clean);
+          release_pieces({work.surface, work.motion.vertices_t0, touched, arithmetic_, &work.pace},
+                         c, in_doubt[i], witnesses(work, c), seen, work.clean);
     }
     if (work.pace.stopped()) return false;
   }

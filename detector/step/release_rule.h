@@ -26,10 +26,10 @@ class ReleaseRule {
       : arithmetic_(arithmetic), release_(release) {}
   virtual ~ReleaseRule() = default;
 
-  // L8: whether the state of the last commit is valid for a step that starts at x_t0.
-  virtual bool still_holds(const StepState& state, const PositionsView& x_t0,
+  // L8: whether the state of the last commit is valid for a step that starts at vertices_t0.
+  virtual bool still_holds(const StepState& state, const PositionsView& vertices_t0,
                            const PacedStop& pace) const {
-    return state.holds_at(x_t0, pace);
+    return state.holds_at(vertices_t0, pace);
   }
 
   // L5 over the step: whether every triangle and every ghost of the component is positive, and the

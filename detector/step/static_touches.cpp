@@ -14,7 +14,7 @@ constexpr std::uint64_t work_to_look = 40;
 
 bool add_lasting_contacts(StepWork& work, std::vector<std::uint8_t>& touched) {
   const auto& triangles = work.surface.mesh.triangles;
-  const FacePairTest faces(work.x_t0, work.x_t0, work.elementary, true);
+  const FacePairTest faces(work.motion.at_start(), work.elementary, true);
   GhostCounts counts;
   std::size_t tests = 0;
   for (const auto& [a, b] : work.known->met) {
@@ -31,14 +31,15 @@ bool add_ghost_touches(StepWork& work, const FloatGrid& grid, std::size_t c,
                        std::span<const std::int32_t> in_doubt, std::vector<std::uint8_t>& touched) {
   const Topology& all = work.surface.all();
   if (work.ghosts(c).empty()) return true;
-  const auto holes = make_hole_trees(all, work.ghosts(c), grid, work.x_t0, work.x_t0);
-  const FacePairTest faces(work.x_t0, work.x_t0, work.elementary, true);
+  const SteppedMesh still = work.motion.at_start();
+  const auto holes = make_hole_trees(all, work.ghosts(c), grid, still);
+  const FacePairTest faces(still, work.elementary, true);
   GhostCounts counts;
   for (const auto t : in_doubt) {
     const std::uint64_t before = counts.work();
     if (touched[at(t)]) continue;
     const auto& corners = all.triangles[at(t)];
-    const auto corner = [&](std::size_t i) { return grid(work.x_t0, work.x_t0, corners[i]); };
+    const auto corner = [&](std::size_t i) { return grid(still, corners[i]); };
     const MovingBox box = box_of(corner(0), corner(1), corner(2));
     const auto meets = [&](std::int32_t ghost) {
       ++counts.pairs;

@@ -22,8 +22,8 @@ bool add_lasting_contacts(StepWork& work, std::vector<std::uint8_t>& touched);
 
 // Sets touched[t] for those triangles in doubt of component c that a ghost of it meets or pierces
 // at t=0. False if stopped. For each triangle it descends the tree of each hole. REQUIRES the grid
-// of work.x_t0, which the caller makes once for all components, because that takes a pass over all
-// vertices.
+// of the mesh at rest at t=0, which the caller makes once for all components, because that takes a
+// pass over all vertices.
 bool add_ghost_touches(StepWork& work, const FloatGrid& grid, std::size_t c,
                        std::span<const std::int32_t> in_doubt, std::vector<std::uint8_t>& touched);
 

@@ -48,8 +48,8 @@ namespace {
 
 class Step {
  public:
-  Step(StepContext& context, const StepState* known, const PositionsView& x_t0,
-       const PositionsView& x_t1, CullingPolicy& policy, const StopFunction& stop)
+  Step(StepContext& context, const StepState* known, const SteppedMesh& motion,
+       CullingPolicy& policy, const StopFunction& stop)
       : context_(context),
         mesh_(context.surface.mesh),
         policy_(policy),
@@ -59,21 +59,20 @@ class Step {
               *context.stages.elementary,
               stop,
               context.workers,
-              x_t0,
-              x_t1,
+              motion,
               known} {}
 
   // primitives: none, one, or one for each component.
-  StepResult run(const PositionsView& mesh_x_t0, const PositionsView& mesh_x_t1,
-                 std::span<const ViewPrimitive> primitives, std::optional<StepState>& next) {
-    if (policy_.is_due()) place_primitives(mesh_x_t0, mesh_x_t1, primitives);
+  StepResult run(const SteppedMesh& mesh, std::span<const ViewPrimitive> primitives,
+                 std::optional<StepState>& next) {
+    if (policy_.is_due()) place_primitives(mesh, primitives);
     const bool completed = !work_.pace.stopped() && run_stages();
     result_.answer = !completed              ? Answer::undecided
                      : result_.pairs.empty() ? Answer::free
                                              : Answer::collision;
     if (completed)
       next = state_at_end(work_, *context_.stages.release, result_.pairs, is_complete(),
-                          mesh_x_t1);  // set whole or, if memory fails, not at all
+                          mesh.vertices_t1);  // set whole or, if memory fails, not at all
     if (next) next->policy = policy_.next(work_.counts, primitives.empty());
     result_.first = least_time(result_.pairs);
     if (completed) result_.views = policy_.use();
@@ -82,13 +81,13 @@ class Step {
   }
 
  private:
-  void place_primitives(const PositionsView& x_t0, const PositionsView& x_t1,
-                        std::span<const ViewPrimitive> given) {
+  void place_primitives(const SteppedMesh& motion, std::span<const ViewPrimitive> given) {
     if (given.empty()) {
       constexpr std::uint64_t work_of_anchor = 10;
-      for (const auto& anchor : policy_.anchors(context_.anchors, work_.x_t0, work_.pace)) {
+      for (const auto& anchor :
+           policy_.anchors(context_.anchors, work_.motion.vertices_t0, work_.pace)) {
         if (work_.pace.after(work_of_anchor)) return;
-        work_.primitives.push_back(place_view(anchor, x_t0, x_t1));
+        work_.primitives.push_back(place_view(anchor, motion));
       }
     } else if (given.size() == 1) {
       work_.primitives.assign(mesh_.components.size(), given[0]);
@@ -137,8 +136,8 @@ class Step {
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
       // The classifier counts the work of signs itself; this is what the component takes besides.
       constexpr std::uint64_t work_beside_signs = 200;
-      if (!context_.stages.classifier->classify(work_.surface.all(), work_.component(c), work_.x_t0,
-                                                work_.x_t1, work_.primitives[c], work_.signs,
+      if (!context_.stages.classifier->classify(work_.surface.all(), work_.component(c),
+                                                work_.motion, work_.primitives[c], work_.signs,
                                                 work_.counts.view, work_.pace)) {
         return false;
       }
@@ -159,9 +158,8 @@ class Step {
   bool sweep_ghosts() {
     if (work_.surface.is_closed()) return true;
     Stopwatch watch(result_.times.ghosts);
-    if (!work_.tree.refit(mesh_, work_.x_t0, work_.x_t1, work_.pace)) return false;
-    GhostSweep sweep{work_.surface, work_.tree,       work_.x_t0,
-                     work_.x_t1,    work_.elementary, !work_.known};
+    if (!work_.tree.refit(mesh_, work_.motion, work_.pace)) return false;
+    GhostSweep sweep{work_.surface, work_.tree, work_.motion, work_.elementary, !work_.known};
     work_.near_ghosts.assign(mesh_.triangles.size(), 0);
     sweep.near = &work_.near_ghosts;
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
@@ -190,12 +188,12 @@ class Step {
                                      *stages.elementary};
     {
       Stopwatch watch(times.broad_phase);
-      if (!stages.pair_search->fit(work_.tree, mesh_, work_.x_t0, work_.x_t1, work_.pace)) {
+      if (!stages.pair_search->fit(work_.tree, mesh_, work_.motion, work_.pace)) {
         return false;
       }
     }
-    CandidateSearch candidates(search_stages, mesh_, work_.tree, context_.search, work_.x_t0,
-                               work_.x_t1, work_.pace);
+    CandidateSearch candidates(search_stages, mesh_, work_.tree, context_.search, work_.motion,
+                               work_.pace);
     bool completed = true;
     {
       Stopwatch watch(times.broad_phase);
@@ -264,16 +262,16 @@ StepResult undecided() {
 }  // namespace
 
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
-                         const PositionsView& x_t0, const PositionsView& x_t1,
-                         std::span<const ViewPrimitive> primitives, const StopFunction& asked,
-                         std::optional<StepState>& next) {
+                         const SteppedMesh& motion, std::span<const ViewPrimitive> primitives,
+                         const StopFunction& asked, std::optional<StepState>& next) {
   SharedStop shared(asked);
   const StopFunction stop = shared.function();
   PacedStop pace(stop, context.workers);
-  if (auto problem = check_step_input(context.surface, x_t0, x_t1, primitives, pace))
+  if (auto problem = check_step_input(context.surface, motion, primitives, pace))
     return refused(std::move(*problem));
   const StepState* state =
-      known && context.stages.release->still_holds(*known, x_t0, pace) ? &*known : nullptr;
+      known && context.stages.release->still_holds(*known, motion.vertices_t0, pace) ? &*known
+                                                                                     : nullptr;
   PolicyOfStep policy_of_step(context, known);
   CullingPolicy& policy = policy_of_step.policy();
   double total = 0;
@@ -281,16 +279,16 @@ StepResult evaluate_step(StepContext& context, const std::optional<StepState>& k
   {
     Stopwatch watch(total);
     if (context.surface.is_closed() || !policy.is_due()) {
-      result = Step(context, state, x_t0, x_t1, policy, stop).run(x_t0, x_t1, primitives, next);
+      result = Step(context, state, motion, policy, stop).run(motion, primitives, next);
     } else {
       constexpr std::uint64_t work_of_ghost = 10, work_of_vertex = 3;
       auto apexes =
-          context.stages.boundary->place_apexes(context.surface, context.apex_rules, x_t0, x_t1);
+          context.stages.boundary->place_apexes(context.surface, context.apex_rules, motion);
       if (pace.after(work_of_ghost * context.surface.ghost_count())) return undecided();
-      const Positions all_t0 = with_apexes(x_t0, apexes, false);
+      const Positions all_t0 = with_apexes(motion.vertices_t0, apexes, false);
       if (pace.after(work_of_vertex * at(context.surface.first_apex))) return undecided();
-      const Positions all_t1 = with_apexes(x_t1, apexes, true);
-      result = Step(context, state, all_t0, all_t1, policy, stop).run(x_t0, x_t1, primitives, next);
+      const Positions all_t1 = with_apexes(motion.vertices_t1, apexes, true);
+      result = Step(context, state, {all_t0, all_t1}, policy, stop).run(motion, primitives, next);
       if (!result.primitives.empty()) result.apexes = std::move(apexes);
     }
   }

@@ -25,8 +25,7 @@ struct StepContext {
 // answer is free or collision, `next` is set to the state at the end of the step. REQUIRES that
 // `next` is empty; without an answer it stays so.
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
-                         const PositionsView& x_t0, const PositionsView& x_t1,
-                         std::span<const ViewPrimitive> primitives, const StopFunction& stop,
-                         std::optional<StepState>& next);
+                         const SteppedMesh& motion, std::span<const ViewPrimitive> primitives,
+                         const StopFunction& stop, std::optional<StepState>& next);
 
 }  // namespace assay::detector

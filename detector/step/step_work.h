@@ -18,8 +18,8 @@ struct StepWork {
   const ElementaryTest& elementary;
   const StopFunction& stop;  // all workers may ask it
   const Workers& workers;
-  PositionsView x_t0, x_t1;  // rows: vertices of the mesh, then apexes
-  const StepState* known;    // the state of the last commit if this step starts there, else null
+  SteppedMesh motion;      // rows: vertices of the mesh, then apexes
+  const StepState* known;  // the state of the last commit if this step starts there, else null
 
   std::vector<ViewPrimitive> primitives = {};  // by component
   std::vector<ViewSign> signs = {};            // by triangle of the surface

@@ -62,8 +62,8 @@ struct Kept : KeptBySearch {
 class PatchCones : public PatchProofs {
  public:
   PatchCones(const NormalConeSearch& scheme, const SearchInput& input, SearchCounts& counts)
-      : PatchCones(scheme, input.tree, static_cast<Kept&>(*input.kept), *input.x_t0, *input.x_t1, 0,
-                   counts, input.pace) {
+      : PatchCones(scheme, input.tree, static_cast<Kept&>(*input.kept), *input.motion, 0, counts,
+                   input.pace) {
     if (pace_ && pace_->workers())
       kept_.joined.resize(std::max(kept_.joined.size(), pace_->workers()->count()),
                           kept_.joined[0]);
@@ -73,7 +73,7 @@ class PatchCones : public PatchProofs {
   std::unique_ptr<PatchProofs> in_lane(std::size_t lane, SearchCounts& counts,
                                        PacedStop& pace) const override {
     return std::unique_ptr<PatchProofs>(
-        new PatchCones(scheme_, tree_, kept_, x_t0_, x_t1_, lane, counts, &pace));
+        new PatchCones(scheme_, tree_, kept_, motion_, lane, counts, &pace));
   }
 
   bool is_free(std::int32_t node) override {
@@ -95,14 +95,12 @@ class PatchCones : public PatchProofs {
 
  private:
   PatchCones(const NormalConeSearch& scheme, const BoundingVolumeTree& tree, Kept& kept,
-             const PositionsView& x_t0, const PositionsView& x_t1, std::size_t lane,
-             SearchCounts& counts, PacedStop* pace)
+             const SteppedMesh& motion, std::size_t lane, SearchCounts& counts, PacedStop* pace)
       : scheme_(scheme),
         tree_(tree),
         kept_(kept),
-        x_t0_(x_t0),
-        x_t1_(x_t1),
-        moving_(x_t0, x_t1),
+        motion_(motion),
+        moving_(motion),
         lane_(lane),
         pace_(pace),
         counts_(counts) {
@@ -125,9 +123,8 @@ class PatchCones : public PatchProofs {
       auto& cone = kept_.cones[at(node)];
       if (tree.is_leaf(node)) {
         const auto& corners = mesh.triangles[at(tree.triangle(node))];
-        cone = scheme_.faced({moving_point(x_t0_, x_t1_, corners[0]),
-                              moving_point(x_t0_, x_t1_, corners[1]),
-                              moving_point(x_t0_, x_t1_, corners[2])});
+        cone = scheme_.faced(
+            {motion_.path(corners[0]), motion_.path(corners[1]), motion_.path(corners[2])});
       } else {
         const auto child = at(tree.child(node));
         cone = kept_.cones[child] & kept_.cones[child + 1];
@@ -149,7 +146,7 @@ class PatchCones : public PatchProofs {
   const NormalConeSearch& scheme_;
   const BoundingVolumeTree& tree_;
   Kept& kept_;
-  const PositionsView &x_t0_, &x_t1_;
+  const SteppedMesh motion_;
   MovingContour moving_;
   const std::size_t lane_;
   PacedStop* pace_;
@@ -217,7 +214,7 @@ std::vector<std::int32_t> walk_along(const Topology& mesh, std::vector<DirectedE
 ProvableShares NormalConeSearch::provable_shares(const SearchInput& input) const {
   constexpr std::size_t small = 12, large = 96;
   const std::size_t patches = std::clamp<std::size_t>(input.mesh.triangles.size() / 512, 4, 32);
-  MovingContour moving(*input.x_t0, *input.x_t1);
+  MovingContour moving(*input.motion);
   const auto share = [&](std::size_t of_a_patch, std::size_t count) {
     std::size_t free = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -235,9 +232,7 @@ bool NormalConeSearch::is_free(const SearchInput& input, MovingContour& moving,
   DirectionSet cone = ~DirectionSet{0};
   for (const auto t : patch) {
     const auto& v = input.mesh.triangles[at(t)];
-    cone &= faced({moving_point(*input.x_t0, *input.x_t1, v[0]),
-                   moving_point(*input.x_t0, *input.x_t1, v[1]),
-                   moving_point(*input.x_t0, *input.x_t1, v[2])});
+    cone &= faced({input.motion->path(v[0]), input.motion->path(v[1]), input.motion->path(v[2])});
     if (cone == 0) return false;
   }
   const auto contour = walk_along(input.mesh, boundary_of(input.mesh, patch));

@@ -14,7 +14,6 @@ using detector::DirectedEdge;
 using detector::DirectionSet;
 using detector::MovingContour;
 using detector::NormalConeSearch;
-using detector::PositionsView;
 using detector::Topology;
 using Triangle = std::array<detector::MovingPoint, 3>;
 
@@ -60,15 +59,16 @@ class ContourAtEnd : public NormalConeSearch {
  public:
   bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
               const detector::PairSink& sink) const override {
-    x_ = input.x_t1;
+    motion_ = input.motion;
     return NormalConeSearch::search(input, counts, sink);
   }
   bool stays_simple(MovingContour&, Contour contour, int direction_bit) const override {
-    return MovingContour(*x_, *x_).stays_simple(contour, direction_bit);
+    return MovingContour({motion_->vertices_t1, motion_->vertices_t1})
+        .stays_simple(contour, direction_bit);
   }
 
  private:
-  mutable const PositionsView* x_ = nullptr;  // of the step at hand
+  mutable const detector::SteppedMesh* motion_ = nullptr;  // of the step at hand
 };
 
 // Triangles that hang together at a vertex are taken for a patch, and the first walk around some of

@@ -25,7 +25,7 @@ template <Contacts contacts, Ghosts ghosts, ReleasedLayers layers>
 struct ReleaseHalfChecked : ReleaseRule {
   bool release(StepWork& work, const Components& components) const override {
     Flags touched(work.clean.size(), 0), seen(touched);
-    const detector::FloatGrid grid(work.x_t0, work.x_t0);
+    const detector::FloatGrid grid(work.motion.at_start());
     if (contacts == Contacts::tested) detector::add_lasting_contacts(work, touched);
     for (const auto component : components) {
       const std::size_t c = at(component);
@@ -36,7 +36,7 @@ struct ReleaseHalfChecked : ReleaseRule {
       if (ghosts == Ghosts::tested) detector::add_ghost_touches(work, grid, c, in_doubt, touched);
       switch (layers) {
         case ReleasedLayers::of_pieces:
-          detector::release_pieces({work.surface, work.x_t0, touched}, c, in_doubt,
+          detector::release_pieces({work.surface, work.motion.vertices_t0, touched}, c, in_doubt,
                                    witnesses(work, c), seen, work.clean);
           break;
         case ReleasedLayers::across_touched:
@@ -58,8 +58,8 @@ struct ReleaseHalfChecked : ReleaseRule {
                               const Flags& touched) const {
     const Flags nothing(touched.size(), 0);
     Flags seen(nothing);
-    detector::release_pieces({work.surface, work.x_t0, nothing}, c, in_doubt, witnesses(work, c),
-                             seen, work.clean);
+    detector::release_pieces({work.surface, work.motion.vertices_t0, nothing}, c, in_doubt,
+                             witnesses(work, c), seen, work.clean);
     for (const auto t : in_doubt) work.clean[at(t)] &= !touched[at(t)];
   }
 

@@ -18,7 +18,7 @@ using Components = std::vector<std::int32_t>;
 
 // Triangles that meet another one of their component at t=0.
 void add_own_contacts(const StepWork& work, std::size_t c, Flags& touched) {
-  detector::FeatureContacts contacts(work.surface.mesh, work.x_t0, work.x_t0, work.elementary,
+  detector::FeatureContacts contacts(work.surface.mesh, work.motion.at_start(), work.elementary,
                                      detector::Want::yes_no);
   const auto own = work.own_triangles(c);
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -35,9 +35,9 @@ template <bool contacts, bool ghosts, StartLayers layers>
 struct StartHalfChecked : ReleaseRule {
   bool verify_start(StepWork& work, const Components& components) const override {
     Flags touched(work.surface.mesh.triangles.size(), 0);
-    work.tree.refit(work.surface.mesh, work.x_t0, work.x_t0);
-    const detector::GhostSweep still{work.surface, work.tree,       work.x_t0,
-                                     work.x_t0,    work.elementary, true};
+    work.tree.refit(work.surface.mesh, work.motion.at_start());
+    const detector::GhostSweep still{work.surface, work.tree, work.motion.at_start(),
+                                     work.elementary, true};
     Flags seen(work.surface.all().triangles.size(), 0);
     for (const auto component : components) {
       const std::size_t c = at(component);
@@ -45,7 +45,8 @@ struct StartHalfChecked : ReleaseRule {
       if (ghosts) {
         work.boundary.sweep(still, work.ghosts(c), work.stop, touched, work.counts.ghosts);
       }
-      detector::mark_clean_by_layers({work.surface, work.x_t0, touched}, c, seen, work.clean);
+      detector::mark_clean_by_layers({work.surface, work.motion.vertices_t0, touched}, c, seen,
+                                     work.clean);
       if (layers == StartLayers::by_piece) continue;
       const auto own = work.own_triangles(c);
       const bool some =
@@ -65,15 +66,15 @@ struct LowestLayerIsCommon : ReleaseRule {
       const std::size_t c = at(component);
       Flags touched(work.surface.mesh.triangles.size(), 0);
       add_own_contacts(work, c, touched);
-      const detector::GhostSweep still{work.surface, work.tree,       work.x_t0,
-                                       work.x_t0,    work.elementary, true};
+      const detector::GhostSweep still{work.surface, work.tree, work.motion.at_start(),
+                                       work.elementary, true};
       work.boundary.sweep(still, work.ghosts(c), work.stop, touched, work.counts.ghosts);
       std::optional<int> common;
       for (const auto t : work.own_triangles(c)) {
         work.clean[at(t)] = 0;
         if (touched[at(t)]) continue;
         const auto outside = detector::winding_numbers_outside(
-            work.surface.all(), work.component(c).triangles, work.x_t0, {{t}})[0];
+            work.surface.all(), work.component(c).triangles, work.motion.vertices_t0, {{t}})[0];
         if (!common) common = outside;
         work.clean[at(t)] = outside && outside == common;
       }
@@ -99,8 +100,8 @@ bool all_positive(const StepWork& work, std::span<const std::int32_t> triangles)
 // `surface`: that of the step, or its mesh without ghosts.
 bool all_positive_at_start(const StepWork& work, std::size_t c, const detector::Topology& surface) {
   const auto& primitive = work.primitives[c];
-  return detector::all_positive_at(surface, surface.components[c], work.x_t0, primitive.q0.t0,
-                                   primitive.q1.t0);
+  return detector::all_positive_at(surface, surface.components[c], work.motion.vertices_t0,
+                                   primitive.q0.t0, primitive.q1.t0);
 }
 
 struct WindingNotChecked : ReleaseRule {
@@ -123,8 +124,8 @@ struct GhostSignsNotAsked : ReleaseRule {
 
  private:
   static bool is_inside(const StepWork& work, std::size_t c) {
-    return detector::winding_number(work.surface.all(), work.component(c).triangles, work.x_t0,
-                                    work.primitives[c].q0.t0) == 1;
+    return detector::winding_number(work.surface.all(), work.component(c).triangles,
+                                    work.motion.vertices_t0, work.primitives[c].q0.t0) == 1;
   }
 };
 

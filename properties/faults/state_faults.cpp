@@ -107,12 +107,13 @@ class EvaluationKept : public ReleaseRule {
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
               StepState& state) const override {
     ReleaseRule::settle(work, pairs, complete, state);
-    free_from_.resize(pairs.empty() ? work.x_t0.rows() : 0, 3);
-    if (pairs.empty()) free_from_ = work.x_t0;
+    free_from_.resize(pairs.empty() ? work.motion.size() : 0, 3);
+    if (pairs.empty()) free_from_ = work.motion.vertices_t0;
   }
   bool release(StepWork& work, const std::vector<std::int32_t>& components) const override {
     if (!ReleaseRule::release(work, components)) return false;
-    const bool is_known = free_from_.rows() == work.x_t0.rows() && free_from_ == work.x_t0;
+    const bool is_known =
+        free_from_.rows() == work.motion.size() && free_from_ == work.motion.vertices_t0;
     if (is_known) std::fill(work.clean.begin(), work.clean.end(), 1);
     return true;
   }

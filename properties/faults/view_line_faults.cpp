@@ -71,7 +71,7 @@ struct FreeFromMidpoint : detector::ReleaseRule {
     for (const auto t : triangles) {
       if (work.signs[at(t)] != ViewSign::positive) return false;
     }
-    return detector::winding_number(work.surface.all(), triangles, work.x_t0,
+    return detector::winding_number(work.surface.all(), triangles, work.motion.vertices_t0,
                                     midpoint(work.primitives[c]).q0.t0) == 1;
   }
 };

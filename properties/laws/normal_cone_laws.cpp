@@ -34,7 +34,7 @@ Observation certified_patches_are_free(CaseFacts& facts, std::size_t s) {
 // another pair of triangles shares.
 Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   if (!has_certified_patch(facts, s) || facts.judgement(s).pairs.empty()) return not_met();
-  const auto candidates = facts.traditional_scheme()->candidates(facts.x_t0(s), facts.x_t1(s));
+  const auto candidates = facts.traditional_scheme()->candidates({facts.x_t0(s), facts.x_t1(s)});
   for (const auto& contact : facts.judgement(s).pairs) {
     if (candidates.count(contact.pair)) continue;
     return fmt::format("({}, {}) is in contact, and the search by normal cones leaves it out",
@@ -55,9 +55,8 @@ class EagerProofs : public detector::PairSearch {
     return search_->prepare(mesh, tree, pace);
   }
   bool fit(detector::BoundingVolumeTree& tree, const detector::Topology& mesh,
-           const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-           detector::PacedStop& pace) const override {
-    return search_->fit(tree, mesh, x_t0, x_t1, pace);
+           const detector::SteppedMesh& motion, detector::PacedStop& pace) const override {
+    return search_->fit(tree, mesh, motion, pace);
   }
   bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
               const detector::PairSink& sink) const override {

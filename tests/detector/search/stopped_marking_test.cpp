@@ -16,10 +16,10 @@ class StoppedMarking : public testing::Test {
     bool operator==(const Found&) const = default;
   };
 
-  StoppedMarking() { tree_.refit(mesh_.topology, mesh_.x_t0, mesh_.x_t1); }
+  StoppedMarking() { tree_.refit(mesh_.topology, {mesh_.x_t0, mesh_.x_t1}); }
 
   CandidateSearch search(SearchMemory& memory, const StopFunction& stop) const {
-    return {stages_, mesh_.topology, tree_, memory, mesh_.x_t0, mesh_.x_t1, stop};
+    return {stages_, mesh_.topology, tree_, memory, {mesh_.x_t0, mesh_.x_t1}, stop};
   }
   Found found(SearchMemory& memory, std::span<const TriangleType> types) const {
     auto whole = search(memory, never_stops);
