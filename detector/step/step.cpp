@@ -53,27 +53,28 @@ class Step {
       : context_(context),
         mesh_(context.surface.mesh),
         policy_(policy),
-        work_{context.surface,
-              context.tree,
-              *context.stages.boundary,
-              *context.stages.elementary,
-              stop,
-              context.workers,
-              motion,
-              known} {}
+        given_{context.surface,
+               context.tree,
+               *context.stages.boundary,
+               *context.stages.elementary,
+               stop,
+               motion,
+               known},
+        cost_{.pace = PacedStop(stop, context.workers)} {}
 
   // primitives: none, one, or one for each component.
   StepResult run(const SteppedMesh& mesh, std::span<const ViewPrimitive> primitives,
                  std::optional<StepState>& next) {
     if (policy_.is_due()) place_primitives(mesh, primitives);
-    const bool completed = !work_.pace.stopped() && run_stages();
+    const bool completed = !cost_.pace.stopped() && run_stages();
     result_.answer = !completed              ? Answer::undecided
                      : result_.pairs.empty() ? Answer::free
                                              : Answer::collision;
     if (completed)
-      next = state_at_end(work_, *context_.stages.release, result_.pairs, is_complete(),
+      next = state_at_end(given_, marks_, cost_.pace, *context_.stages.release, result_.pairs,
+                          is_complete(),
                           mesh.vertices_t1);  // set whole or, if memory fails, not at all
-    if (next) next->policy = policy_.next(work_.counts, primitives.empty());
+    if (next) next->policy = policy_.next(cost_.counts, primitives.empty());
     result_.first = least_time(result_.pairs);
     if (completed) result_.views = policy_.use();
     hand_over();
@@ -85,35 +86,35 @@ class Step {
     if (given.empty()) {
       constexpr std::uint64_t work_of_anchor = 10;
       for (const auto& anchor :
-           policy_.anchors(context_.anchors, work_.motion.vertices_t0, work_.pace)) {
-        if (work_.pace.after(work_of_anchor)) return;
-        work_.primitives.push_back(place_view(anchor, motion));
+           policy_.anchors(context_.anchors, given_.motion.vertices_t0, cost_.pace)) {
+        if (cost_.pace.after(work_of_anchor)) return;
+        marks_.primitives.push_back(place_view(anchor, motion));
       }
     } else if (given.size() == 1) {
-      work_.primitives.assign(mesh_.components.size(), given[0]);
+      marks_.primitives.assign(mesh_.components.size(), given[0]);
     } else {
-      work_.primitives.assign(given.begin(), given.end());
+      marks_.primitives.assign(given.begin(), given.end());
     }
   }
 
   bool run_stages() {
-    work_.clean.assign(mesh_.triangles.size(), 0);
-    work_.touched.assign(mesh_.triangles.size(), 0);
-    work_.free.assign(mesh_.components.size(), 0);
-    if (policy_.is_due() && policy_.worth_classifying(work_) && !classify_components())
+    marks_.clean.assign(mesh_.triangles.size(), 0);
+    marks_.touched.assign(mesh_.triangles.size(), 0);
+    marks_.free.assign(mesh_.components.size(), 0);
+    if (policy_.is_due() && policy_.worth_classifying(given_, marks_) && !classify_components())
       return false;
-    if (policy_.may_use_views() && !work_.all_free() &&
-        !(work_.has_views() && policy_.worth_sweeping(work_))) {
+    if (policy_.may_use_views() && !marks_.all_free() &&
+        !(marks_.has_views() && policy_.worth_sweeping(given_, marks_, cost_.pace))) {
       drop_views();
     }
-    if (work_.has_views()) {
+    if (marks_.has_views()) {
       if (!find_start()) return false;
-      if (!work_.all_free() && !policy_.worth_using(work_)) drop_views();
+      if (!marks_.all_free() && !policy_.worth_using(given_, marks_, cost_.counts)) drop_views();
     }
-    if (work_.has_views()) {
-      const bool all_free = work_.all_free();
+    if (marks_.has_views()) {
+      const bool all_free = marks_.all_free();
       if (!all_free && !sweep_ghosts()) return false;
-      count_sets(work_, result_);
+      count_sets(marks_, result_);
       if (all_free && mesh_.components.size() == 1) return true;
     }
     return search();
@@ -123,56 +124,56 @@ class Step {
   // before the step, because the result of a step without views shows no view primitive, and
   // whoever keeps account of the state from results could not follow a release from one.
   void drop_views() {
-    take_clean_at_start(work_, context_.options.start);
-    work_.signs.clear();
-    work_.primitives.clear();
-    std::fill(work_.free.begin(), work_.free.end(), 0);
-    work_.counts.free_components = 0;
+    take_clean_at_start(given_, marks_, context_.options.start);
+    marks_.signs.clear();
+    marks_.primitives.clear();
+    std::fill(marks_.free.begin(), marks_.free.end(), 0);
+    cost_.counts.free_components = 0;
   }
 
   bool classify_components() {
     Stopwatch watch(result_.times.view_test);
-    work_.signs.assign(work_.surface.all().triangles.size(), ViewSign::zero);
+    marks_.signs.assign(given_.surface.all().triangles.size(), ViewSign::zero);
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
       // The classifier counts the work of signs itself; this is what the component takes besides.
       constexpr std::uint64_t work_beside_signs = 200;
-      if (!context_.stages.classifier->classify(work_.surface.all(), work_.component(c),
-                                                work_.motion, work_.primitives[c], work_.signs,
-                                                work_.counts.view, work_.pace)) {
+      if (!context_.stages.classifier->classify(given_.surface.all(), given_.component(c),
+                                                given_.motion, marks_.primitives[c], marks_.signs,
+                                                cost_.counts.view, cost_.pace)) {
         return false;
       }
-      if (work_.pace.after(work_beside_signs)) return false;
-      work_.free[c] = context_.stages.release->is_free(work_, c);
-      if (work_.pace.stopped()) return false;
-      work_.counts.free_components += work_.free[c];
+      if (cost_.pace.after(work_beside_signs)) return false;
+      marks_.free[c] = context_.stages.release->is_free(given_, marks_, cost_, c);
+      if (cost_.pace.stopped()) return false;
+      cost_.counts.free_components += marks_.free[c];
     }
     return true;
   }
 
   bool find_start() {
     Stopwatch watch(result_.times.start);
-    return find_clean_at_start(work_, *context_.stages.release, context_.options.start,
-                               policy_.start_by());
+    return find_clean_at_start(given_, marks_, cost_, *context_.stages.release,
+                               context_.options.start, policy_.start_by());
   }
 
   bool sweep_ghosts() {
-    if (work_.surface.is_closed()) return true;
+    if (given_.surface.is_closed()) return true;
     Stopwatch watch(result_.times.ghosts);
-    if (!work_.tree.refit(mesh_, work_.motion, work_.pace)) return false;
-    GhostSweep sweep{work_.surface, work_.tree, work_.motion, work_.elementary, !work_.known};
-    work_.near_ghosts.assign(mesh_.triangles.size(), 0);
-    sweep.near = &work_.near_ghosts;
+    if (!given_.tree.refit(mesh_, given_.motion, cost_.pace)) return false;
+    GhostSweep sweep{given_.surface, given_.tree, given_.motion, given_.elementary, !given_.known};
+    marks_.near_ghosts.assign(mesh_.triangles.size(), 0);
+    sweep.near = &marks_.near_ghosts;
     for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      if (work_.free[c]) continue;
+      if (marks_.free[c]) continue;
       constexpr std::uint64_t work_of_sweep = 200;
-      if (work_.pace.after(work_of_sweep)) return false;
-      if (!work_.boundary.sweep(sweep, work_.ghosts(c), work_.stop, work_.touched,
-                                work_.counts.ghosts)) {
+      if (cost_.pace.after(work_of_sweep)) return false;
+      if (!given_.boundary.sweep(sweep, given_.ghosts(c), given_.stop, marks_.touched,
+                                 cost_.counts.ghosts)) {
         return false;
       }
     }
-    const auto& near = work_.near_ghosts;
-    work_.counts.ghosts.near_triangles =
+    const auto& near = marks_.near_ghosts;
+    cost_.counts.ghosts.near_triangles =
         static_cast<std::uint64_t>(std::count(near.begin(), near.end(), 1));
     return true;
   }
@@ -180,56 +181,58 @@ class Step {
   bool search() {
     std::vector<TriangleType> types(mesh_.triangles.size());
     constexpr std::uint64_t work_of_type = 1;
-    for_all_paced(types.size(), work_of_type, work_.pace,
-                  [&](std::size_t t) { types[t] = type_of(work_, t); });
+    for_all_paced(types.size(), work_of_type, cost_.pace,
+                  [&](std::size_t t) { types[t] = type_of(marks_, t); });
     StepTimes& times = result_.times;
     const Stages& stages = context_.stages;
     const SearchStages search_stages{*stages.pair_rule, *stages.marking, *stages.pair_search,
                                      *stages.elementary};
     {
       Stopwatch watch(times.broad_phase);
-      if (!stages.pair_search->fit(work_.tree, mesh_, work_.motion, work_.pace)) {
+      if (!stages.pair_search->fit(given_.tree, mesh_, given_.motion, cost_.pace)) {
         return false;
       }
     }
-    CandidateSearch candidates(search_stages, mesh_, work_.tree, context_.search, work_.motion,
-                               work_.pace);
+    CandidateSearch candidates(search_stages, mesh_, given_.tree, context_.search, given_.motion,
+                               cost_.pace);
     bool completed = true;
     {
       Stopwatch watch(times.broad_phase);
       completed =
-          candidates.mark(types) && candidates.collect(policy_.worth_proving(work_, candidates));
+          candidates.mark(types) && candidates.collect(policy_.worth_proving(marks_, candidates));
     }
     // Tests are made as candidates come up, so their time is part of the time measured above.
     times.narrow_phase = candidates.test_time();
     times.broad_phase -= times.narrow_phase;
     const auto candidates_of_k = candidates.search_counts().candidate_pairs;
-    if (completed && work_.has_views() && context_.options.pairs == Pairs::all) {
+    if (completed && marks_.has_views() && context_.options.pairs == Pairs::all) {
       Stopwatch watch(times.closure);
       completed = candidates.close();
     }
     result_.pairs = candidates.take_contacts();
-    work_.counts.search = candidates.search_counts();
-    work_.counts.marking = candidates.marking_counts();
-    work_.counts.narrow = candidates.narrow_counts();
-    work_.counts.closure_rounds = candidates.closure_rounds();
-    if (work_.has_views()) policy_.record_cost(work_.counts, candidates_of_k);
+    cost_.counts.search = candidates.search_counts();
+    cost_.counts.marking = candidates.marking_counts();
+    cost_.counts.narrow = candidates.narrow_counts();
+    cost_.counts.closure_rounds = candidates.closure_rounds();
+    if (marks_.has_views()) policy_.record_cost(cost_.counts, candidates_of_k);
     return completed;
   }
 
   // Whether the pairs found are all that are in contact in the step.
-  bool is_complete() const { return !work_.has_views() || context_.options.pairs == Pairs::all; }
+  bool is_complete() const { return !marks_.has_views() || context_.options.pairs == Pairs::all; }
 
   void hand_over() {
-    result_.signs = std::move(work_.signs);
-    result_.primitives = std::move(work_.primitives);
-    result_.counts = work_.counts;
+    result_.signs = std::move(marks_.signs);
+    result_.primitives = std::move(marks_.primitives);
+    result_.counts = cost_.counts;
   }
 
   StepContext& context_;
   const Topology& mesh_;
   CullingPolicy& policy_;
-  StepWork work_;
+  const GivenStep given_;
+  StepMarks marks_;
+  StepCost cost_;
   StepResult result_;
 };
 

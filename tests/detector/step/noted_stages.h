@@ -139,26 +139,30 @@ class NotedRelease : public ReleaseRule {
     trace_.note("known?");
     return ReleaseRule::still_holds(state, x_t0, pace);
   }
-  bool is_free(StepWork& work, std::size_t component) const override {
+  bool is_free(const GivenStep& step, const StepMarks& marks, StepCost& cost,
+               std::size_t component) const override {
     trace_.note("free?");
-    return ReleaseRule::is_free(work, component);
+    return ReleaseRule::is_free(step, marks, cost, component);
   }
-  bool released_at_start(const StepWork& work, std::size_t component) const override {
+  bool released_at_start(const GivenStep& step, const StepMarks& marks, StepCost& cost,
+                         std::size_t component) const override {
     trace_.note("released?");
-    return ReleaseRule::released_at_start(work, component);
+    return ReleaseRule::released_at_start(step, marks, cost, component);
   }
-  bool verify_start(StepWork& work, const std::vector<std::int32_t>& components) const override {
+  bool verify_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
+                    const std::vector<std::int32_t>& components) const override {
     trace_.note("layers");
-    return ReleaseRule::verify_start(work, components);
+    return ReleaseRule::verify_start(step, marks, cost, components);
   }
-  bool release(StepWork& work, const std::vector<std::int32_t>& components) const override {
+  bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
+               const std::vector<std::int32_t>& components) const override {
     trace_.note("release");
-    return ReleaseRule::release(work, components);
+    return ReleaseRule::release(step, marks, cost, components);
   }
-  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              StepState& state) const override {
+  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
+              bool complete, StepState& state) const override {
     trace_.note("settle");
-    ReleaseRule::settle(work, pairs, complete, state);
+    ReleaseRule::settle(step, marks, pairs, complete, state);
   }
 
  private:
