@@ -110,10 +110,17 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   if (pace.now()) return stopped();
   SearchMemory search(surface.mesh, tree, &pace);
   if (pace.stopped()) return stopped();
-  search.kept = stages.pair_search->prepare(surface.mesh, tree, pace);
+  auto mesh_search = stages.pair_search->prepare(surface.mesh, tree, pace);
   if (pace.now()) return stopped();
-  StepContext context{options,           std::move(stages),  std::move(surface), std::move(tree),
-                      std::move(search), std::move(anchors), std::move(rules),   0,
+  StepContext context{options,
+                      std::move(stages),
+                      std::move(surface),
+                      std::move(tree),
+                      std::move(search),
+                      std::move(mesh_search),
+                      std::move(anchors),
+                      std::move(rules),
+                      0,
                       std::move(workers)};
   if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
   return Detector(

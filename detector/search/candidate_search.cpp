@@ -17,7 +17,6 @@ CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mes
       mesh_(mesh),
       tree_(tree),
       memory_(memory),
-      motion_(motion),
       stop_(pace.stop()),
       pace_(pace),
       contacts_(mesh, motion, stages.elementary, Want::first_time, memory.representatives,
@@ -52,15 +51,6 @@ bool CandidateSearch::follow_marks() {
 
 bool CandidateSearch::same_component(std::int32_t a, std::int32_t b) const {
   return mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
-}
-
-SearchInput CandidateSearch::input(const PairTables& tables, bool uses_proofs) {
-  return {mesh_, tree_, memory_.marks, tables, memory_.kept.get(), &motion_, &pace_, uses_proofs};
-}
-
-ProvableShares CandidateSearch::provable_shares() {
-  const PairTables none;
-  return stages_.search.provable_shares(input(none, true));
 }
 
 double CandidateSearch::asked_share() const {
@@ -101,7 +91,8 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
       return contacts_.add_candidate(a, b, may_pierce, stop_, lane);
     });
   };
-  return stages_.search.search(input(tables, uses_proofs), counts_, PairSink::in_lanes(take)) &&
+  const SearchInput input = {mesh_, tree_, memory_.marks, tables, &pace_, uses_proofs};
+  return stages_.search.search(input, counts_, PairSink::in_lanes(take)) &&
          contacts_.run(stop_, &pace_);
 }
 

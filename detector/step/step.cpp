@@ -185,11 +185,11 @@ class Step {
                   [&](std::size_t t) { types[t] = type_of(marks_, t); });
     StepTimes& times = result_.times;
     const Stages& stages = context_.stages;
-    const SearchStages search_stages{*stages.pair_rule, *stages.marking, *stages.pair_search,
+    const SearchStages search_stages{*stages.pair_rule, *stages.marking, *context_.pair_search,
                                      *stages.elementary};
     {
       Stopwatch watch(times.broad_phase);
-      if (!stages.pair_search->fit(given_.tree, mesh_, given_.motion, cost_.pace)) {
+      if (!context_.pair_search->fit(given_.tree, mesh_, given_.motion, cost_.pace)) {
         return false;
       }
     }

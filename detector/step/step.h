@@ -13,8 +13,9 @@ struct StepContext {
   Options options;
   Stages stages;
   Surface surface;
-  BoundingVolumeTree tree;           // of the mesh
-  SearchMemory search;               // with the marks of that tree
+  BoundingVolumeTree tree;                  // of the mesh
+  SearchMemory search;                      // with the marks of that tree
+  std::unique_ptr<MeshSearch> pair_search;  // from the stage of that name
   std::vector<ViewAnchor> anchors;   // one for each component; none with cullings without views
   std::vector<ApexRule> apex_rules;  // one for each loop; likewise
   std::uint64_t adjacent_pairs = 0;  // of the mesh; the cost model asks for it (cost_model.h)

@@ -35,6 +35,7 @@ namespace assay::detector {
 class MovingContour {
  public:
   explicit MovingContour(const SteppedMesh& motion) : motion_(motion) {}
+  const SteppedMesh& motion() const { return motion_; }
 
   // True only if it is proved that the contour, projected along the direction of this bit, is a
   // simple polygon at every t. O(length) if the contour is nearly convex, at worst O(length^2).

@@ -55,20 +55,11 @@ struct NoContourTest : NormalConeSearch {
   bool stays_simple(MovingContour&, Contour, int) const override { return true; }
 };
 
-class ContourAtEnd : public NormalConeSearch {
- public:
-  bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
-              const detector::PairSink& sink) const override {
-    motion_ = input.motion;
-    return NormalConeSearch::search(input, counts, sink);
+struct ContourAtEnd : NormalConeSearch {
+  bool stays_simple(MovingContour& moving, Contour contour, int direction_bit) const override {
+    const auto& end = moving.motion().vertices_t1;
+    return MovingContour({end, end}).stays_simple(contour, direction_bit);
   }
-  bool stays_simple(MovingContour&, Contour contour, int direction_bit) const override {
-    return MovingContour({motion_->vertices_t1, motion_->vertices_t1})
-        .stays_simple(contour, direction_bit);
-  }
-
- private:
-  mutable const detector::SteppedMesh* motion_ = nullptr;  // of the step at hand
 };
 
 // Triangles that hang together at a vertex are taken for a patch, and the first walk around some of

@@ -45,25 +45,38 @@ Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
 
 // The search of a detector, asked for proofs wherever they are not hopeless: the law is about what
 // they leave out, and not about when they pay.
+class EagerMeshSearch : public detector::MeshSearch {
+ public:
+  EagerMeshSearch(const detector::PairSearch& by, std::unique_ptr<detector::MeshSearch> search)
+      : MeshSearch(by), search_(std::move(search)) {}
+  bool fit(detector::BoundingVolumeTree& tree, const detector::Topology& mesh,
+           const detector::SteppedMesh& motion, detector::PacedStop& pace) override {
+    return search_->fit(tree, mesh, motion, pace);
+  }
+  bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
+              const detector::PairSink& sink) override {
+    return search_->search(input, counts, sink);
+  }
+  detector::ProvableShares provable_shares(const detector::Topology&) const override {
+    return {1, 1};
+  }
+
+ private:
+  std::unique_ptr<detector::MeshSearch> search_;
+};
+
 class EagerProofs : public detector::PairSearch {
  public:
   explicit EagerProofs(std::shared_ptr<const detector::PairSearch> search)
       : search_(std::move(search)) {}
-  std::unique_ptr<detector::KeptBySearch> prepare(const detector::Topology& mesh,
-                                                  const detector::BoundingVolumeTree& tree,
-                                                  detector::PacedStop& pace) const override {
-    return search_->prepare(mesh, tree, pace);
-  }
-  bool fit(detector::BoundingVolumeTree& tree, const detector::Topology& mesh,
-           const detector::SteppedMesh& motion, detector::PacedStop& pace) const override {
-    return search_->fit(tree, mesh, motion, pace);
+  std::unique_ptr<detector::MeshSearch> prepare(const detector::Topology& mesh,
+                                                const detector::BoundingVolumeTree& tree,
+                                                detector::PacedStop& pace) const override {
+    return std::make_unique<EagerMeshSearch>(*this, search_->prepare(mesh, tree, pace));
   }
   bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
               const detector::PairSink& sink) const override {
     return search_->search(input, counts, sink);
-  }
-  detector::ProvableShares provable_shares(const detector::SearchInput&) const override {
-    return {1, 1};
   }
 
  private:

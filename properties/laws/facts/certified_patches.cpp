@@ -169,17 +169,16 @@ CertifiedPatches TraditionalScheme::certify(const SteppedMesh& motion) const {
 
 std::set<TrianglePair> TraditionalScheme::candidates(const SteppedMesh& motion) {
   detector::PacedStop pace(detector::never_stops);
-  search_->fit(tree_, mesh_, motion, pace);
-  const auto kept = search_->prepare(mesh_, tree_, pace);
+  const auto search = search_->prepare(mesh_, tree_, pace);
+  search->fit(tree_, mesh_, motion, pace);
   const detector::Marks marks(tree_);  // normal cones know no view sets
   const detector::PairTables tables = detector::EveryPair().candidates();
   std::set<TrianglePair> found;
   detector::SearchCounts counts;
-  search_->search({mesh_, tree_, marks, tables, kept.get(), &motion}, counts,
-                  [&](std::int32_t a, std::int32_t b) {
-                    found.insert({std::min(a, b), std::max(a, b)});
-                    return true;
-                  });
+  search->search({mesh_, tree_, marks, tables}, counts, [&](std::int32_t a, std::int32_t b) {
+    found.insert({std::min(a, b), std::max(a, b)});
+    return true;
+  });
   return found;
 }
 

@@ -144,21 +144,20 @@ TEST_F(Paced, PointsAndRepresentatives) {
 TEST_F(Paced, NormalCones) {
   const NormalConeSearch search;
   BoundingVolumeTree tree(topology_, mesh_.x_t0);
-  tree.refit(topology_, {mesh_.x_t0, mesh_.x_t1});
   expect_paced(60 * count_, [&](PacedStop& pace) { search.prepare(topology_, tree, pace); });
   PacedStop never(never_stops);
-  const auto kept = search.prepare(topology_, tree, never);
+  const auto of_mesh = search.prepare(topology_, tree, never);
   const Marks marks(tree);
   const PairTables tables = EveryPair().candidates();
-  const SteppedMesh motion = {mesh_.x_t0, mesh_.x_t1};
+  of_mesh->fit(tree, topology_, {mesh_.x_t0, mesh_.x_t1}, never);
   expect_paced(30 * count_, [&](PacedStop& pace) {
     SearchCounts counts;
     const auto sink = [&](std::int32_t, std::int32_t) {
       EXPECT_FALSE(pace.stopped()) << "a pair after the end";
       return true;
     };
-    const SearchInput input{topology_, tree, marks, tables, kept.get(), &motion, &pace};
-    const bool is_done = search.search(input, counts, sink);
+    const SearchInput input{topology_, tree, marks, tables, &pace};
+    const bool is_done = of_mesh->search(input, counts, sink);
     EXPECT_EQ(is_done, !pace.stopped());
   });
 }

@@ -34,17 +34,16 @@ PairSet candidates(const PairSearch& search, const Topology& mesh, const Positio
   BoundingVolumeTree tree(mesh, x_t0);
   const SteppedMesh motion = {x_t0, x_t1};
   PacedStop never(never_stops);
-  search.fit(tree, mesh, motion, never);
+  const auto of_mesh = search.prepare(mesh, tree, never);
+  of_mesh->fit(tree, mesh, motion, never);
   const Marks marks(tree);
-  const auto kept = search.prepare(mesh, tree, never);
   const PairTables tables = EveryPair().candidates();
   PairSet pairs;
   SearchCounts counts;
-  search.search({mesh, tree, marks, tables, kept.get(), &motion}, counts,
-                [&](std::int32_t t, std::int32_t u) {
-                  EXPECT_TRUE(pairs.insert(std::minmax(t, u)).second) << "twice";
-                  return true;
-                });
+  of_mesh->search({mesh, tree, marks, tables}, counts, [&](std::int32_t t, std::int32_t u) {
+    EXPECT_TRUE(pairs.insert(std::minmax(t, u)).second) << "twice";
+    return true;
+  });
   EXPECT_EQ(counts.candidate_pairs, pairs.size());
   return pairs;
 }
