@@ -26,7 +26,7 @@ struct StepContext {
 // answer is free or collision, `next` is set to the state at the end of the step. REQUIRES that
 // `next` is empty; without an answer it stays so.
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
-                         const SteppedMesh& motion, std::span<const ViewPrimitive> primitives,
+                         const SteppedMesh& mesh, std::span<const ViewPrimitive> primitives,
                          const StopFunction& stop, std::optional<StepState>& next);
 
 }  // namespace assay::detector
