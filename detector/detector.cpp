@@ -110,10 +110,17 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
   if (pace.now()) return stopped();
   SearchMemory search(surface.mesh, tree, &pace);
   if (pace.stopped()) return stopped();
-  search.kept = stages.pair_search->prepare(surface.mesh, tree, pace);
+  auto mesh_search = stages.pair_search->prepare(surface.mesh, tree, pace);
   if (pace.now()) return stopped();
-  StepContext context{options,           std::move(stages),  std::move(surface), std::move(tree),
-                      std::move(search), std::move(anchors), std::move(rules),   0,
+  StepContext context{options,
+                      std::move(stages),
+                      std::move(surface),
+                      std::move(tree),
+                      std::move(search),
+                      std::move(mesh_search),
+                      std::move(anchors),
+                      std::move(rules),
+                      0,
                       std::move(workers)};
   if (views) context.adjacent_pairs = adjacent_pairs(context.surface.mesh);
   return Detector(
@@ -123,7 +130,7 @@ Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView&
 StepResult Detector::evaluate(const PositionsView& x_t0, const PositionsView& x_t1,
                               std::span<const ViewPrimitive> primitives, const StopFunction& stop) {
   parts_->evaluated.reset();
-  return evaluate_step(parts_->context, parts_->committed, x_t0, x_t1, primitives, stop,
+  return evaluate_step(parts_->context, parts_->committed, {x_t0, x_t1}, primitives, stop,
                        parts_->evaluated);
 }
 

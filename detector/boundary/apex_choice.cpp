@@ -33,7 +33,7 @@ ApexChoice::ApexChoice(const Surface& surface, const BoundingVolumeTree& tree,
       x_(x),
       view_of_all_(all_),
       stop_(stop),
-      sweep_{surface, tree, view_of_all_, view_of_all_, elementary, true},
+      sweep_{surface, tree, {view_of_all_, view_of_all_}, elementary, true},
       ghosts_(surface.ghost_count()),
       touched_(surface.mesh.triangles.size(), 0) {
   sweep_.found = &found_;
@@ -108,7 +108,7 @@ std::optional<std::size_t> ApexChoice::touched_by(std::size_t loop, const ApexRu
   const Point apex = place_apex(rule, vertices, x_);
   all_.row(surface_.first_apex + static_cast<Eigen::Index>(loop)) << apex[0], apex[1], apex[2];
   const auto ghosts = std::span(ghosts_).subspan(first_ghost_[loop], vertices.size());
-  const HoleTree hole(surface_.all(), ghosts, sweep_.tree.grid(), view_of_all_, view_of_all_);
+  const HoleTree hole(surface_.all(), ghosts, sweep_.tree.grid(), sweep_.motion);
   const auto has_to_end = [&] {
     const bool asks_for_end = stop_.after(work() - seen);
     seen = work();

@@ -18,18 +18,17 @@ std::vector<ApexRule> BoundaryHandler::choose_apexes(const Surface& surface,
                                                      const StopFunction& stop) const {
   if (surface.is_closed()) return {};
   PacedStop pace(stop);
-  if (!tree.refit(surface.mesh, x, x, pace)) return std::vector<ApexRule>(surface.loops.size());
+  if (!tree.refit(surface.mesh, {x, x}, pace)) return std::vector<ApexRule>(surface.loops.size());
   return ApexChoice(surface, tree, x, elementary, stop).run().rules;
 }
 
 std::vector<MovingPoint> BoundaryHandler::place_apexes(const Surface& surface,
                                                        const std::vector<ApexRule>& rules,
-                                                       const PositionsView& x_t0,
-                                                       const PositionsView& x_t1) const {
+                                                       const SteppedMesh& motion) const {
   std::vector<MovingPoint> apexes;
   for (std::size_t l = 0; l < surface.loops.size(); ++l) {
-    apexes.push_back({place_apex(rules[l], surface.loops[l], x_t0),
-                      place_apex(rules[l], surface.loops[l], x_t1)});
+    apexes.push_back({place_apex(rules[l], surface.loops[l], motion.vertices_t0),
+                      place_apex(rules[l], surface.loops[l], motion.vertices_t1)});
   }
   return apexes;
 }
@@ -42,8 +41,7 @@ bool BoundaryHandler::sweep(const GhostSweep& sweep, std::span<const std::int32_
                             GhostCounts& counts) const {
   GhostSweep as_asked = sweep;
   if (test_ == GhostTest::boxes) as_asked.test = test_;
-  const auto holes =
-      make_hole_trees(sweep.surface.all(), ghosts, sweep.tree.grid(), sweep.x_t0, sweep.x_t1);
+  const auto holes = make_hole_trees(sweep.surface.all(), ghosts, sweep.tree.grid(), sweep.motion);
   return std::all_of(holes.begin(), holes.end(), [&](const HoleTree& hole) {
     return sweep_hole(as_asked, hole, stop, touched, counts);
   });

@@ -27,8 +27,7 @@ class BoundaryHandler {
   // each step finds it where the last one left it.
   virtual std::vector<MovingPoint> place_apexes(const Surface& surface,
                                                 const std::vector<ApexRule>& rules,
-                                                const PositionsView& x_t0,
-                                                const PositionsView& x_t1) const;
+                                                const SteppedMesh& motion) const;
 
   // Sets touched[t] of the triangles that the given ghosts touch (L11), hole by hole, with a small
   // tree for each. REQUIRES ghosts of one component. Returns false if `stop` ended it.

@@ -38,7 +38,7 @@ bool FacePairTest::contact(const FourPoints& query, GhostCounts& counts) const {
 }
 
 bool FacePairTest::pierces(const Corners& edges_of, const Corners& face) const {
-  const auto start = [&](std::int32_t v) { return point_of(x_t0_, v); };
+  const auto start = [&](std::int32_t v) { return motion_.start(v); };
   for (std::size_t i = 0; i < 3; ++i) {
     const auto u = edges_of[i], v = edges_of[(i + 1) % 3];
     if (contains(face, u) || contains(face, v)) continue;

@@ -63,7 +63,7 @@ class HoleSweep {
         stop_(stop),
         touched_(touched),
         counts_(counts),
-        faces_(sweep.x_t0, sweep.x_t1, sweep.elementary, sweep.piercing_at_start) {
+        faces_(sweep.motion, sweep.elementary, sweep.piercing_at_start) {
     plan_asking();
   }
 
@@ -110,7 +110,9 @@ class HoleSweep {
 
   GhostPlane plane_of(std::int32_t ghost) const {
     const auto& v = all_.triangles[at(ghost)];
-    const auto corner = [&](std::size_t i) { return tree_.grid()(sweep_.x_t0, v[i]); };
+    const auto corner = [&](std::size_t i) {
+      return tree_.grid()(sweep_.motion.vertices_t0, v[i]);
+    };
     return GhostPlane({corner(0), corner(1), corner(2)});
   }
 
@@ -147,7 +149,7 @@ bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunctio
 
 void sweep_ghost(const GhostSweep& sweep, std::int32_t ghost, std::vector<std::uint8_t>& touched,
                  GhostCounts& counts) {
-  const HoleTree alone(sweep.surface.all(), {&ghost, 1}, sweep.tree.grid(), sweep.x_t0, sweep.x_t1);
+  const HoleTree alone(sweep.surface.all(), {&ghost, 1}, sweep.tree.grid(), sweep.motion);
   sweep_hole(sweep, alone, {}, touched, counts);
 }
 

@@ -19,7 +19,7 @@ enum class ByPlanes : std::uint8_t { no, strict, grazing };
 struct GhostSweep {
   const Surface& surface;
   const BoundingVolumeTree& tree;  // of the mesh, refitted to the step
-  PositionsView x_t0, x_t1;        // rows: vertices of the mesh, then apexes
+  SteppedMesh motion;              // rows: vertices of the mesh, then apexes
   const ElementaryTest& elementary;
   // Whether edges that pierce at t=0 count too; needed if no state is known at t=0.
   bool piercing_at_start = false;

@@ -14,10 +14,10 @@ namespace assay::detector {
 
 class HoleTree {
  public:
-  // REQUIRES the ghosts of one loop in its order, at least one. Their corners are rows of the
-  // views. The boxes may be compared with others of the same grid. 50 ns a ghost.
+  // REQUIRES the ghosts of one loop in its order, at least one. Their corners are vertices of
+  // `motion`. The boxes may be compared with others of the same grid. 50 ns a ghost.
   HoleTree(const Topology& all, std::span<const std::int32_t> ghosts, const FloatGrid& grid,
-           const PositionsView& x_t0, const PositionsView& x_t1);
+           const SteppedMesh& motion);
 
   static constexpr std::size_t root = 0;
   bool is_leaf(std::size_t node) const { return node + 1 >= ghosts_.size(); }
@@ -47,7 +47,6 @@ class HoleTree {
 
 // A tree for each hole of a component, whose ghosts are given.
 std::vector<HoleTree> make_hole_trees(const Topology& all, std::span<const std::int32_t> ghosts,
-                                      const FloatGrid& grid, const PositionsView& x_t0,
-                                      const PositionsView& x_t1);
+                                      const FloatGrid& grid, const SteppedMesh& motion);
 
 }  // namespace assay::detector

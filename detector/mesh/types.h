@@ -29,10 +29,24 @@ inline Point point_of(const PositionsView& x, std::int32_t vertex) {
   return {x(vertex, 0), x(vertex, 1), x(vertex, 2)};
 }
 
-inline MovingPoint moving_point(const PositionsView& x_t0, const PositionsView& x_t1,
-                                std::int32_t vertex) {
-  return {point_of(x_t0, vertex), point_of(x_t1, vertex)};
-}
+// The vertices of a mesh over one step. Both views are N x 3 and have the same number of rows: row
+// v is vertex v, at t=0 in one view and at t=1 in the other. Where a step has ghosts, the rows of
+// their apexes follow those of the mesh.
+//
+// It refers to the caller's arrays and copies nothing, so the arrays must outlive it. A copy of it
+// is a few pointers to the same arrays. One case needs care: a view that was made of an
+// expression, such as the mean of two meshes, holds the values of that expression itself. Copies
+// of the view refer to these values, so the first view must outlive its copies.
+struct SteppedMesh {
+  PositionsView vertices_t0, vertices_t1;
+
+  Eigen::Index size() const { return vertices_t0.rows(); }  // the number of vertices
+  Point start(std::int32_t vertex) const { return point_of(vertices_t0, vertex); }
+  Point end(std::int32_t vertex) const { return point_of(vertices_t1, vertex); }
+  MovingPoint path(std::int32_t vertex) const { return {start(vertex), end(vertex)}; }
+  // The same mesh at rest: every vertex stays where it is at t=0.
+  SteppedMesh at_start() const { return {vertices_t0, vertices_t0}; }
+};
 
 // The place in an array of the vertex, triangle or component with this number.
 constexpr std::size_t at(std::int32_t number) { return static_cast<std::size_t>(number); }

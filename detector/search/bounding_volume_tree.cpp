@@ -153,22 +153,19 @@ void BoundingVolumeTree::make_blocks() {
 }
 
 MovingBox BoundingVolumeTree::box_of_triangle(const std::array<std::int32_t, 3>& corners,
-                                              const PositionsView& x_t0,
-                                              const PositionsView& x_t1) const {
+                                              const SteppedMesh& motion) const {
   const FloatGrid& f = points_.grid();
-  return box_of(f(x_t0, x_t1, corners[0]), f(x_t0, x_t1, corners[1]), f(x_t0, x_t1, corners[2]));
+  return box_of(f(motion, corners[0]), f(motion, corners[1]), f(motion, corners[2]));
 }
 
-void BoundingVolumeTree::refit(const Topology& mesh, const PositionsView& x_t0,
-                               const PositionsView& x_t1) {
+void BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion) {
   PacedStop pace(never_stops);
-  refit(mesh, x_t0, x_t1, pace);
+  refit(mesh, motion, pace);
 }
 
-bool BoundingVolumeTree::refit(const Topology& mesh, const PositionsView& x_t0,
-                               const PositionsView& x_t1, PacedStop& pace) {
+bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace) {
   constexpr std::uint64_t work_of_node = 4;
-  if (!points_.assign(x_t0, x_t1, pace)) return false;
+  if (!points_.assign(motion, pace)) return false;
   return for_each_upward(work_of_node, &pace, [&](std::int32_t node) {
     const std::int32_t child = child_[at(node)];
     boxes_[at(node)] = child < 0 ? points_.box(mesh.triangles[at(~child)])

@@ -66,15 +66,14 @@ class BoundingVolumeTree {
   const MovingBox& box(std::int32_t node) const { return boxes_[at(node)]; }
   // The box of any triangle, a ghost for example, on the same grid as the boxes of the nodes and
   // so comparable with them. Corners are rows of the two views.
-  MovingBox box_of_triangle(const std::array<std::int32_t, 3>& corners, const PositionsView& x_t0,
-                            const PositionsView& x_t1) const;
+  MovingBox box_of_triangle(const std::array<std::int32_t, 3>& corners,
+                            const SteppedMesh& motion) const;
 
   // Makes the boxes those of the triangles as they move over the step. O(M): one pass over the
   // nodes from the last to the first.
-  void refit(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1);
+  void refit(const Topology& mesh, const SteppedMesh& motion);
   // The same. False if `pace` was stopped; some boxes are then those of another step.
-  bool refit(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
-             PacedStop& pace);
+  bool refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace);
 
  private:
   struct Builder;

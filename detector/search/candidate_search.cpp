@@ -7,23 +7,19 @@
 namespace assay::detector {
 CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,
                                  const BoundingVolumeTree& tree, SearchMemory& memory,
-                                 const PositionsView& x_t0, const PositionsView& x_t1,
-                                 const StopFunction& stop)
-    : CandidateSearch(stages, mesh, tree, memory, x_t0, x_t1, PacedStop(stop)) {}
+                                 const SteppedMesh& motion, const StopFunction& stop)
+    : CandidateSearch(stages, mesh, tree, memory, motion, PacedStop(stop)) {}
 
 CandidateSearch::CandidateSearch(const SearchStages& stages, const Topology& mesh,
                                  const BoundingVolumeTree& tree, SearchMemory& memory,
-                                 const PositionsView& x_t0, const PositionsView& x_t1,
-                                 const PacedStop& pace)
+                                 const SteppedMesh& motion, const PacedStop& pace)
     : stages_(stages),
       mesh_(mesh),
       tree_(tree),
       memory_(memory),
-      x_t0_(x_t0),
-      x_t1_(x_t1),
       stop_(pace.stop()),
       pace_(pace),
-      contacts_(mesh, x_t0, x_t1, stages.elementary, Want::first_time, memory.representatives,
+      contacts_(mesh, motion, stages.elementary, Want::first_time, memory.representatives,
                 memory.marks.types, &pace_) {
   if (pace.workers()) contacts_.make_lanes(pace.workers()->count());
 }
@@ -55,16 +51,6 @@ bool CandidateSearch::follow_marks() {
 
 bool CandidateSearch::same_component(std::int32_t a, std::int32_t b) const {
   return mesh_.component_of_triangle[at(a)] == mesh_.component_of_triangle[at(b)];
-}
-
-SearchInput CandidateSearch::input(const PairTables& tables, bool uses_proofs) {
-  return {mesh_,  tree_,  memory_.marks, tables,     memory_.kept.get(),
-          &x_t0_, &x_t1_, &pace_,        uses_proofs};
-}
-
-ProvableShares CandidateSearch::provable_shares() {
-  const PairTables none;
-  return stages_.search.provable_shares(input(none, true));
 }
 
 double CandidateSearch::asked_share() const {
@@ -105,7 +91,8 @@ bool CandidateSearch::search(const PairTables& tables, bool uses_proofs) {
       return contacts_.add_candidate(a, b, may_pierce, stop_, lane);
     });
   };
-  return stages_.search.search(input(tables, uses_proofs), counts_, PairSink::in_lanes(take)) &&
+  const SearchInput input = {mesh_, tree_, memory_.marks, tables, &pace_, uses_proofs};
+  return stages_.search.search(input, counts_, PairSink::in_lanes(take)) &&
          contacts_.run(stop_, &pace_);
 }
 

@@ -11,7 +11,7 @@ namespace assay::detector {
 struct SearchStages {
   const PairRule& rule;
   const Marking& marking;
-  const PairSearch& search;
+  MeshSearch& search;
   const ElementaryTest& elementary;
 };
 
@@ -25,20 +25,18 @@ struct SearchMemory {
   Representatives representatives;
   // Whether marks and representatives are of the same types; false after a stop between the two.
   bool is_whole = true;
-  std::unique_ptr<KeptBySearch> kept;  // from PairSearch::prepare
 };
 
 class CandidateSearch {
  public:
-  // REQUIRES a tree refitted to the step. The references must outlive this object.
+  // REQUIRES a search that was fitted to the step, with its tree. The references must outlive this
+  // object.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
-                  SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const StopFunction& stop);
+                  SearchMemory& memory, const SteppedMesh& motion, const StopFunction& stop);
   // The same with the workers of `pace`. REQUIRES a stop function that all of them may call, such
   // as that of SharedStop.
   CandidateSearch(const SearchStages& stages, const Topology& mesh, const BoundingVolumeTree& tree,
-                  SearchMemory& memory, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const PacedStop& pace);
+                  SearchMemory& memory, const SteppedMesh& motion, const PacedStop& pace);
 
   // A step calls mark, collect and, if it closes the set of pairs, close; each returns false if it
   // was stopped.
@@ -48,8 +46,8 @@ class CandidateSearch {
   // Finds the candidates and tests their feature pairs. With uses_proofs the search leaves out the
   // pairs that it can prove apart (PatchProofs).
   bool collect(bool uses_proofs = true);
-  // See PairSearch.
-  ProvableShares provable_shares();
+  // See MeshSearch.
+  ProvableShares provable_shares() const { return stages_.search.provable_shares(mesh_); }
   // An estimate, from a few hundred edges spread over the mesh: the share of pairs of triangles at
   // an edge that the rule asks for. REQUIRES that types are marked.
   double asked_share() const;
@@ -71,7 +69,6 @@ class CandidateSearch {
 
  private:
   bool search(const PairTables& tables, bool uses_proofs);
-  SearchInput input(const PairTables& tables, bool uses_proofs);
   bool change_types(std::span<const Marking::Change> changes);
   // Brings the representatives up to the marks.
   bool follow_marks();
@@ -81,7 +78,6 @@ class CandidateSearch {
   const Topology& mesh_;
   const BoundingVolumeTree& tree_;
   SearchMemory& memory_;
-  const PositionsView x_t0_, x_t1_;
   const StopFunction& stop_;
   PacedStop pace_;
   FeatureContacts contacts_;

@@ -13,17 +13,17 @@ FloatLanes diagonals(const Point& y) {
 
 }  // namespace
 
-FeaturePoints::FeaturePoints(const PositionsView& x_t0, const PositionsView& x_t1,
-                             PacedStop* pace) {
+FeaturePoints::FeaturePoints(const SteppedMesh& motion, PacedStop* pace) {
   constexpr std::uint64_t work_of_vertex = 8;
-  const FloatGrid f(x_t0, x_t1, pace);
+  const FloatGrid f(motion, pace);
   if (pace && pace->stopped()) return;
-  const auto count = static_cast<std::size_t>(x_t0.rows());
+  const auto count = static_cast<std::size_t>(motion.size());
   points_ = std::make_unique_for_overwrite<FeaturePoint[]>(count);
   for_all_paced(count, work_of_vertex, pace, [&](std::size_t v) {
     const auto vertex = static_cast<std::int32_t>(v);
-    points_[v] = {f(x_t0, x_t1, vertex),
-                  {diagonals(f.scaled(x_t0, vertex)), diagonals(f.scaled(x_t1, vertex))}};
+    points_[v] = {f(motion, vertex),
+                  {diagonals(f.scaled(motion.vertices_t0, vertex)),
+                   diagonals(f.scaled(motion.vertices_t1, vertex))}};
   });
 }
 

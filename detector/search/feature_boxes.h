@@ -55,7 +55,7 @@ inline bool apart(const FeatureBox& a, const FeatureBox& b) {
 class FeaturePoints {
  public:
   // If `pace` was stopped, they must not be used.
-  FeaturePoints(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop* pace = nullptr);
+  explicit FeaturePoints(const SteppedMesh& motion, PacedStop* pace = nullptr);
   const FeaturePoint& operator[](std::int32_t vertex) const {
     return points_[static_cast<std::size_t>(vertex)];
   }

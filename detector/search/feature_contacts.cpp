@@ -19,30 +19,28 @@ struct FeatureContacts::OneType {
   std::vector<TriangleType> types;
 };
 
-FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
-                                 const PositionsView& x_t1, const ElementaryTest& elementary,
-                                 Want want, const Representatives& representatives,
+FeatureContacts::FeatureContacts(const Topology& mesh, const SteppedMesh& motion,
+                                 const ElementaryTest& elementary, Want want,
+                                 const Representatives& representatives,
                                  const std::vector<TriangleType>& types, PacedStop* pace)
     : mesh_(mesh),
-      x_t0_(x_t0),
-      x_t1_(x_t1),
+      motion_(motion),
       elementary_(elementary),
       want_(want),
-      pairs_(mesh, x_t0, x_t1, representatives, types, pace) {
+      pairs_(mesh, motion, representatives, types, pace) {
   make_lanes(1);
 }
 
-FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
-                                 const PositionsView& x_t1, const ElementaryTest& elementary,
-                                 Want want, std::unique_ptr<OneType> own, PacedStop* pace)
-    : FeatureContacts(mesh, x_t0, x_t1, elementary, want, own->representatives, own->types, pace) {
+FeatureContacts::FeatureContacts(const Topology& mesh, const SteppedMesh& motion,
+                                 const ElementaryTest& elementary, Want want,
+                                 std::unique_ptr<OneType> own, PacedStop* pace)
+    : FeatureContacts(mesh, motion, elementary, want, own->representatives, own->types, pace) {
   own_ = std::move(own);
 }
 
-FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0,
-                                 const PositionsView& x_t1, const ElementaryTest& elementary,
-                                 Want want, PacedStop* pace)
-    : FeatureContacts(mesh, x_t0, x_t1, elementary, want,
+FeatureContacts::FeatureContacts(const Topology& mesh, const SteppedMesh& motion,
+                                 const ElementaryTest& elementary, Want want, PacedStop* pace)
+    : FeatureContacts(mesh, motion, elementary, want,
                       std::unique_ptr<OneType>(
                           new OneType{Representatives(mesh, pace),
                                       std::vector(mesh.triangles.size(), TriangleType::positive)}),
@@ -51,7 +49,7 @@ FeatureContacts::FeatureContacts(const Topology& mesh, const PositionsView& x_t0
 FeatureContacts::~FeatureContacts() = default;
 
 FourPoints FeatureContacts::query(FeatureKey key) const {
-  const auto point = [&](std::int32_t v) { return moving_point(x_t0_, x_t1_, v); };
+  const auto point = [&](std::int32_t v) { return motion_.path(v); };
   if (kind_of(key) == FeatureKind::vertex_face) {
     const auto& f = mesh_.triangles[at(second_of(key))];
     return {{point(first_of(key)), point(f[0]), point(f[1]), point(f[2])}, 1};
@@ -95,9 +93,9 @@ void FeatureContacts::test(FeatureKey key, Lane& lane) const {
   };
   if (kind_of(key) == FeatureKind::piercing) {
     const auto& e = mesh_.edges[at(first)];
-    const Point e0 = point_of(x_t0_, e[0]), e1 = point_of(x_t0_, e[1]);
-    const std::array<Point, 3> corners = {point_of(x_t0_, face[0]), point_of(x_t0_, face[1]),
-                                          point_of(x_t0_, face[2])};
+    const Point e0 = motion_.start(e[0]), e1 = motion_.start(e[1]);
+    const std::array<Point, 3> corners = {motion_.start(face[0]), motion_.start(face[1]),
+                                          motion_.start(face[2])};
     if (!elementary_.pierces(e0, e1, corners)) return;
     const TimeEnclosure time = elementary_.piercing_time(e0, e1, corners);
     const Feature feature{FeatureKind::piercing, {e[0], e[1], face[0], face[1], face[2]}};

@@ -29,12 +29,11 @@ class FeatureContacts {
   // `representatives`). Without types and representatives all triangles count as one type, and
   // every candidate is asked for. The references and views must outlive this object. If `pace` was
   // stopped, the object must not be used.
-  FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const ElementaryTest& elementary, Want want,
-                  const Representatives& representatives, const std::vector<TriangleType>& types,
-                  PacedStop* pace = nullptr);
-  FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const ElementaryTest& elementary, Want want, PacedStop* pace = nullptr);
+  FeatureContacts(const Topology& mesh, const SteppedMesh& motion, const ElementaryTest& elementary,
+                  Want want, const Representatives& representatives,
+                  const std::vector<TriangleType>& types, PacedStop* pace = nullptr);
+  FeatureContacts(const Topology& mesh, const SteppedMesh& motion, const ElementaryTest& elementary,
+                  Want want, PacedStop* pace = nullptr);
   ~FeatureContacts();
   FeatureContacts(const FeatureContacts&) = delete;
   FeatureContacts& operator=(const FeatureContacts&) = delete;
@@ -68,9 +67,8 @@ class FeatureContacts {
 
  private:
   struct OneType;  // the types and representatives that the short constructor makes for itself
-  FeatureContacts(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
-                  const ElementaryTest& elementary, Want want, std::unique_ptr<OneType> own,
-                  PacedStop* pace);
+  FeatureContacts(const Topology& mesh, const SteppedMesh& motion, const ElementaryTest& elementary,
+                  Want want, std::unique_ptr<OneType> own, PacedStop* pace);
   // What one lane has taken and found.
   struct Lane {
     std::vector<FeatureKey> untested;
@@ -84,7 +82,7 @@ class FeatureContacts {
   FourPoints query(FeatureKey key) const;
 
   const Topology& mesh_;
-  PositionsView x_t0_, x_t1_;
+  SteppedMesh motion_;
   const ElementaryTest& elementary_;
   Want want_;
   std::unique_ptr<OneType> own_;

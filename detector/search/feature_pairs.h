@@ -23,10 +23,10 @@ class FeaturePairs {
  public:
   // types: by triangle, those of `representatives`. The references must outlive this object. If
   // `pace` was stopped, it must not be used.
-  FeaturePairs(const Topology& mesh, const PositionsView& x_t0, const PositionsView& x_t1,
+  FeaturePairs(const Topology& mesh, const SteppedMesh& motion,
                const Representatives& representatives, const std::vector<TriangleType>& types,
                PacedStop* pace = nullptr)
-      : mesh_(mesh), representatives_(representatives), types_(types), points_(x_t0, x_t1, pace) {}
+      : mesh_(mesh), representatives_(representatives), types_(types), points_(motion, pace) {}
 
   // Says what the searches to come ask for. Until it is called they ask for everything, and
   // nothing was asked for before.

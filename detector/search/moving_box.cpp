@@ -7,8 +7,8 @@
 
 namespace assay::detector {
 
-FloatGrid::FloatGrid(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop* pace) {
-  if (x_t0.rows() == 0) return;
+FloatGrid::FloatGrid(const SteppedMesh& motion, PacedStop* pace) {
+  if (motion.size() == 0) return;
   constexpr std::uint64_t work_of_vertex = 1;
   struct Bounds {
     Point lo, hi;
@@ -20,14 +20,15 @@ FloatGrid::FloatGrid(const PositionsView& x_t0, const PositionsView& x_t1, Paced
     }
   };
   const auto widen_by_vertex = [&](Bounds& bounds, std::size_t v) {
-    for (const auto* x : {&x_t0, &x_t1}) widen(bounds, point_of(*x, static_cast<std::int32_t>(v)));
+    for (const auto* x : {&motion.vertices_t0, &motion.vertices_t1})
+      widen(bounds, point_of(*x, static_cast<std::int32_t>(v)));
   };
   const auto join = [&](Bounds& bounds, const Bounds& other) {
     widen(bounds, other.lo);
     widen(bounds, other.hi);
   };
-  const Bounds first = {point_of(x_t0, 0), point_of(x_t0, 0)};
-  const auto [lo, hi] = sum_over_all(static_cast<std::size_t>(x_t0.rows()), work_of_vertex, pace,
+  const Bounds first = {motion.start(0), motion.start(0)};
+  const auto [lo, hi] = sum_over_all(static_cast<std::size_t>(motion.size()), work_of_vertex, pace,
                                      first, widen_by_vertex, join);
   if (pace && pace->stopped()) return;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -41,14 +42,13 @@ FloatGrid::FloatGrid(const PositionsView& x_t0, const PositionsView& x_t1, Paced
   }
 }
 
-bool RoundedPositions::assign(const PositionsView& x_t0, const PositionsView& x_t1,
-                              PacedStop& pace) {
+bool RoundedPositions::assign(const SteppedMesh& motion, PacedStop& pace) {
   constexpr std::uint64_t work_of_vertex = 3;
-  grid_ = FloatGrid(x_t0, x_t1, &pace);
+  grid_ = FloatGrid(motion, &pace);
   if (pace.stopped()) return false;
-  points_.resize(static_cast<std::size_t>(x_t0.rows()));
+  points_.resize(static_cast<std::size_t>(motion.size()));
   return for_all_paced(points_.size(), work_of_vertex, pace, [&](std::size_t v) {
-    points_[v] = grid_(x_t0, x_t1, static_cast<std::int32_t>(v));
+    points_[v] = grid_(motion, static_cast<std::int32_t>(v));
   });
 }
 

@@ -80,7 +80,7 @@ class FloatGrid {
   // of two that brings them near 1. So no accuracy is lost by where a mesh lies or how large it
   // is. O(N).
   // If `pace` was stopped, it must not be used.
-  FloatGrid(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop* pace = nullptr);
+  explicit FloatGrid(const SteppedMesh& motion, PacedStop* pace = nullptr);
 
   FloatLanes operator()(const PositionsView& x, std::int32_t vertex) const {
     const auto f = [&](int k) {
@@ -88,9 +88,8 @@ class FloatGrid {
     };
     return FloatLanes{f(0), f(1), f(2), 0};
   }
-  RoundedPoint operator()(const PositionsView& x_t0, const PositionsView& x_t1,
-                          std::int32_t vertex) const {
-    return {(*this)(x_t0, vertex), (*this)(x_t1, vertex)};
+  RoundedPoint operator()(const SteppedMesh& motion, std::int32_t vertex) const {
+    return {(*this)(motion.vertices_t0, vertex), (*this)(motion.vertices_t1, vertex)};
   }
 
   // (x - centre), multiplied by one power of two for all axes. Each coordinate is at most 2 in
@@ -110,12 +109,12 @@ class FloatGrid {
 class RoundedPositions {
  public:
   RoundedPositions() = default;
-  RoundedPositions(const PositionsView& x_t0, const PositionsView& x_t1) {
+  explicit RoundedPositions(const SteppedMesh& motion) {
     PacedStop pace(never_stops);
-    assign(x_t0, x_t1, pace);
+    assign(motion, pace);
   }
   // False if `pace` was stopped; some points are then not those of this step.
-  bool assign(const PositionsView& x_t0, const PositionsView& x_t1, PacedStop& pace);
+  bool assign(const SteppedMesh& motion, PacedStop& pace);
 
   const FloatGrid& grid() const { return grid_; }
   const RoundedPoint& operator[](std::int32_t vertex) const {

@@ -263,6 +263,11 @@ bool run_in_lanes(Hunt& hunt, const PatchProofs* proofs, std::span<const NodePai
 
 }  // namespace
 
+std::unique_ptr<MeshSearch> PairSearch::prepare(const Topology&, const BoundingVolumeTree&,
+                                                PacedStop&) const {
+  return std::make_unique<MeshSearch>(*this);
+}
+
 bool TreeSearch::search(const SearchInput& input, SearchCounts& counts,
                         const PairSink& sink) const {
   return descend(input, nullptr, counts, sink);

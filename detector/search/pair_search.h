@@ -14,11 +14,6 @@
 
 namespace assay::detector {
 
-// Data that a search makes once for a mesh and later works in. Each detector has its own.
-struct KeptBySearch {
-  virtual ~KeptBySearch() = default;
-};
-
 // Proofs, other than by boxes, that pairs stay apart over the whole step (the pairs N of L14).
 // They are asked for only if all triangles below the nodes are of one component.
 class PatchProofs {
@@ -83,34 +78,58 @@ struct SearchInput {
   const BoundingVolumeTree& tree;  // fitted to the step
   const Marks& marks;              // of the step's types
   const PairTables& tables;
-  KeptBySearch* kept = nullptr;  // from PairSearch::prepare
-  const PositionsView *x_t0 = nullptr, *x_t1 = nullptr;
   // Its stop function is asked during work that gives the sink no pairs, and its workers do the
   // search. Null: nothing is asked, and the calling thread searches alone.
   PacedStop* pace = nullptr;
   bool uses_proofs = true;  // whether proofs, if the search has any, are worth their cost
 };
 
-// How candidates are found; a stage of the detector. `fit` and `search` return false if they were
-// stopped, by the sink or by `pace`.
+class MeshSearch;
+
+// How candidates are found; a stage of the detector. It keeps nothing from one call to the next,
+// because several detectors may share it. `fit` and `search` return false if they were stopped, by
+// the sink or by `pace`.
 class PairSearch {
  public:
   virtual ~PairSearch() = default;
-  // Called once, when the detector is created. Null if the search needs nothing but the tree. If
+  // Called once, when the detector is created. The result searches for that detector, and refers
+  // to this search. It must not refer to the mesh or the tree, because both are moved later. If
   // `pace` was stopped, the result must not be used.
-  virtual std::unique_ptr<KeptBySearch> prepare(const Topology&, const BoundingVolumeTree&,
-                                                PacedStop&) const {
-    return nullptr;
-  }
+  virtual std::unique_ptr<MeshSearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
+                                              PacedStop& pace) const;
   // Fits the tree to a step, before the searches of that step.
-  virtual bool fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-                   const PositionsView& x_t1, PacedStop& pace) const {
-    return tree.refit(mesh, x_t0, x_t1, pace);
+  virtual bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+                   PacedStop& pace) const {
+    return tree.refit(mesh, motion, pace);
   }
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;
+};
+
+// A search for one mesh, with what it keeps. Each detector has its own. This one keeps nothing: it
+// does what its PairSearch does. A search derives from it if it makes something once for the mesh,
+// or if it keeps something from `fit` for the searches of that step. For example, the search by
+// normal cones keeps the contours of the mesh, and where its vertices are during the step.
+class MeshSearch {
+ public:
+  explicit MeshSearch(const PairSearch& by) : by_(by) {}
+  virtual ~MeshSearch() = default;
+
+  // See PairSearch. The positions must outlive the searches of the step.
+  virtual bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+                   PacedStop& pace) {
+    return by_.fit(tree, mesh, motion, pace);
+  }
+  // REQUIRES that `fit` was called for the step.
+  virtual bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) {
+    return by_.search(input, counts, sink);
+  }
   // An estimate from a few patches, the same for every tree. Zero if the search has no proofs.
-  virtual ProvableShares provable_shares(const SearchInput&) const { return {}; }
+  // REQUIRES that `fit` was called for the step.
+  virtual ProvableShares provable_shares(const Topology&) const { return {}; }
+
+ private:
+  const PairSearch& by_;
 };
 
 // Descends the tree against itself, along the partial trees that hold partners: (V+,V-), (U,V0)
@@ -144,8 +163,7 @@ class TreeSearch : public PairSearch {
 // Takes every pair that the tables ask for, without boxes. O(M^2).
 class ExhaustiveSearch : public PairSearch {
  public:
-  bool fit(BoundingVolumeTree&, const Topology&, const PositionsView&, const PositionsView&,
-           PacedStop&) const override {
+  bool fit(BoundingVolumeTree&, const Topology&, const SteppedMesh&, PacedStop&) const override {
     return true;
   }
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;

@@ -10,17 +10,17 @@ namespace {
 // The share of pairs that are left out because both triangles lie in V+ or both in V-. Near pairs
 // have equal signs more often than far ones, so of a component with p positive and n negative
 // triangles of m, at least about (p^2 + n^2) / m^2 of the pairs are left out.
-double saved_share(const StepWork& work, bool all_clean) {
+double saved_share(const GivenStep& step, const StepMarks& marks, bool all_clean) {
   double saved = 0, count = 0;
-  for (std::size_t c = 0; c < work.primitives.size(); ++c) {
+  for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
     std::size_t positive = 0, negative = 0;
-    for (const auto t : work.own_triangles(c)) {
-      if (!all_clean && !work.clean[at(t)]) continue;
-      positive += work.signs[at(t)] == ViewSign::positive;
-      negative += work.signs[at(t)] == ViewSign::negative;
+    for (const auto t : step.own_triangles(c)) {
+      if (!all_clean && !marks.clean[at(t)]) continue;
+      positive += marks.signs[at(t)] == ViewSign::positive;
+      negative += marks.signs[at(t)] == ViewSign::negative;
     }
     const auto p = static_cast<double>(positive), n = static_cast<double>(negative),
-               m = static_cast<double>(work.own_triangles(c).size());
+               m = static_cast<double>(step.own_triangles(c).size());
     saved += (p * p + n * n) / m;
     count += m;
   }
@@ -40,19 +40,20 @@ constexpr double least_share = 0.125;
 constexpr double cost_of_test = 1.5, cost_of_ghost_pair = 9, cost_of_crossing = 0.1;
 
 // Whether more than `limit` triangles lie in the boxes of ghosts of components that are not free.
-bool has_more_ghost_pairs(const StepWork& work, double limit) {
+bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double limit,
+                          PacedStop& pace) {
   SearchCounts counts;
   double pairs = 0;
   constexpr std::uint64_t work_of_box = 10;
   const auto count = [&](std::int32_t) { return ++pairs <= limit; };
-  for (std::size_t c = 0; c < work.primitives.size(); ++c) {
-    if (work.free[c]) continue;
-    for (const auto ghost : work.ghosts(c)) {
+  for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
+    if (marks.free[c]) continue;
+    for (const auto ghost : step.ghosts(c)) {
       const auto box =
-          work.tree.box_of_triangle(work.surface.all().triangles[at(ghost)], work.x_t0, work.x_t1);
+          step.tree.box_of_triangle(step.surface.all().triangles[at(ghost)], step.motion);
       const std::uint64_t before = counts.box_tests;
-      if (!search_box(work.tree, box, counts, count)) return true;
-      if (work.pace.after(work_of_box + counts.box_tests - before)) return true;
+      if (!search_box(step.tree, box, counts, count)) return true;
+      if (pace.after(work_of_box + counts.box_tests - before)) return true;
     }
   }
   return false;
@@ -94,14 +95,15 @@ std::uint64_t adjacent_pairs(const Topology& mesh) {
 }
 
 const std::vector<ViewAnchor>& CostModel::anchors(const std::vector<ViewAnchor>& first,
-                                                  const PositionsView& x_t0, PacedStop& pace) {
+                                                  const PositionsView& vertices_t0,
+                                                  PacedStop& pace) {
   if (state_.anchors_are_due) {
     auto chosen = std::make_shared<std::vector<ViewAnchor>>();
     for (const auto& component : surface_.all().components) {
       const Effort effort = effort_for(component, surface_.mesh, Effort::quick);
       pace.after(effort == Effort::least ? 400 : 10'000);
-      chosen->push_back(
-          choose_view_anchor(surface_.all(), component, surface_.first_apex, x_t0, effort, &pace));
+      chosen->push_back(choose_view_anchor(surface_.all(), component, surface_.first_apex,
+                                           vertices_t0, effort, &pace));
     }
     state_.anchors = std::move(chosen);
     chose_anchors_ = true;
@@ -119,10 +121,10 @@ std::uint64_t CostModel::expected_candidates() const {
   return std::max(adjacent_, state_.candidates);
 }
 
-bool CostModel::worth_classifying(const StepWork& work) {
+bool CostModel::worth_classifying(const GivenStep& step, const StepMarks& marks) {
   double saved = 0, count = 0, open = 0;
-  for (std::size_t c = 0; c < work.primitives.size(); ++c) {
-    const auto own = work.own_triangles(c);
+  for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
+    const auto own = step.own_triangles(c);
     const auto m = static_cast<double>(own.size());
     count += m;
     if (own.size() < worth_sampling) {
@@ -132,11 +134,10 @@ bool CostModel::worth_classifying(const StepWork& work) {
     std::size_t positive = 0, negative = 0;
     ViewCounts rungs;
     for (std::size_t i = 0; i < sample_size; ++i) {
-      const auto& v = work.surface.mesh.triangles[at(own[i * own.size() / sample_size])];
-      const MovingTriangle triangle = {moving_point(work.x_t0, work.x_t1, v[0]),
-                                       moving_point(work.x_t0, work.x_t1, v[1]),
-                                       moving_point(work.x_t0, work.x_t1, v[2])};
-      const ViewSign sign = view_sign(triangle, work.primitives[c], rungs, Arithmetic::bounded);
+      const auto& v = step.surface.mesh.triangles[at(own[i * own.size() / sample_size])];
+      const MovingTriangle triangle = {step.motion.path(v[0]), step.motion.path(v[1]),
+                                       step.motion.path(v[2])};
+      const ViewSign sign = view_sign(triangle, marks.primitives[c], rungs, Arithmetic::bounded);
       positive += sign == ViewSign::positive;
       negative += sign == ViewSign::negative;
     }
@@ -151,21 +152,21 @@ bool CostModel::worth_classifying(const StepWork& work) {
   return does_without(ViewUse::hopeless);
 }
 
-bool CostModel::worth_sweeping(StepWork& work) {
-  share_of_signs_ = share_ = saved_share(work, true);
+bool CostModel::worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) {
+  share_of_signs_ = share_ = saved_share(step, marks, true);
   const double hoped = worth_of_saved * share_ * static_cast<double>(expected_candidates());
   if (share_ < least_share || state_.overhead > hoped)
     return does_without(ViewUse::saving_too_little);
   if (surface_.is_closed()) return true;
-  if (!work.tree.refit(surface_.mesh, work.x_t0, work.x_t1, work.pace)) return false;
+  if (!step.tree.refit(surface_.mesh, step.motion, pace)) return false;
   const double saved = share_ * static_cast<double>(expected_candidates());
-  return !has_more_ghost_pairs(work, saved / cost_of_ghost_pair) ||
+  return !has_more_ghost_pairs(step, marks, saved / cost_of_ghost_pair, pace) ||
          does_without(ViewUse::among_ghosts);
 }
 
-bool CostModel::worth_proving(const StepWork& work, CandidateSearch& candidates) {
+bool CostModel::worth_proving(const StepMarks& marks, CandidateSearch& candidates) {
   // Proofs are about pairs of one component, and none of these are left to search.
-  if (work.has_views() && work.all_free()) return false;
+  if (marks.has_views() && marks.all_free()) return false;
   const double asked = candidates.asked_share();
   const std::size_t triangles = surface_.mesh.triangles.size();
   constexpr ProvableShares at_best = {1, 1};
@@ -181,14 +182,15 @@ bool CostModel::worth_proving(const ProvableShares& provable, double asked, std:
   return proves_;
 }
 
-bool CostModel::worth_using(const StepWork& work) {
-  share_ = saved_share(work, false);
+bool CostModel::worth_using(const GivenStep& step, const StepMarks& marks,
+                            const StepCounts& counts) {
+  share_ = saved_share(step, marks, false);
   if (share_ >= least_share) return true;
-  if (!work.known) {
+  if (!step.known) {
     use_ = ViewUse::start_unknown;
     return false;
   }
-  overhead_ = cost_beside_search(work.counts);
+  overhead_ = cost_beside_search(counts);
   return does_without(ViewUse::among_dirty);
 }
 

@@ -43,22 +43,24 @@ class CostModel : public CullingPolicy {
   bool is_due() const override { return state_.pause == 0; }
   // Chooses anchors again when they are due, from the positions at the start of the step.
   const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
-                                         const PositionsView& x_t0, PacedStop& pace) override;
+                                         const PositionsView& vertices_t0,
+                                         PacedStop& pace) override;
 
   // Classifies a few triangles of each large component, in doubles alone. No where doubles can tell
   // few of their signs, as on a sheet that is seen along itself: integers would have to decide the
   // others, and the view test would cost more than the rest of the step.
-  bool worth_classifying(const StepWork& work) override;
+  bool worth_classifying(const GivenStep& step, const StepMarks& marks) override;
   // Whether the signs would save enough if all triangles were clean, and few enough triangles are
   // near ghosts. Refits the tree of an unclosed mesh.
-  bool worth_sweeping(StepWork& work) override;
+  bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) override;
   // Leaves out layers, which cost about a step of culling bvh.
   StartBy start_by() const override { return StartBy::view_alone; }
   // Whether the signs save enough among the triangles that are clean. If nothing was known of the
   // start, a no begins no pause.
-  bool worth_using(const StepWork& work) override;
+  bool worth_using(const GivenStep& step, const StepMarks& marks,
+                   const StepCounts& counts) override;
 
-  bool worth_proving(const StepWork& work, CandidateSearch& candidates) override;
+  bool worth_proving(const StepMarks& marks, CandidateSearch& candidates) override;
   // Whether normal cones and contours are expected to save more than they cost (L14).
   // asked_share: of the pairs of neighbours, the share that K asks for.
   bool worth_proving(const ProvableShares& provable, double asked_share, std::size_t triangles);

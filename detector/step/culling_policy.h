@@ -28,18 +28,21 @@ class CullingPolicy {
   virtual bool is_due() const = 0;
   // Where each component is seen from. `first`: the anchors of preprocessing.
   virtual const std::vector<ViewAnchor>& anchors(const std::vector<ViewAnchor>& first,
-                                                 const PositionsView& x_t0, PacedStop& pace) = 0;
+                                                 const PositionsView& vertices_t0,
+                                                 PacedStop& pace) = 0;
   // Whether the triangles are classified. REQUIRES that primitives are placed.
-  virtual bool worth_classifying(const StepWork& work) = 0;
+  virtual bool worth_classifying(const GivenStep& step, const StepMarks& marks) = 0;
   // Whether the ghosts are swept. REQUIRES that the triangles are classified.
-  virtual bool worth_sweeping(StepWork& work) = 0;
+  virtual bool worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) = 0;
   // How it is found out which triangles are clean at the start.
   virtual StartBy start_by() const = 0;
   // Whether the search goes by views. REQUIRES that it is known which triangles are clean.
-  virtual bool worth_using(const StepWork& work) = 0;
+  // `counts`: of the step so far.
+  virtual bool worth_using(const GivenStep& step, const StepMarks& marks,
+                           const StepCounts& counts) = 0;
 
   // Whether the search proves patches apart. REQUIRES that types are marked.
-  virtual bool worth_proving(const StepWork& work, CandidateSearch& candidates) = 0;
+  virtual bool worth_proving(const StepMarks& marks, CandidateSearch& candidates) = 0;
   // Told after a search with views. `candidates_of_k`: those before the closure.
   virtual void record_cost(const StepCounts& counts, std::uint64_t candidates_of_k) = 0;
 
@@ -62,11 +65,11 @@ class FixedPolicy : public CullingPolicy {
                                          PacedStop&) override {
     return first;
   }
-  bool worth_classifying(const StepWork&) override { return true; }
-  bool worth_sweeping(StepWork&) override { return true; }
+  bool worth_classifying(const GivenStep&, const StepMarks&) override { return true; }
+  bool worth_sweeping(const GivenStep&, const StepMarks&, PacedStop&) override { return true; }
   StartBy start_by() const override { return StartBy::view_and_layers; }
-  bool worth_using(const StepWork&) override { return true; }
-  bool worth_proving(const StepWork&, CandidateSearch&) override { return true; }
+  bool worth_using(const GivenStep&, const StepMarks&, const StepCounts&) override { return true; }
+  bool worth_proving(const StepMarks&, CandidateSearch&) override { return true; }
   void record_cost(const StepCounts&, std::uint64_t) override {}
   ViewUse use() const override { return has_views_ ? ViewUse::used : ViewUse::not_asked_for; }
   PolicyState next(const StepCounts&, bool) const override { return state_; }

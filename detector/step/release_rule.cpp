@@ -17,29 +17,30 @@ namespace {
 constexpr std::uint64_t work_of_mark = 4, work_of_component = 200;
 
 // Sets touched[t] for triangles of the components that meet another one of their own at t=0.
-bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& components,
+bool find_static_contacts(const GivenStep& step, StepCost& cost,
+                          const std::vector<std::int32_t>& components,
                           std::vector<std::uint8_t>& touched) {
-  const Topology& mesh = work.surface.mesh;
+  const Topology& mesh = step.surface.mesh;
   std::vector<TriangleType> types(mesh.triangles.size(), TriangleType::positive);
   for (const auto c : components) {
-    for (const auto t : work.own_triangles(at(c))) types[at(t)] = TriangleType::dirty;
+    for (const auto t : step.own_triangles(at(c))) types[at(t)] = TriangleType::dirty;
   }
-  Marks marks(work.tree);
+  Marks marks(step.tree);
   MarkingCounts marking;
-  Marking().bring_to(types, work.tree, marks, marking);
-  if (work.pace.after(work_of_mark * types.size())) return false;
+  Marking().bring_to(types, step.tree, marks, marking);
+  if (cost.pace.after(work_of_mark * types.size())) return false;
   const PairTables tables = {PairTable().add(flag::violated, flag::violated), {}};
-  FeatureContacts contacts(mesh, work.x_t0, work.x_t0, work.elementary, Want::yes_no, &work.pace);
-  if (work.pace.stopped()) return false;
+  FeatureContacts contacts(mesh, step.motion.at_start(), step.elementary, Want::yes_no, &cost.pace);
+  if (cost.pace.stopped()) return false;
   SearchCounts counts;
   std::uint64_t pairs = 0;
   const auto sink = [&](std::int32_t a, std::int32_t b) {
     constexpr std::uint64_t pairs_between_stops = 4096;
-    if (pairs++ % pairs_between_stops == 0 && work.stop && work.stop()) return false;
-    return contacts.add_candidate(a, b, true, work.stop);
+    if (pairs++ % pairs_between_stops == 0 && step.stop && step.stop()) return false;
+    return contacts.add_candidate(a, b, true, step.stop);
   };
-  if (!TreeSearch().search({mesh, work.tree, marks, tables}, counts, sink) ||
-      !contacts.run(work.stop)) {
+  if (!TreeSearch().search({mesh, step.tree, marks, tables}, counts, sink) ||
+      !contacts.run(step.stop)) {
     return false;
   }
   for (const auto& pair : contacts.take_new_pairs()) touched[at(pair.a)] = touched[at(pair.b)] = 1;
@@ -48,131 +49,138 @@ bool find_static_contacts(StepWork& work, const std::vector<std::int32_t>& compo
 
 }  // namespace
 
-bool ReleaseRule::is_free(StepWork& work, std::size_t c) const {
-  const auto& triangles = work.component(c).triangles;
+bool ReleaseRule::is_free(const GivenStep& step, const StepMarks& marks, StepCost& cost,
+                          std::size_t c) const {
+  const auto& triangles = step.component(c).triangles;
   constexpr std::uint64_t work_of_sign = 1;
   std::atomic<bool> all_positive = true;
-  for_all_pieces(triangles.size(), shared_piece, work_of_sign, &work.pace,
+  for_all_pieces(triangles.size(), shared_piece, work_of_sign, &cost.pace,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                    const auto piece = std::span(triangles).subspan(begin, end - begin);
                    if (!all_positive.load(std::memory_order_relaxed)) return;
                    if (!std::all_of(piece.begin(), piece.end(), [&](std::int32_t t) {
-                         return work.signs[at(t)] == ViewSign::positive;
+                         return marks.signs[at(t)] == ViewSign::positive;
                        })) {
                      all_positive = false;
                    }
                  });
-  if (!all_positive || work.pace.stopped()) return false;
-  const ViewPrimitive& primitive = work.primitives[c];
+  if (!all_positive || cost.pace.stopped()) return false;
+  const ViewPrimitive& primitive = marks.primitives[c];
   const std::array<Point, 2> start = {primitive.q0.t0, primitive.q1.t0};
-  if (work.known && work.known->inside[c] == start) return true;
-  ++work.counts.winding_numbers;
-  return winding_number(work.surface.all(), triangles, work.x_t0, primitive.q0.t0, arithmetic_,
-                        &work.pace) == 1;
+  if (step.known && step.known->inside[c] == start) return true;
+  ++cost.counts.winding_numbers;
+  return winding_number(step.surface.all(), triangles, step.motion.vertices_t0, primitive.q0.t0,
+                        arithmetic_, &cost.pace) == 1;
 }
 
-bool ReleaseRule::released_at_start(const StepWork& work, std::size_t c) const {
-  const Component& component = work.component(c);
-  const ViewPrimitive& primitive = work.primitives[c];
-  return all_positive_at(work.surface.all(), component, work.x_t0, primitive.q0.t0, primitive.q1.t0,
-                         arithmetic_, &work.pace) &&
-         winding_number(work.surface.all(), component.triangles, work.x_t0, primitive.q0.t0,
-                        arithmetic_, &work.pace) == 1;
+bool ReleaseRule::released_at_start(const GivenStep& step, const StepMarks& marks, StepCost& cost,
+                                    std::size_t c) const {
+  const Component& component = step.component(c);
+  const ViewPrimitive& primitive = marks.primitives[c];
+  return all_positive_at(step.surface.all(), component, step.motion.vertices_t0, primitive.q0.t0,
+                         primitive.q1.t0, arithmetic_, &cost.pace) &&
+         winding_number(step.surface.all(), component.triangles, step.motion.vertices_t0,
+                        primitive.q0.t0, arithmetic_, &cost.pace) == 1;
 }
 
-bool ReleaseRule::verify_start(StepWork& work, const std::vector<std::int32_t>& components) const {
-  if (!work.tree.refit(work.surface.mesh, work.x_t0, work.x_t0, work.pace)) return false;
-  std::vector<std::uint8_t> touched(work.surface.mesh.triangles.size(), 0);
-  if (!find_static_contacts(work, components, touched)) return false;
-  const GhostSweep still{work.surface, work.tree, work.x_t0, work.x_t0, work.elementary, true};
+bool ReleaseRule::verify_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
+                               const std::vector<std::int32_t>& components) const {
+  if (!step.tree.refit(step.surface.mesh, step.motion.at_start(), cost.pace)) return false;
+  std::vector<std::uint8_t> touched(step.surface.mesh.triangles.size(), 0);
+  if (!find_static_contacts(step, cost, components, touched)) return false;
+  const GhostSweep still{step.surface, step.tree, step.motion.at_start(), step.elementary, true};
   for (const auto c : components) {
-    if (work.pace.after(work_of_component) ||
-        !work.boundary.sweep(still, work.ghosts(at(c)), work.stop, touched, work.counts.ghosts))
+    if (cost.pace.after(work_of_component) ||
+        !step.boundary.sweep(still, step.ghosts(at(c)), step.stop, touched, cost.counts.ghosts))
       return false;
   }
-  std::vector<std::uint8_t> seen(work.surface.all().triangles.size(), 0);
+  std::vector<std::uint8_t> seen(step.surface.all().triangles.size(), 0);
   for (const auto c : components) {
-    if (work.pace.after(work_of_component)) return false;
-    mark_clean_by_layers({work.surface, work.x_t0, touched, arithmetic_, &work.pace}, at(c), seen,
-                         work.clean);
+    if (cost.pace.after(work_of_component)) return false;
+    mark_clean_by_layers({step.surface, step.motion.vertices_t0, touched, arithmetic_, &cost.pace},
+                         at(c), seen, marks.clean);
   }
-  return !work.pace.stopped();
+  return !cost.pace.stopped();
 }
 
 // Releases each component by L5 if that applies. The others are looked at by layers, unless
 // Release::view allows L5 alone.
-bool ReleaseRule::release_without_history(StepWork& work,
+bool ReleaseRule::release_without_history(const GivenStep& step, StepMarks& marks, StepCost& cost,
                                           const std::vector<std::int32_t>& components) const {
   std::vector<std::int32_t> to_verify;
   for (const auto c : components) {
-    const bool released = released_at_start(work, at(c));
-    if (work.pace.after(work_of_component)) return false;
+    const bool released = released_at_start(step, marks, cost, at(c));
+    if (cost.pace.after(work_of_component)) return false;
     if (!released) {
       to_verify.push_back(c);
       continue;
     }
-    for (const auto t : work.own_triangles(at(c))) work.clean[at(t)] = 1;
+    for (const auto t : step.own_triangles(at(c))) marks.clean[at(t)] = 1;
   }
-  return release_ == Release::view || to_verify.empty() || verify_start(work, to_verify);
+  return release_ == Release::view || to_verify.empty() ||
+         verify_start(step, marks, cost, to_verify);
 }
 
-bool ReleaseRule::release(StepWork& work, const std::vector<std::int32_t>& components) const {
+bool ReleaseRule::release(const GivenStep& step, StepMarks& marks, StepCost& cost,
+                          const std::vector<std::int32_t>& components) const {
   std::vector<std::vector<std::int32_t>> in_doubt(components.size());
   for (std::size_t i = 0; i < components.size(); ++i) {
-    for (const auto t : work.own_triangles(at(components[i]))) {
-      if (!work.clean[at(t)]) in_doubt[i].push_back(t);
+    for (const auto t : step.own_triangles(at(components[i]))) {
+      if (!marks.clean[at(t)]) in_doubt[i].push_back(t);
     }
-    work.counts.release.in_doubt += in_doubt[i].size();
+    cost.counts.release.in_doubt += in_doubt[i].size();
   }
-  if (release_ == Release::view || !work.known->met_is_complete) {
-    if (!release_without_history(work, components)) return false;
+  if (release_ == Release::view || !step.known->met_is_complete) {
+    if (!release_without_history(step, marks, cost, components)) return false;
   } else {
-    std::vector<std::uint8_t> touched(work.surface.mesh.triangles.size(), 0), seen(touched);
-    if (!add_lasting_contacts(work, touched)) return false;
-    const FloatGrid grid(work.x_t0, work.x_t0);
+    std::vector<std::uint8_t> touched(step.surface.mesh.triangles.size(), 0), seen(touched);
+    if (!add_lasting_contacts(step, cost, touched)) return false;
+    const FloatGrid grid(step.motion.at_start());
     for (std::size_t i = 0; i < components.size(); ++i) {
       const auto c = at(components[i]);
-      if (!add_ghost_touches(work, grid, c, may_touch_ghosts(work, in_doubt[i]), touched))
+      if (!add_ghost_touches(step, cost, grid, c, may_touch_ghosts(step, in_doubt[i]), touched))
         return false;
-      if (work.pace.after(work_of_component)) return false;
-      work.counts.release.winding_numbers +=
-          release_pieces({work.surface, work.x_t0, touched, arithmetic_, &work.pace}, c,
-                         in_doubt[i], witnesses(work, c), seen, work.clean);
+      if (cost.pace.after(work_of_component)) return false;
+      cost.counts.release.winding_numbers +=
+          release_pieces({step.surface, step.motion.vertices_t0, touched, arithmetic_, &cost.pace},
+                         c, in_doubt[i], witnesses(step, marks, c), seen, marks.clean);
     }
-    if (work.pace.stopped()) return false;
+    if (cost.pace.stopped()) return false;
   }
   for (const auto& triangles : in_doubt) {
     const auto released = std::count_if(triangles.begin(), triangles.end(),
-                                        [&](std::int32_t t) { return work.clean[at(t)] != 0; });
+                                        [&](std::int32_t t) { return marks.clean[at(t)] != 0; });
     if (release_ == Release::model && at(static_cast<std::int32_t>(released)) < triangles.size()) {
-      for (const auto t : triangles) work.clean[at(t)] = 0;
+      for (const auto t : triangles) marks.clean[at(t)] = 0;
       continue;
     }
-    work.counts.release.released += static_cast<std::uint64_t>(released);
+    cost.counts.release.released += static_cast<std::uint64_t>(released);
   }
   return true;
 }
 
-std::vector<std::int32_t> ReleaseRule::witnesses(const StepWork& work, std::size_t c) const {
-  return layer_witnesses(work.surface.mesh, c, work.clean);
+std::vector<std::int32_t> ReleaseRule::witnesses(const GivenStep& step, const StepMarks& marks,
+                                                 std::size_t c) const {
+  return layer_witnesses(step.surface.mesh, c, marks.clean);
 }
 
-bool ReleaseRule::knows_clean(const StepWork& work, const std::vector<PairContact>&,
+bool ReleaseRule::knows_clean(const GivenStep& step, const std::vector<PairContact>&,
                               std::size_t c) const {
-  return work.ghosts(c).empty();
+  return step.ghosts(c).empty();
 }
 
 std::vector<std::int32_t> ReleaseRule::may_touch_ghosts(
-    const StepWork&, const std::vector<std::int32_t>& in_doubt) const {
+    const GivenStep&, const std::vector<std::int32_t>& in_doubt) const {
   return in_doubt;
 }
 
-void ReleaseRule::settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
+void ReleaseRule::settle(const GivenStep& step, const StepMarks& marks,
+                         const std::vector<PairContact>& pairs, bool complete,
                          StepState& state) const {
-  const Topology& mesh = work.surface.mesh;
+  const Topology& mesh = step.surface.mesh;
   auto& clean = state.clean;
   clean.resize(mesh.triangles.size());
-  std::transform(work.clean.begin(), work.clean.end(), work.touched.begin(), clean.begin(),
+  std::transform(marks.clean.begin(), marks.clean.end(), marks.touched.begin(), clean.begin(),
                  [](std::uint8_t was_clean, std::uint8_t touched) -> std::uint8_t {
                    return was_clean != 0 && touched == 0;
                  });

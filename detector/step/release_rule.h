@@ -26,56 +26,62 @@ class ReleaseRule {
       : arithmetic_(arithmetic), release_(release) {}
   virtual ~ReleaseRule() = default;
 
-  // L8: whether the state of the last commit is valid for a step that starts at x_t0.
-  virtual bool still_holds(const StepState& state, const PositionsView& x_t0,
+  // L8: whether the state of the last commit is valid for a step that starts at vertices_t0.
+  virtual bool still_holds(const StepState& state, const PositionsView& vertices_t0,
                            const PacedStop& pace) const {
-    return state.holds_at(x_t0, pace);
+    return state.holds_at(vertices_t0, pace);
   }
 
   // L5 over the step: whether every triangle and every ghost of the component is positive, and the
   // winding number is 1 at the primitive at t=0. The component is then free and all of it is
   // clean.
-  virtual bool is_free(StepWork& work, std::size_t component) const;
+  virtual bool is_free(const GivenStep& step, const StepMarks& marks, StepCost& cost,
+                       std::size_t component) const;
 
   // L5 at t=0: whether the component is embedded there. It is then clean, whatever came before.
-  virtual bool released_at_start(const StepWork& work, std::size_t component) const;
+  virtual bool released_at_start(const GivenStep& step, const StepMarks& marks, StepCost& cost,
+                                 std::size_t component) const;
 
   // L9 at t=0 of a new start, for the components listed: looks for static contacts of mesh and
-  // ghosts, then at layers by piece, and sets work.clean of their triangles. False if stopped.
-  virtual bool verify_start(StepWork& work, const std::vector<std::int32_t>& components) const;
+  // ghosts, then at layers by piece, and sets marks.clean of their triangles. False if stopped.
+  virtual bool verify_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
+                            const std::vector<std::int32_t>& components) const;
 
-  // L9 at t=0 of a step that goes on from work.known, for the components listed. Their triangles
-  // whose work.clean is 0 are in doubt by L8; it is set to 1 for those released. False if stopped.
-  // The cost is that of the triangles in doubt (static_touches.h, layers.h).
-  virtual bool release(StepWork& work, const std::vector<std::int32_t>& components) const;
+  // L9 at t=0 of a step that goes on from step.known, for the components listed. Their triangles
+  // whose marks.clean is 0 are in doubt by L8; it is set to 1 for those released. False if
+  // stopped. The cost is that of the triangles in doubt (static_touches.h, layers.h).
+  virtual bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
+                       const std::vector<std::int32_t>& components) const;
 
   // L8: sets which triangles are clean in the state at the end of the step, and the pairs met,
-  // from work.clean of its start and from `pairs`, the contacts found. `complete` says that these
+  // from marks.clean of its start and from `pairs`, the contacts found. `complete` says that these
   // are all contacts. If they are not, no triangle is clean after a collision.
-  virtual void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-                      StepState& state) const;
+  virtual void settle(const GivenStep& step, const StepMarks& marks,
+                      const std::vector<PairContact>& pairs, bool complete, StepState& state) const;
 
   // A few triangles of the component that are clean at t=0 by L8. `release` takes the common layer
   // from them.
-  virtual std::vector<std::int32_t> witnesses(const StepWork& work, std::size_t component) const;
+  virtual std::vector<std::int32_t> witnesses(const GivenStep& step, const StepMarks& marks,
+                                              std::size_t component) const;
 
   // L15, after a step without views: whether the triangles of the component that settle called
   // clean are known to be so. They are if the component has no ghosts. If it has some, nobody
   // swept these, and none of its triangles is clean, whatever the pairs were.
-  virtual bool knows_clean(const StepWork& work, const std::vector<PairContact>& pairs,
+  virtual bool knows_clean(const GivenStep& step, const std::vector<PairContact>& pairs,
                            std::size_t component) const;
 
   // Which of the triangles in doubt may touch a ghost of their component at t=0 of a step that
-  // goes on from work.known: all of them. Being in no pair says nothing, because a triangle may
+  // goes on from step.known: all of them. Being in no pair says nothing, because a triangle may
   // hang out of a hole, with a ghost through it, and be in no pair.
   virtual std::vector<std::int32_t> may_touch_ghosts(
-      const StepWork& work, const std::vector<std::int32_t>& in_doubt) const;
+      const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const;
 
  protected:
   Arithmetic arithmetic() const { return arithmetic_; }
 
  private:
-  bool release_without_history(StepWork& work, const std::vector<std::int32_t>& components) const;
+  bool release_without_history(const GivenStep& step, StepMarks& marks, StepCost& cost,
+                               const std::vector<std::int32_t>& components) const;
 
   Arithmetic arithmetic_;
   Release release_;

@@ -12,33 +12,35 @@ constexpr std::uint64_t work_to_look = 40;
 
 }  // namespace
 
-bool add_lasting_contacts(StepWork& work, std::vector<std::uint8_t>& touched) {
-  const auto& triangles = work.surface.mesh.triangles;
-  const FacePairTest faces(work.x_t0, work.x_t0, work.elementary, true);
+bool add_lasting_contacts(const GivenStep& step, StepCost& cost,
+                          std::vector<std::uint8_t>& touched) {
+  const auto& triangles = step.surface.mesh.triangles;
+  const FacePairTest faces(step.motion.at_start(), step.elementary, true);
   GhostCounts counts;
   std::size_t tests = 0;
-  for (const auto& [a, b] : work.known->met) {
+  for (const auto& [a, b] : step.known->met) {
     if (touched[at(a)] && touched[at(b)]) continue;
-    if (tests++ % tests_between_stops == 0 && work.stop && work.stop()) return false;
+    if (tests++ % tests_between_stops == 0 && step.stop && step.stop()) return false;
     if (faces.meet(triangles[at(a)], triangles[at(b)], counts)) touched[at(a)] = touched[at(b)] = 1;
   }
-  work.counts.release.pairs += tests;
-  work.counts.release.elementary_tests += counts.elementary_tests;
+  cost.counts.release.pairs += tests;
+  cost.counts.release.elementary_tests += counts.elementary_tests;
   return true;
 }
 
-bool add_ghost_touches(StepWork& work, const FloatGrid& grid, std::size_t c,
+bool add_ghost_touches(const GivenStep& step, StepCost& cost, const FloatGrid& grid, std::size_t c,
                        std::span<const std::int32_t> in_doubt, std::vector<std::uint8_t>& touched) {
-  const Topology& all = work.surface.all();
-  if (work.ghosts(c).empty()) return true;
-  const auto holes = make_hole_trees(all, work.ghosts(c), grid, work.x_t0, work.x_t0);
-  const FacePairTest faces(work.x_t0, work.x_t0, work.elementary, true);
+  const Topology& all = step.surface.all();
+  if (step.ghosts(c).empty()) return true;
+  const SteppedMesh still = step.motion.at_start();
+  const auto holes = make_hole_trees(all, step.ghosts(c), grid, still);
+  const FacePairTest faces(still, step.elementary, true);
   GhostCounts counts;
   for (const auto t : in_doubt) {
     const std::uint64_t before = counts.work();
     if (touched[at(t)]) continue;
     const auto& corners = all.triangles[at(t)];
-    const auto corner = [&](std::size_t i) { return grid(work.x_t0, work.x_t0, corners[i]); };
+    const auto corner = [&](std::size_t i) { return grid(still, corners[i]); };
     const MovingBox box = box_of(corner(0), corner(1), corner(2));
     const auto meets = [&](std::int32_t ghost) {
       ++counts.pairs;
@@ -49,10 +51,10 @@ bool add_ghost_touches(StepWork& work, const FloatGrid& grid, std::size_t c,
       touched[at(t)] = 1;
       break;
     }
-    if (work.pace.after(work_to_look + counts.work() - before)) return false;
+    if (cost.pace.after(work_to_look + counts.work() - before)) return false;
   }
-  work.counts.release.pairs += counts.pairs;
-  work.counts.release.elementary_tests += counts.elementary_tests;
+  cost.counts.release.pairs += counts.pairs;
+  cost.counts.release.elementary_tests += counts.elementary_tests;
   return true;
 }
 

@@ -16,15 +16,16 @@
 
 namespace assay::detector {
 
-// Sets touched[t] for the triangles of those pairs in work.known->met that still meet at t=0.
+// Sets touched[t] for the triangles of those pairs in step.known->met that still meet at t=0.
 // False if stopped. Costs at most 15 elementary tests a pair.
-bool add_lasting_contacts(StepWork& work, std::vector<std::uint8_t>& touched);
+bool add_lasting_contacts(const GivenStep& step, StepCost& cost,
+                          std::vector<std::uint8_t>& touched);
 
 // Sets touched[t] for those triangles in doubt of component c that a ghost of it meets or pierces
 // at t=0. False if stopped. For each triangle it descends the tree of each hole. REQUIRES the grid
-// of work.x_t0, which the caller makes once for all components, because that takes a pass over all
-// vertices.
-bool add_ghost_touches(StepWork& work, const FloatGrid& grid, std::size_t c,
+// of the mesh at rest at t=0, which the caller makes once for all components, because that takes a
+// pass over all vertices.
+bool add_ghost_touches(const GivenStep& step, StepCost& cost, const FloatGrid& grid, std::size_t c,
                        std::span<const std::int32_t> in_doubt, std::vector<std::uint8_t>& touched);
 
 }  // namespace assay::detector

@@ -1,8 +1,9 @@
 // Algorithm 3 of the thesis, self-collision detection with the view-based approach; without what
 // it does about holes it is Algorithm 1. The excerpts state most steps in words (3.6, 4.3, 4.4)
 // and print no listing. So (r) marks a line that is reconstructed, and + one that the laws of
-// detector/README.md add or put in its place. On the right stands what does it here; a step runs
-// through these functions in this order.
+// detector/README.md add or put in its place. On the right stands the function that does it, or
+// the stage that this function asks. evaluate_step() moves the ghosts and keeps the state at the
+// end; run_stages() does what is between, in this order.
 //
 //   in preprocessing                                             assemble
 //     (r) build a BVH of the mesh
@@ -11,229 +12,49 @@
 //         compute a view primitive inside the object
 //     +     anywhere, and one for each component                 make_view_anchor (L10)
 //   in each step
-//     (r) move the ghosts and the view primitive                 place_apexes, place_primitives
+//     (r) move the ghosts and the view primitive                 move_ghosts, place_primitives
 //         divide all triangles into V+, V- and V0 by view tests  classify_components (L1, L2)
 //     +     ghosts are seen too
 //         if all triangles are in V+: self-collision free
 //     +     a component, with its ghosts, and winding number 1   ReleaseRule (L5)
-//     +     ends the step if there is one component alone
-//     +   no views where they do not pay: every pair is tested   CullingPolicy
+//     +   no views where they do not pay: every pair is tested   drop_views, CullingPolicy
 //     +   what is clean at the start: last commit, or layers     find_start (L8, L9)
+//     +     no views where what is dirty makes them not pay      drop_views, CullingPolicy
 //         hole by hole: pairs of the BVH and the ghosts,
 //           elementary tests; what is in contact goes into Vv    sweep_ghosts (L11)
-//     (r) refit the boxes of the BVH                             PairSearch
-//         mark the triangles whose type has changed: the vBVHs   Marking
+//     +   a free component ends the step if it is the only one   ends_free (L5)
+//     (r) refit the boxes of the BVH                             fit_boxes, MeshSearch
+//         mark the triangles whose type has changed: the vBVHs   mark_types, Marking
 //         traverse (V+,V-), (U,V0) and (U,Vv), passing over
-//           nodes with a single child                            PairRule, PairSearch (L3)
+//           nodes with a single child                            find_pairs, PairRule (L3)
 //     +     and the pairs of two components                      (L10)
-//     (r) elementary tests of the pairs found                    ElementaryTest
-//     +   closure: (U,H) until H is stable                       PairRule (L7)
+//     (r) elementary tests of the pairs found                    find_pairs, ElementaryTest
+//     +   closure: (U,H) until H is stable                       close_pairs, PairRule (L7)
 //         free: Vv is released
-//     +     Vv is what is not known to be clean                  ReleaseRule (L8)
+//     +     Vv is what is not known to be clean                  finish, ReleaseRule (L8)
 #include "detector/step/step.h"
 
-#include <algorithm>
-
-#include "detector/parallel/for_all.h"
 #include "detector/parallel/shared_stop.h"
 #include "detector/search/stopwatch.h"
-#include "detector/step/clean_triangles.h"
 #include "detector/step/cost_model.h"
-#include "detector/step/step_end.h"
 #include "detector/step/step_input.h"
+#include "detector/step/step_run.h"
 #include "detector/step_result.h"
 
 namespace assay::detector {
 namespace {
 
-class Step {
- public:
-  Step(StepContext& context, const StepState* known, const PositionsView& x_t0,
-       const PositionsView& x_t1, CullingPolicy& policy, const StopFunction& stop)
-      : context_(context),
-        mesh_(context.surface.mesh),
-        policy_(policy),
-        work_{context.surface,
-              context.tree,
-              *context.stages.boundary,
-              *context.stages.elementary,
-              stop,
-              context.workers,
-              x_t0,
-              x_t1,
-              known} {}
-
-  // primitives: none, one, or one for each component.
-  StepResult run(const PositionsView& mesh_x_t0, const PositionsView& mesh_x_t1,
-                 std::span<const ViewPrimitive> primitives, std::optional<StepState>& next) {
-    if (policy_.is_due()) place_primitives(mesh_x_t0, mesh_x_t1, primitives);
-    const bool completed = !work_.pace.stopped() && run_stages() && !work_.pace.stopped();
-    result_.answer = !completed              ? Answer::undecided
-                     : result_.pairs.empty() ? Answer::free
-                                             : Answer::collision;
-    if (completed)
-      next = state_at_end(work_, *context_.stages.release, result_.pairs, is_complete(),
-                          mesh_x_t1);  // set whole or, if memory fails, not at all
-    if (next) next->policy = policy_.next(work_.counts, primitives.empty());
-    result_.first = least_time(result_.pairs);
-    if (completed) result_.views = policy_.use();
-    hand_over();
-    return std::move(result_);
-  }
-
- private:
-  void place_primitives(const PositionsView& x_t0, const PositionsView& x_t1,
-                        std::span<const ViewPrimitive> given) {
-    if (given.empty()) {
-      constexpr std::uint64_t work_of_anchor = 10;
-      for (const auto& anchor : policy_.anchors(context_.anchors, work_.x_t0, work_.pace)) {
-        if (work_.pace.after(work_of_anchor)) return;
-        work_.primitives.push_back(place_view(anchor, x_t0, x_t1));
-      }
-    } else if (given.size() == 1) {
-      work_.primitives.assign(mesh_.components.size(), given[0]);
-    } else {
-      work_.primitives.assign(given.begin(), given.end());
-    }
-  }
-
-  bool run_stages() {
-    work_.clean.assign(mesh_.triangles.size(), 0);
-    work_.touched.assign(mesh_.triangles.size(), 0);
-    work_.free.assign(mesh_.components.size(), 0);
-    if (policy_.is_due() && policy_.worth_classifying(work_) && !classify_components())
-      return false;
-    if (policy_.may_use_views() && !work_.all_free() &&
-        !(work_.has_views() && policy_.worth_sweeping(work_))) {
-      drop_views();
-    }
-    if (work_.has_views()) {
-      if (!find_start()) return false;
-      if (!work_.all_free() && !policy_.worth_using(work_)) drop_views();
-    }
-    if (work_.has_views()) {
-      const bool all_free = work_.all_free();
-      if (!all_free && !sweep_ghosts()) return false;
-      count_sets(work_, result_);
-      if (all_free && mesh_.components.size() == 1) return true;
-    }
-    return search();
-  }
-
-  // The rest of the step is that of culling bvh. What is clean is set back to what was known
-  // before the step, because the result of a step without views shows no view primitive, and
-  // whoever keeps account of the state from results could not follow a release from one.
-  void drop_views() {
-    take_clean_at_start(work_, context_.options.start);
-    work_.signs.clear();
-    work_.primitives.clear();
-    std::fill(work_.free.begin(), work_.free.end(), 0);
-    work_.counts.free_components = 0;
-  }
-
-  bool classify_components() {
-    Stopwatch watch(result_.times.view_test);
-    work_.signs.assign(work_.surface.all().triangles.size(), ViewSign::zero);
-    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      // The classifier counts the work of signs itself; this is what the component takes besides.
-      constexpr std::uint64_t work_beside_signs = 200;
-      if (!context_.stages.classifier->classify(work_.surface.all(), work_.component(c), work_.x_t0,
-                                                work_.x_t1, work_.primitives[c], work_.signs,
-                                                work_.counts.view, work_.pace)) {
-        return false;
-      }
-      if (work_.pace.after(work_beside_signs)) return false;
-      work_.free[c] = context_.stages.release->is_free(work_, c);
-      if (work_.pace.stopped()) return false;
-      work_.counts.free_components += work_.free[c];
-    }
-    return true;
-  }
-
-  bool find_start() {
-    Stopwatch watch(result_.times.start);
-    return find_clean_at_start(work_, *context_.stages.release, context_.options.start,
-                               policy_.start_by());
-  }
-
-  bool sweep_ghosts() {
-    if (work_.surface.is_closed()) return true;
-    Stopwatch watch(result_.times.ghosts);
-    if (!work_.tree.refit(mesh_, work_.x_t0, work_.x_t1, work_.pace)) return false;
-    GhostSweep sweep{work_.surface, work_.tree,       work_.x_t0,
-                     work_.x_t1,    work_.elementary, !work_.known};
-    work_.near_ghosts.assign(mesh_.triangles.size(), 0);
-    sweep.near = &work_.near_ghosts;
-    for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
-      if (work_.free[c]) continue;
-      constexpr std::uint64_t work_of_sweep = 200;
-      if (work_.pace.after(work_of_sweep)) return false;
-      if (!work_.boundary.sweep(sweep, work_.ghosts(c), work_.stop, work_.touched,
-                                work_.counts.ghosts)) {
-        return false;
-      }
-    }
-    const auto& near = work_.near_ghosts;
-    work_.counts.ghosts.near_triangles =
-        static_cast<std::uint64_t>(std::count(near.begin(), near.end(), 1));
-    return true;
-  }
-
-  bool search() {
-    std::vector<TriangleType> types(mesh_.triangles.size());
-    constexpr std::uint64_t work_of_type = 1;
-    for_all_paced(types.size(), work_of_type, work_.pace,
-                  [&](std::size_t t) { types[t] = type_of(work_, t); });
-    StepTimes& times = result_.times;
-    const Stages& stages = context_.stages;
-    const SearchStages search_stages{*stages.pair_rule, *stages.marking, *stages.pair_search,
-                                     *stages.elementary};
-    {
-      Stopwatch watch(times.broad_phase);
-      if (!stages.pair_search->fit(work_.tree, mesh_, work_.x_t0, work_.x_t1, work_.pace)) {
-        return false;
-      }
-    }
-    CandidateSearch candidates(search_stages, mesh_, work_.tree, context_.search, work_.x_t0,
-                               work_.x_t1, work_.pace);
-    bool completed = true;
-    {
-      Stopwatch watch(times.broad_phase);
-      completed =
-          candidates.mark(types) && candidates.collect(policy_.worth_proving(work_, candidates));
-    }
-    // Tests are made as candidates come up, so their time is part of the time measured above.
-    times.narrow_phase = candidates.test_time();
-    times.broad_phase -= times.narrow_phase;
-    const auto candidates_of_k = candidates.search_counts().candidate_pairs;
-    if (completed && work_.has_views() && context_.options.pairs == Pairs::all) {
-      Stopwatch watch(times.closure);
-      completed = candidates.close();
-    }
-    result_.pairs = candidates.take_contacts();
-    work_.counts.search = candidates.search_counts();
-    work_.counts.marking = candidates.marking_counts();
-    work_.counts.narrow = candidates.narrow_counts();
-    work_.counts.closure_rounds = candidates.closure_rounds();
-    if (work_.has_views()) policy_.record_cost(work_.counts, candidates_of_k);
-    return completed;
-  }
-
-  // Whether the pairs found are all that are in contact in the step.
-  bool is_complete() const { return !work_.has_views() || context_.options.pairs == Pairs::all; }
-
-  void hand_over() {
-    result_.signs = std::move(work_.signs);
-    result_.primitives = std::move(work_.primitives);
-    result_.counts = work_.counts;
-  }
-
-  StepContext& context_;
-  const Topology& mesh_;
-  CullingPolicy& policy_;
-  StepWork work_;
-  StepResult result_;
-};
+// The algorithm above, in its order. False if it was stopped.
+bool run_stages(StepRun& step, const SteppedMesh& mesh, std::span<const ViewPrimitive> primitives) {
+  if (!step.place_primitives(mesh, primitives)) return false;
+  if (!step.classify_components()) return false;
+  if (!step.pays_to_sweep()) step.drop_views();
+  if (!step.find_start()) return false;
+  if (!step.pays_to_use()) step.drop_views();
+  if (!step.sweep_ghosts()) return false;
+  if (step.ends_free()) return true;
+  return step.fit_boxes() && step.mark_types() && step.find_pairs() && step.close_pairs();
+}
 
 // The policy of the culling asked for, made without allocating.
 class PolicyOfStep {
@@ -255,6 +76,25 @@ class PolicyOfStep {
   std::optional<CostModel> model_;
 };
 
+// The paths of the apexes, and the mesh with them: their rows follow those of the mesh.
+struct MovedGhosts {
+  std::vector<MovingPoint> apexes;
+  Positions all_t0, all_t1;
+};
+
+// False if it was stopped.
+bool move_ghosts(const StepContext& context, const SteppedMesh& mesh, PacedStop& pace,
+                 MovedGhosts& ghosts) {
+  constexpr std::uint64_t work_of_ghost = 10, work_of_vertex = 3;
+  const Surface& surface = context.surface;
+  ghosts.apexes = context.stages.boundary->place_apexes(surface, context.apex_rules, mesh);
+  if (pace.after(work_of_ghost * surface.ghost_count())) return false;
+  ghosts.all_t0 = with_apexes(mesh.vertices_t0, ghosts.apexes, false);
+  if (pace.after(work_of_vertex * at(surface.first_apex))) return false;
+  ghosts.all_t1 = with_apexes(mesh.vertices_t1, ghosts.apexes, true);
+  return true;
+}
+
 StepResult undecided() {
   StepResult result;
   result.answer = Answer::undecided;
@@ -264,35 +104,28 @@ StepResult undecided() {
 }  // namespace
 
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
-                         const PositionsView& x_t0, const PositionsView& x_t1,
-                         std::span<const ViewPrimitive> primitives, const StopFunction& asked,
-                         std::optional<StepState>& next) {
+                         const SteppedMesh& mesh, std::span<const ViewPrimitive> primitives,
+                         const StopFunction& asked, std::optional<StepState>& next) {
   SharedStop shared(asked);
   const StopFunction stop = shared.function();
   PacedStop pace(stop, context.workers);
-  if (auto problem = check_step_input(context.surface, x_t0, x_t1, primitives, pace))
+  if (auto problem = check_step_input(context.surface, mesh, primitives, pace))
     return refused(std::move(*problem));
-  const StepState* state =
-      known && context.stages.release->still_holds(*known, x_t0, pace) ? &*known : nullptr;
+  const bool goes_on = known && context.stages.release->still_holds(*known, mesh.vertices_t0, pace);
   PolicyOfStep policy_of_step(context, known);
   CullingPolicy& policy = policy_of_step.policy();
   double total = 0;
   StepResult result;
   {
     Stopwatch watch(total);
-    if (context.surface.is_closed() || !policy.is_due()) {
-      result = Step(context, state, x_t0, x_t1, policy, stop).run(x_t0, x_t1, primitives, next);
-    } else {
-      constexpr std::uint64_t work_of_ghost = 10, work_of_vertex = 3;
-      auto apexes =
-          context.stages.boundary->place_apexes(context.surface, context.apex_rules, x_t0, x_t1);
-      if (pace.after(work_of_ghost * context.surface.ghost_count())) return undecided();
-      const Positions all_t0 = with_apexes(x_t0, apexes, false);
-      if (pace.after(work_of_vertex * at(context.surface.first_apex))) return undecided();
-      const Positions all_t1 = with_apexes(x_t1, apexes, true);
-      result = Step(context, state, all_t0, all_t1, policy, stop).run(x_t0, x_t1, primitives, next);
-      if (!result.primitives.empty()) result.apexes = std::move(apexes);
-    }
+    MovedGhosts ghosts;
+    const bool moves_ghosts = !context.surface.is_closed() && policy.is_due();
+    if (moves_ghosts && !move_ghosts(context, mesh, pace, ghosts)) return undecided();
+    const SteppedMesh motion = moves_ghosts ? SteppedMesh{ghosts.all_t0, ghosts.all_t1} : mesh;
+    StepRun step(context, goes_on ? &*known : nullptr, motion, policy, stop);
+    const bool completed = run_stages(step, mesh, primitives);
+    result = step.finish(completed, mesh, primitives.empty(), next);
+    if (!result.primitives.empty()) result.apexes = std::move(ghosts.apexes);
   }
   result.times.total = total;
   return result;

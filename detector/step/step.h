@@ -13,8 +13,9 @@ struct StepContext {
   Options options;
   Stages stages;
   Surface surface;
-  BoundingVolumeTree tree;           // of the mesh
-  SearchMemory search;               // with the marks of that tree
+  BoundingVolumeTree tree;                  // of the mesh
+  SearchMemory search;                      // with the marks of that tree
+  std::unique_ptr<MeshSearch> pair_search;  // from the stage of that name
   std::vector<ViewAnchor> anchors;   // one for each component; none with cullings without views
   std::vector<ApexRule> apex_rules;  // one for each loop; likewise
   std::uint64_t adjacent_pairs = 0;  // of the mesh; the cost model asks for it (cost_model.h)
@@ -25,8 +26,7 @@ struct StepContext {
 // answer is free or collision, `next` is set to the state at the end of the step. REQUIRES that
 // `next` is empty; without an answer it stays so.
 StepResult evaluate_step(StepContext& context, const std::optional<StepState>& known,
-                         const PositionsView& x_t0, const PositionsView& x_t1,
-                         std::span<const ViewPrimitive> primitives, const StopFunction& stop,
-                         std::optional<StepState>& next);
+                         const SteppedMesh& mesh, std::span<const ViewPrimitive> primitives,
+                         const StopFunction& stop, std::optional<StepState>& next);
 
 }  // namespace assay::detector

@@ -6,31 +6,31 @@
 
 namespace assay::detector {
 
-TriangleType type_of(const StepWork& work, std::size_t t) {
-  if (!work.clean[t]) return TriangleType::dirty;
+TriangleType type_of(const StepMarks& marks, std::size_t t) {
+  if (!marks.clean[t]) return TriangleType::dirty;
   // A type that is tested against everything, but, unlike `dirty`, not for piercing its own
   // component at t=0: what is clean pierces nothing there.
-  if (!work.has_views()) return TriangleType::violated;
-  if (work.touched[t]) return TriangleType::violated;
-  return work.signs[t] == ViewSign::positive   ? TriangleType::positive
-         : work.signs[t] == ViewSign::negative ? TriangleType::negative
-                                               : TriangleType::zero;
+  if (!marks.has_views()) return TriangleType::violated;
+  if (marks.touched[t]) return TriangleType::violated;
+  return marks.signs[t] == ViewSign::positive   ? TriangleType::positive
+         : marks.signs[t] == ViewSign::negative ? TriangleType::negative
+                                                : TriangleType::zero;
 }
 
-void count_sets(const StepWork& work, StepResult& result) {
-  const std::size_t count = work.surface.mesh.triangles.size();
+void count_sets(const StepMarks& marks, StepResult& result) {
+  const std::size_t count = marks.clean.size();
   result.doubts.assign(count, 0);
-  if (work.all_free()) {  // all is positive, clean and touched by no ghost
+  if (marks.all_free()) {  // all is positive, clean and touched by no ghost
     result.view_positive = count;
     return;
   }
   for (std::size_t t = 0; t < count; ++t) {
-    const bool dirty = !work.clean[t], violated = work.touched[t] != 0;
+    const bool dirty = !marks.clean[t], violated = marks.touched[t] != 0;
     result.doubts[t] =
         static_cast<std::uint8_t>((violated ? doubt::violated : 0) | (dirty ? doubt::dirty : 0));
     result.dirty += dirty;
     result.violated += violated;
-    switch (type_of(work, t)) {
+    switch (type_of(marks, t)) {
       case TriangleType::positive:
         ++result.view_positive;
         break;

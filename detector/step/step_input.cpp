@@ -30,11 +30,10 @@ bool is_whole(const PositionsView& x, Eigen::Index vertex_count, const PacedStop
 
 }  // namespace
 
-std::optional<Problem> check_step_input(const Surface& surface, const PositionsView& x_t0,
-                                        const PositionsView& x_t1,
+std::optional<Problem> check_step_input(const Surface& surface, const SteppedMesh& motion,
                                         std::span<const ViewPrimitive> primitives,
                                         PacedStop& pace) {
-  for (const auto* x : {&x_t0, &x_t1}) {
+  for (const auto* x : {&motion.vertices_t0, &motion.vertices_t1}) {
     if (!is_whole(*x, surface.first_apex, pace)) return check_positions(*x, surface.first_apex);
   }
   const auto components = surface.mesh.components.size();

@@ -14,8 +14,7 @@ namespace assay::detector {
 
 // Errors: wrong_frame_size, non_finite_coordinate, wrong_primitive_count (neither none, nor one,
 // nor one for each component). Of `pace` only the workers are used; it is not asked to stop.
-std::optional<Problem> check_step_input(const Surface& surface, const PositionsView& x_t0,
-                                        const PositionsView& x_t1,
+std::optional<Problem> check_step_input(const Surface& surface, const SteppedMesh& motion,
                                         std::span<const ViewPrimitive> primitives, PacedStop& pace);
 
 // The result of a step that is refused: Answer::error with this problem.

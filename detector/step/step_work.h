@@ -1,45 +1,29 @@
-// What the stages of one step read and write.
+// What the stages of one step read and write: what they are given, what they mark and what they
+// count.
 #pragma once
 
 #include <algorithm>
 
 #include "detector/boundary/boundary_handler.h"
 #include "detector/mesh/paced_stop.h"
+#include "detector/mesh/step_counts.h"
 #include "detector/options.h"
 #include "detector/parallel/workers.h"
 #include "detector/state/step_state.h"
 
 namespace assay::detector {
 
-struct StepWork {
+// What a step starts from. No stage changes it, except that the tree is working memory: whoever
+// searches it fits its boxes to the motion that is searched.
+struct GivenStep {
   const Surface& surface;
-  BoundingVolumeTree& tree;  // of the mesh; whoever searches refits it first
+  BoundingVolumeTree& tree;  // of the mesh
   const BoundaryHandler& boundary;
   const ElementaryTest& elementary;
   const StopFunction& stop;  // all workers may ask it
-  const Workers& workers;
-  PositionsView x_t0, x_t1;  // rows: vertices of the mesh, then apexes
+  SteppedMesh motion;        // rows: vertices of the mesh, then apexes
   const StepState* known;    // the state of the last commit if this step starts there, else null
 
-  std::vector<ViewPrimitive> primitives = {};  // by component
-  std::vector<ViewSign> signs = {};            // by triangle of the surface
-  std::vector<std::uint8_t> free = {};         // by component: 1 if L5 shows it free over the step
-  std::vector<std::uint8_t> clean = {};        // by triangle of the mesh: 1 if clean at t=0
-  // By triangle of the mesh: 1 if a ghost touches it during the step.
-  std::vector<std::uint8_t> touched = {};
-  // The same for touches of moving boxes; it serves the counts alone.
-  std::vector<std::uint8_t> near_ghosts = {};
-  StepCounts counts = {};
-  // Asks the stop function while components are handled one after another, because the work on one
-  // component alone may be too little to ask after.
-  mutable PacedStop pace = PacedStop(stop, workers);
-
-  // True: the step tests K and its closure alone. False: it tests every pair.
-  bool has_views() const { return !signs.empty(); }
-
-  bool all_free() const {
-    return std::all_of(free.begin(), free.end(), [](std::uint8_t is_free) { return is_free != 0; });
-  }
   // The component together with its ghosts, which is a cycle.
   const Component& component(std::size_t c) const { return surface.all().components[c]; }
   // Its own triangles, without its ghosts.
@@ -49,6 +33,33 @@ struct StepWork {
   std::span<const std::int32_t> ghosts(std::size_t c) const {
     return std::span(component(c).triangles).subspan(own_triangles(c).size());
   }
+};
+
+// What the stages have found out so far, by component and by triangle. Later stages rely on it.
+struct StepMarks {
+  std::vector<ViewPrimitive> primitives = {};  // by component
+  std::vector<ViewSign> signs = {};            // by triangle of the surface
+  std::vector<std::uint8_t> free = {};         // by component: 1 if L5 shows it free over the step
+  std::vector<std::uint8_t> clean = {};        // by triangle of the mesh: 1 if clean at t=0
+  // By triangle of the mesh: 1 if a ghost touches it during the step.
+  std::vector<std::uint8_t> touched = {};
+  // The same for touches of moving boxes; it serves the counts alone.
+  std::vector<std::uint8_t> near_ghosts = {};
+
+  // True: the step tests K and its closure alone. False: it tests every pair.
+  bool has_views() const { return !signs.empty(); }
+
+  bool all_free() const {
+    return std::all_of(free.begin(), free.end(), [](std::uint8_t is_free) { return is_free != 0; });
+  }
+};
+
+// What the stages have cost so far. No stage decides by it which pairs are in contact.
+struct StepCost {
+  StepCounts counts = {};  // for the result, and for the culling of later steps
+  // Counts the work since the stop function was last asked, over all components together, because
+  // the work on one component alone may be too little to ask after.
+  PacedStop pace;
 };
 
 }  // namespace assay::detector

@@ -140,8 +140,9 @@ bool MovingContour::stays_simple(Contour contour, int direction_bit) {
     const auto coordinate = [&](const PositionsView& x, std::size_t k) {
       return weight * x(v, axis_[k]) - d_[static_cast<std::size_t>(axis_[k])] * x(v, m);
     };
-    const std::array<double, 4> y = {coordinate(x_t0_, 0), coordinate(x_t0_, 1),
-                                     coordinate(x_t1_, 0), coordinate(x_t1_, 1)};
+    const std::array<double, 4> y = {
+        coordinate(motion_.vertices_t0, 0), coordinate(motion_.vertices_t0, 1),
+        coordinate(motion_.vertices_t1, 0), coordinate(motion_.vertices_t1, 1)};
     // Far out a coordinate may overflow, and the order of infinite ones cannot be trusted.
     if (!std::all_of(y.begin(), y.end(), [](double c) { return std::isfinite(c); })) return false;
     points_[i] = {y, y};
@@ -167,7 +168,7 @@ bool MovingContour::keeps_apart(const Chain& a, const Chain& b) const {
 
 MovingContour::Flat MovingContour::flat(std::int32_t p, std::int32_t q,
                                         std::array<double, 2>& magnitude) const {
-  const MovingVector e = difference(moving_point(x_t0_, x_t1_, p), moving_point(x_t0_, x_t1_, q));
+  const MovingVector e = difference(motion_.path(p), motion_.path(q));
   const auto m = static_cast<std::size_t>(axis_[2]);
   Flat out;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -208,8 +209,9 @@ Vector MovingContour::area(Contour contour) const {
   const auto middle = [&](std::int32_t v) {
     Vector x;
     for (Eigen::Index k = 0; k < 3; ++k) {
-      x[static_cast<std::size_t>(k)] = (0.5 * x_t0_(v, k) + 0.5 * x_t1_(v, k)) -
-                                       (0.5 * x_t0_(contour[0], k) + 0.5 * x_t1_(contour[0], k));
+      x[static_cast<std::size_t>(k)] =
+          (0.5 * motion_.vertices_t0(v, k) + 0.5 * motion_.vertices_t1(v, k)) -
+          (0.5 * motion_.vertices_t0(contour[0], k) + 0.5 * motion_.vertices_t1(contour[0], k));
     }
     return x;
   };

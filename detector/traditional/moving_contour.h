@@ -34,7 +34,8 @@ namespace assay::detector {
 
 class MovingContour {
  public:
-  MovingContour(const PositionsView& x_t0, const PositionsView& x_t1) : x_t0_(x_t0), x_t1_(x_t1) {}
+  explicit MovingContour(const SteppedMesh& motion) : motion_(motion) {}
+  const SteppedMesh& motion() const { return motion_; }
 
   // True only if it is proved that the contour, projected along the direction of this bit, is a
   // simple polygon at every t. O(length) if the contour is nearly convex, at worst O(length^2).
@@ -73,7 +74,7 @@ class MovingContour {
   Flat flat(std::int32_t p, std::int32_t q, std::array<double, 2>& magnitude) const;
   std::size_t next(std::size_t i) const { return i + 1 == contour_.size() ? 0 : i + 1; }
 
-  const PositionsView &x_t0_, &x_t1_;
+  const SteppedMesh motion_;
   PacedStop* pace_ = nullptr;
   // Of the present call of stays_simple().
   Contour contour_;

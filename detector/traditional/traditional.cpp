@@ -39,6 +39,7 @@
 #include "detector/traditional/traditional.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "detector/parallel/workers.h"
 
@@ -49,11 +50,12 @@ namespace {
 // a vertex of a contour that is tested, and on one of a contour that is joined.
 constexpr std::uint64_t work_of_cone = 12, work_of_vertex = 6, work_to_join = 3;
 
-struct Kept : KeptBySearch {
+// What a search by normal cones keeps of its mesh.
+struct KeptPatches {
   PatchContours contours;
   std::vector<ContourUnion> joined;  // working memory of each lane
   std::vector<DirectionSet> cones;   // by node, for the present step
-  Kept(PatchContours of, const Topology& mesh, const BoundingVolumeTree& tree)
+  KeptPatches(PatchContours of, const Topology& mesh, const BoundingVolumeTree& tree)
       : contours(std::move(of)),
         joined(1, ContourUnion(mesh.vertex_triangles.starts.size())),
         cones(tree.node_count()) {}
@@ -61,9 +63,9 @@ struct Kept : KeptBySearch {
 
 class PatchCones : public PatchProofs {
  public:
-  PatchCones(const NormalConeSearch& scheme, const SearchInput& input, SearchCounts& counts)
-      : PatchCones(scheme, input.tree, static_cast<Kept&>(*input.kept), *input.x_t0, *input.x_t1, 0,
-                   counts, input.pace) {
+  PatchCones(const NormalConeSearch& scheme, KeptPatches& kept, const SteppedMesh& motion,
+             const SearchInput& input, SearchCounts& counts)
+      : PatchCones(scheme, input.tree, kept, motion, 0, counts, input.pace) {
     if (pace_ && pace_->workers())
       kept_.joined.resize(std::max(kept_.joined.size(), pace_->workers()->count()),
                           kept_.joined[0]);
@@ -73,7 +75,7 @@ class PatchCones : public PatchProofs {
   std::unique_ptr<PatchProofs> in_lane(std::size_t lane, SearchCounts& counts,
                                        PacedStop& pace) const override {
     return std::unique_ptr<PatchProofs>(
-        new PatchCones(scheme_, tree_, kept_, x_t0_, x_t1_, lane, counts, &pace));
+        new PatchCones(scheme_, tree_, kept_, motion_, lane, counts, &pace));
   }
 
   bool is_free(std::int32_t node) override {
@@ -94,15 +96,13 @@ class PatchCones : public PatchProofs {
   bool is_stopped() const override { return is_stopped_ || (pace_ && pace_->stopped()); }
 
  private:
-  PatchCones(const NormalConeSearch& scheme, const BoundingVolumeTree& tree, Kept& kept,
-             const PositionsView& x_t0, const PositionsView& x_t1, std::size_t lane,
-             SearchCounts& counts, PacedStop* pace)
+  PatchCones(const NormalConeSearch& scheme, const BoundingVolumeTree& tree, KeptPatches& kept,
+             const SteppedMesh& motion, std::size_t lane, SearchCounts& counts, PacedStop* pace)
       : scheme_(scheme),
         tree_(tree),
         kept_(kept),
-        x_t0_(x_t0),
-        x_t1_(x_t1),
-        moving_(x_t0, x_t1),
+        motion_(motion),
+        moving_(motion),
         lane_(lane),
         pace_(pace),
         counts_(counts) {
@@ -125,9 +125,8 @@ class PatchCones : public PatchProofs {
       auto& cone = kept_.cones[at(node)];
       if (tree.is_leaf(node)) {
         const auto& corners = mesh.triangles[at(tree.triangle(node))];
-        cone = scheme_.faced({moving_point(x_t0_, x_t1_, corners[0]),
-                              moving_point(x_t0_, x_t1_, corners[1]),
-                              moving_point(x_t0_, x_t1_, corners[2])});
+        cone = scheme_.faced(
+            {motion_.path(corners[0]), motion_.path(corners[1]), motion_.path(corners[2])});
       } else {
         const auto child = at(tree.child(node));
         cone = kept_.cones[child] & kept_.cones[child + 1];
@@ -148,8 +147,8 @@ class PatchCones : public PatchProofs {
 
   const NormalConeSearch& scheme_;
   const BoundingVolumeTree& tree_;
-  Kept& kept_;
-  const PositionsView &x_t0_, &x_t1_;
+  KeptPatches& kept_;
+  const SteppedMesh motion_;
   MovingContour moving_;
   const std::size_t lane_;
   PacedStop* pace_;
@@ -214,50 +213,65 @@ std::vector<std::int32_t> walk_along(const Topology& mesh, std::vector<DirectedE
 
 }  // namespace
 
-ProvableShares NormalConeSearch::provable_shares(const SearchInput& input) const {
-  constexpr std::size_t small = 12, large = 96;
-  const std::size_t patches = std::clamp<std::size_t>(input.mesh.triangles.size() / 512, 4, 32);
-  MovingContour moving(*input.x_t0, *input.x_t1);
-  const auto share = [&](std::size_t of_a_patch, std::size_t count) {
-    std::size_t free = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto seed = (2 * i + 1) * input.mesh.triangles.size() / (2 * count);
-      free += is_free(input, moving,
-                      patch_around(input.mesh, static_cast<std::int32_t>(seed), of_a_patch));
-    }
-    return static_cast<double>(free) / static_cast<double>(count);
-  };
-  return {share(small, patches), share(large, patches / 4)};
-}
+class NormalConeSearch::OfMesh : public MeshSearch {
+ public:
+  OfMesh(const NormalConeSearch& scheme, KeptPatches kept)
+      : MeshSearch(scheme), scheme_(scheme), kept_(std::move(kept)) {}
 
-bool NormalConeSearch::is_free(const SearchInput& input, MovingContour& moving,
-                               const std::vector<std::int32_t>& patch) const {
-  DirectionSet cone = ~DirectionSet{0};
-  for (const auto t : patch) {
-    const auto& v = input.mesh.triangles[at(t)];
-    cone &= faced({moving_point(*input.x_t0, *input.x_t1, v[0]),
-                   moving_point(*input.x_t0, *input.x_t1, v[1]),
-                   moving_point(*input.x_t0, *input.x_t1, v[2])});
-    if (cone == 0) return false;
+  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           PacedStop& pace) override {
+    motion_.emplace(motion);
+    return MeshSearch::fit(tree, mesh, motion, pace);
   }
-  const auto contour = walk_along(input.mesh, boundary_of(input.mesh, patch));
-  return !contour.empty() &&
-         stays_simple(moving, contour, nearest_direction(cone, moving.area(contour)));
-}
 
-std::unique_ptr<KeptBySearch> NormalConeSearch::prepare(const Topology& mesh,
-                                                        const BoundingVolumeTree& tree,
-                                                        PacedStop& pace) const {
+  bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) override {
+    if (!input.uses_proofs) return scheme_.descend(input, nullptr, counts, sink);
+    PatchCones cones(scheme_, kept_, *motion_, input, counts);
+    if (cones.is_stopped()) return false;
+    return scheme_.descend(input, &cones, counts, sink);
+  }
+
+  ProvableShares provable_shares(const Topology& mesh) const override {
+    constexpr std::size_t small = 12, large = 96;
+    const std::size_t patches = std::clamp<std::size_t>(mesh.triangles.size() / 512, 4, 32);
+    MovingContour moving(*motion_);
+    const auto share = [&](std::size_t of_a_patch, std::size_t count) {
+      std::size_t free = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto seed = (2 * i + 1) * mesh.triangles.size() / (2 * count);
+        free +=
+            is_free(mesh, moving, patch_around(mesh, static_cast<std::int32_t>(seed), of_a_patch));
+      }
+      return static_cast<double>(free) / static_cast<double>(count);
+    };
+    return {share(small, patches), share(large, patches / 4)};
+  }
+
+ private:
+  bool is_free(const Topology& mesh, MovingContour& moving,
+               const std::vector<std::int32_t>& patch) const {
+    DirectionSet cone = ~DirectionSet{0};
+    for (const auto t : patch) {
+      const auto& v = mesh.triangles[at(t)];
+      cone &= scheme_.faced({motion_->path(v[0]), motion_->path(v[1]), motion_->path(v[2])});
+      if (cone == 0) return false;
+    }
+    const auto contour = walk_along(mesh, boundary_of(mesh, patch));
+    return !contour.empty() &&
+           scheme_.stays_simple(moving, contour, nearest_direction(cone, moving.area(contour)));
+  }
+
+  const NormalConeSearch& scheme_;
+  KeptPatches kept_;
+  std::optional<SteppedMesh> motion_;  // of the step that it was fitted to last
+};
+
+std::unique_ptr<MeshSearch> NormalConeSearch::prepare(const Topology& mesh,
+                                                      const BoundingVolumeTree& tree,
+                                                      PacedStop& pace) const {
   const auto maker = contour_maker(mesh);
-  return std::make_unique<Kept>(PatchContours(mesh, tree, *maker, &pace), mesh, tree);
-}
-
-bool NormalConeSearch::search(const SearchInput& input, SearchCounts& counts,
-                              const PairSink& sink) const {
-  if (!input.uses_proofs) return descend(input, nullptr, counts, sink);
-  PatchCones cones(*this, input, counts);
-  if (cones.is_stopped()) return false;
-  return descend(input, &cones, counts, sink);
+  return std::make_unique<OfMesh>(
+      *this, KeptPatches(PatchContours(mesh, tree, *maker, &pace), mesh, tree));
 }
 
 }  // namespace assay::detector

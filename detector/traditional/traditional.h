@@ -28,13 +28,12 @@ class NormalConeSearch : public TreeSearch {
   Asked asked() const { return asked_; }
 
   // Finds the contours of all nodes. They depend on the mesh and the tree alone, not on a step.
-  std::unique_ptr<KeptBySearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
-                                        PacedStop& pace) const override;
-  // Takes 0.1 us a triangle for the cones, beside the descent. If the input says that proofs are
-  // not used, this is a TreeSearch.
-  bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override;
-  // Tries 4 to 32 patches of 12 triangles, 3 us each, and 1 to 8 of 96 triangles, 25 us each.
-  ProvableShares provable_shares(const SearchInput& input) const override;
+  // The result proves patches apart; without it this is a TreeSearch. A search takes 0.1 us a
+  // triangle for the cones, beside the descent, unless the input says that proofs are not used.
+  // For provable_shares 4 to 32 patches of 12 triangles are tried, 3 us each, and 1 to 8 of 96
+  // triangles, 25 us each.
+  std::unique_ptr<MeshSearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
+                                      PacedStop& pace) const override;
 
   // The tests that the scheme rests on. Each can be overridden.
   virtual DirectionSet faced(const std::array<MovingPoint, 3>& triangle) const {
@@ -49,8 +48,7 @@ class NormalConeSearch : public TreeSearch {
   }
 
  private:
-  bool is_free(const SearchInput& input, MovingContour& moving,
-               const std::vector<std::int32_t>& patch) const;
+  class OfMesh;  // what prepare() makes
   Asked asked_;
 };
 

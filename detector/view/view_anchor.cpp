@@ -212,11 +212,13 @@ ViewAnchor choose_view_anchor(const Topology& mesh, const Component& component,
   return effort == Effort::least ? choice.without_search(ViewKind::point) : choice.run();
 }
 
-ViewPrimitive place_view(const ViewAnchor& anchor, const PositionsView& x_t0,
-                         const PositionsView& x_t1) {
-  const MovingPoint q0 = {combine(anchor.ends[0], x_t0), combine(anchor.ends[0], x_t1)};
+ViewPrimitive place_view(const ViewAnchor& anchor, const SteppedMesh& motion) {
+  const MovingPoint q0 = {combine(anchor.ends[0], motion.vertices_t0),
+                          combine(anchor.ends[0], motion.vertices_t1)};
   if (anchor.kind == ViewKind::point) return {q0, q0};
-  return {q0, {combine(anchor.ends[1], x_t0), combine(anchor.ends[1], x_t1)}};
+  return {
+      q0,
+      {combine(anchor.ends[1], motion.vertices_t0), combine(anchor.ends[1], motion.vertices_t1)}};
 }
 
 }  // namespace assay::detector

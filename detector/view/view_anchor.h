@@ -53,9 +53,7 @@ ViewAnchor choose_view_anchor(const Topology& mesh, const Component& component,
                               Eigen::Index vertex_count, const PositionsView& x,
                               Effort effort = Effort::thorough, PacedStop* pace = nullptr);
 
-// The view primitive over a step from x_t0 to x_t1. Computed in double, with the same bytes on
-// every machine.
-ViewPrimitive place_view(const ViewAnchor& anchor, const PositionsView& x_t0,
-                         const PositionsView& x_t1);
+// The view primitive over a step. Computed in double, with the same bytes on every machine.
+ViewPrimitive place_view(const ViewAnchor& anchor, const SteppedMesh& motion);
 
 }  // namespace assay::detector

@@ -132,13 +132,12 @@ void make_axial(LaneInput& input, const Vector& reach, double scale) {
 
 }  // namespace
 
-bool make_lane_input(std::span<const std::int32_t> vertices, const PositionsView& x_t0,
-                     const PositionsView& x_t1, const ViewPrimitive& primitive, LaneInput& input,
-                     PacedStop* pace) {
-  input.x_t0 = x_t0.data();
-  input.x_t1 = x_t1.data();
-  input.stride_t0 = x_t0.outerStride();
-  input.stride_t1 = x_t1.outerStride();
+bool make_lane_input(std::span<const std::int32_t> vertices, const SteppedMesh& motion,
+                     const ViewPrimitive& primitive, LaneInput& input, PacedStop* pace) {
+  input.x_t0 = motion.vertices_t0.data();
+  input.x_t1 = motion.vertices_t1.data();
+  input.stride_t0 = motion.vertices_t0.outerStride();
+  input.stride_t1 = motion.vertices_t1.outerStride();
   const MovingVector d = difference(primitive.q1, primitive.q0);
   for (std::size_t k = 0; k < 3; ++k) {
     input.q0_t0[k] = primitive.q0.t0[k];
@@ -149,8 +148,10 @@ bool make_lane_input(std::span<const std::int32_t> vertices, const PositionsView
     input.d_t1[k] = d.t1[k];
   }
   Vector edge = {0, 0, 0}, reach = {0, 0, 0};
-  grow(edge, reach, box_around(vertices, x_t0, pace), primitive.q0.t0, primitive.q1.t0);
-  grow(edge, reach, box_around(vertices, x_t1, pace), primitive.q0.t1, primitive.q1.t1);
+  grow(edge, reach, box_around(vertices, motion.vertices_t0, pace), primitive.q0.t0,
+       primitive.q1.t0);
+  grow(edge, reach, box_around(vertices, motion.vertices_t1, pace), primitive.q0.t1,
+       primitive.q1.t1);
   if (!in_range(edge) || !in_range(reach)) return false;
   const double scale =
       reach[0] * edge[1] * edge[2] + reach[1] * edge[2] * edge[0] + reach[2] * edge[0] * edge[1];

@@ -14,10 +14,9 @@ class ViewClassifier {
   // called positive or negative. It may be wrongly called zero, which only costs time. False if
   // stopped: then the signs are of no use.
   virtual bool classify(const Topology& surface, const Component& component,
-                        const PositionsView& x_t0, const PositionsView& x_t1,
-                        const ViewPrimitive& primitive, std::vector<ViewSign>& signs,
-                        ViewCounts& counts, PacedStop& pace) const {
-    return detector::classify(surface, component, x_t0, x_t1, primitive, signs, counts,
+                        const SteppedMesh& motion, const ViewPrimitive& primitive,
+                        std::vector<ViewSign>& signs, ViewCounts& counts, PacedStop& pace) const {
+    return detector::classify(surface, component, motion, primitive, signs, counts,
                               best_instruction_set(), arithmetic_, &pace);
   }
 

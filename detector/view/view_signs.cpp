@@ -12,10 +12,9 @@ namespace assay::detector {
 namespace {
 
 MovingTriangle moving_triangle(const Topology& mesh, std::int32_t triangle,
-                               const PositionsView& x_t0, const PositionsView& x_t1) {
+                               const SteppedMesh& motion) {
   const auto& v = mesh.triangles[static_cast<std::size_t>(triangle)];
-  return {moving_point(x_t0, x_t1, v[0]), moving_point(x_t0, x_t1, v[1]),
-          moving_point(x_t0, x_t1, v[2])};
+  return {motion.path(v[0]), motion.path(v[1]), motion.path(v[2])};
 }
 
 constexpr std::size_t block_size = 512;
@@ -24,19 +23,18 @@ constexpr std::size_t block_size = 512;
 // it left open.
 class Rungs {
  public:
-  Rungs(const Topology& mesh, std::span<const std::int32_t> vertices, const PositionsView& x_t0,
-        const PositionsView& x_t1, const ViewPrimitive& primitive, InstructionSet set,
-        Arithmetic arithmetic, PacedStop* pace = nullptr)
+  Rungs(const Topology& mesh, std::span<const std::int32_t> vertices, const SteppedMesh& motion,
+        const ViewPrimitive& primitive, InstructionSet set, Arithmetic arithmetic,
+        PacedStop* pace = nullptr)
       : pace_(pace),
         mesh_(mesh),
-        x_t0_(x_t0),
-        x_t1_(x_t1),
+        motion_(motion),
         primitive_(primitive),
         arithmetic_(arithmetic),
         kernels_(lane_kernels(set)),
         is_point_(primitive.is_point()),
         usable_(arithmetic != Arithmetic::single_precision &&
-                make_lane_input(vertices, x_t0, x_t1, primitive, input_, pace)) {
+                make_lane_input(vertices, motion, primitive, input_, pace)) {
     input_.corners = mesh.triangles.front().data();
     if (arithmetic == Arithmetic::double_precision) {
       input_.cubic_error = input_.value_error = input_.end_error = 0;
@@ -61,7 +59,7 @@ class Rungs {
       if (pace_ && pace_->after(counts_.exact > exact_seen_ ? work_of_exact : work_of_filter))
         return false;
       exact_seen_ = counts_.exact;
-      put(t, view_sign(moving_triangle(mesh_, t, x_t0_, x_t1_), primitive_, counts_, arithmetic_));
+      put(t, view_sign(moving_triangle(mesh_, t, motion_), primitive_, counts_, arithmetic_));
     }
     return true;
   }
@@ -96,7 +94,7 @@ class Rungs {
   PacedStop* pace_;
   std::uint64_t exact_seen_ = 0;
   const Topology& mesh_;
-  const PositionsView &x_t0_, &x_t1_;
+  const SteppedMesh motion_;
   const ViewPrimitive& primitive_;
   Arithmetic arithmetic_;
   const LaneKernels& kernels_;
@@ -160,15 +158,14 @@ ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitiv
   return exact_view_sign(triangle, primitive);
 }
 
-bool classify(const Topology& mesh, const Component& component, const PositionsView& x_t0,
-              const PositionsView& x_t1, const ViewPrimitive& primitive,
-              std::vector<ViewSign>& signs, ViewCounts& counts, InstructionSet set,
-              Arithmetic arithmetic, PacedStop* pace) {
+bool classify(const Topology& mesh, const Component& component, const SteppedMesh& motion,
+              const ViewPrimitive& primitive, std::vector<ViewSign>& signs, ViewCounts& counts,
+              InstructionSet set, Arithmetic arithmetic, PacedStop* pace) {
   const std::span<const std::int32_t> triangles = component.triangles;
   const auto put = [&](std::int32_t t, ViewSign sign) {
     signs[static_cast<std::size_t>(t)] = sign;
   };
-  Rungs rungs(mesh, component.vertices, x_t0, x_t1, primitive, set, arithmetic, pace);
+  Rungs rungs(mesh, component.vertices, motion, primitive, set, arithmetic, pace);
   if (pace && pace->stopped()) return false;
   const bool completed = has_workers(pace) && triangles.size() > shared_piece
                              ? run_in_lanes(rungs, triangles, put, *pace, counts)
@@ -180,7 +177,7 @@ bool classify(const Topology& mesh, const Component& component, const PositionsV
 bool all_positive_at(const Topology& mesh, const Component& component, const PositionsView& x,
                      const Point& q0, const Point& q1, Arithmetic arithmetic, PacedStop* pace) {
   const ViewPrimitive still{{q0, q0}, {q1, q1}};
-  Rungs rungs(mesh, component.vertices, x, x, still, best_instruction_set(), arithmetic, pace);
+  Rungs rungs(mesh, component.vertices, {x, x}, still, best_instruction_set(), arithmetic, pace);
   const std::span<const std::int32_t> triangles = component.triangles;
   for (std::size_t begin = 0; begin < triangles.size(); begin += block_size) {
     const auto block = triangles.subspan(begin, std::min(block_size, triangles.size() - begin));

@@ -23,9 +23,8 @@ ViewSign view_sign(const MovingTriangle& triangle, const ViewPrimitive& primitiv
 // Writes the signs over the step of the component's triangles to signs[triangle]. Lanes come first
 // (except in float), then view_sign for what they leave open. Counts and signs do not depend on
 // `set`. The workers of `pace` share the work if it has some. False if it was stopped.
-bool classify(const Topology& mesh, const Component& component, const PositionsView& x_t0,
-              const PositionsView& x_t1, const ViewPrimitive& primitive,
-              std::vector<ViewSign>& signs, ViewCounts& counts,
+bool classify(const Topology& mesh, const Component& component, const SteppedMesh& motion,
+              const ViewPrimitive& primitive, std::vector<ViewSign>& signs, ViewCounts& counts,
               InstructionSet set = best_instruction_set(),
               Arithmetic arithmetic = Arithmetic::exact, PacedStop* pace = nullptr);
 

@@ -11,6 +11,7 @@ namespace {
 
 using detector::MovingPoint;
 using detector::PositionsView;
+using detector::SteppedMesh;
 using detector::TrianglesView;
 
 }  // namespace
@@ -19,17 +20,17 @@ bool embedded(const PositionsView& x, const TrianglesView& triangles, int jobs) 
   return !any_contact_at(Instant(x), triangles, jobs);
 }
 
-bool embedded_at(const PositionsView& x_t0, const PositionsView& x_t1,
-                 const TrianglesView& triangles, const RationalTime& t, int jobs) {
-  return !any_contact_at(Instant(x_t0, x_t1, t), triangles, jobs);
+bool embedded_at(const SteppedMesh& motion, const TrianglesView& triangles, const RationalTime& t,
+                 int jobs) {
+  return !any_contact_at(Instant(motion, t), triangles, jobs);
 }
 
 // Uses no tree, because the axis rung of contact.h ends a query as fast as a tree would find it.
-bool meets_primitive(const PositionsView& x_t0, const PositionsView& x_t1,
-                     const TrianglesView& triangles, const detector::ViewPrimitive& primitive) {
+bool meets_primitive(const SteppedMesh& motion, const TrianglesView& triangles,
+                     const detector::ViewPrimitive& primitive) {
   require_exact_processor_state();
   const MeshFeatures features = mesh_features(triangles);
-  auto path = [&](std::int32_t v) { return detector::moving_point(x_t0, x_t1, v); };
+  auto path = [&](std::int32_t v) { return motion.path(v); };
   const bool is_point = primitive.is_point();
   for (const Face& f : features.faces) {
     const std::array<MovingPoint, 3> face = {path(f[0]), path(f[1]), path(f[2])};

@@ -12,17 +12,16 @@ namespace assay::oracle {
 bool embedded(const detector::PositionsView& x, const detector::TrianglesView& triangles,
               int jobs = 1);
 
-// The same question at time t of the step from x_t0 to x_t1.
-bool embedded_at(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-                 const detector::TrianglesView& triangles, const RationalTime& t, int jobs = 1);
+// The same question at time t of the step.
+bool embedded_at(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
+                 const RationalTime& t, int jobs = 1);
 
 // True when some triangle meets the view primitive at some t in [0,1]; touching counts. A
 // view-point is tested against the triangles. Of a segment the two ends are tested against the
 // triangles, the segment itself against the edges, and at t=0 also whether it pierces a triangle.
 // That is enough, because a segment that passes through the inside of a triangle at some time did
 // so at t=0 already or came in by one of the other contacts.
-bool meets_primitive(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-                     const detector::TrianglesView& triangles,
+bool meets_primitive(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
                      const detector::ViewPrimitive& primitive);
 
 }  // namespace assay::oracle

@@ -33,20 +33,20 @@ void enclose(const mpq_class& x, double& lo, double& hi) {
 
 }  // namespace
 
-Instant::Instant(const detector::PositionsView& x) : Instant(x, x, RationalTime{0, 1}) {}
+Instant::Instant(const detector::PositionsView& x) : Instant({x, x}, RationalTime{0, 1}) {}
 
-Instant::Instant(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-                 const RationalTime& t) {
-  assert(x_t0.rows() == x_t1.rows());
+Instant::Instant(const detector::SteppedMesh& motion, const RationalTime& t) {
+  assert(motion.vertices_t0.rows() == motion.vertices_t1.rows());
   assert(t.denominator > 0 && t.numerator >= 0 && t.numerator <= t.denominator);
   assert(t.denominator < (std::int64_t{1} << 31));
-  const auto count = static_cast<std::int32_t>(x_t0.rows());
+  const auto count = static_cast<std::int32_t>(motion.size());
   std::vector<detector::MovingPoint> paths;
   paths.reserve(count);
   // At t=0 and t=1 the other end is not used: it must not make the integers longer.
   const bool at_start = t.numerator == 0, at_end = t.numerator == t.denominator;
   for (std::int32_t v = 0; v < count; ++v) {
-    paths.push_back(detector::moving_point(at_end ? x_t1 : x_t0, at_start ? x_t0 : x_t1, v));
+    paths.push_back(
+        {at_end ? motion.end(v) : motion.start(v), at_start ? motion.start(v) : motion.end(v)});
   }
   const IntegerScale scale(paths);
   exponent_ = scale.exponent();

@@ -19,10 +19,9 @@ class Instant {
  public:
   // The vertices at rest at x. REQUIRES finite coordinates.
   explicit Instant(const detector::PositionsView& x);
-  // The vertices at time t of the step from x_t0 to x_t1. REQUIRES finite coordinates, and t in
-  // [0,1] with a denominator below 2^31.
-  Instant(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-          const RationalTime& t);
+  // The vertices at time t of the step. REQUIRES finite coordinates, and t in [0,1] with a
+  // denominator below 2^31.
+  Instant(const detector::SteppedMesh& motion, const RationalTime& t);
 
   const std::vector<IntegerPoint>& points() const { return points_; }
   // A coordinate, given as a double or a rational, in the units of points().

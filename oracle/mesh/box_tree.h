@@ -16,12 +16,11 @@ struct Box {
 // The box that holds some vertices over the whole step. Their places at the two ends suffice,
 // because each path is the segment between these.
 template <class Vertices>
-Box swept_box(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-              const Vertices& vertices) {
-  Box box{detector::point_of(x_t0, vertices[0]), detector::point_of(x_t0, vertices[0])};
+Box swept_box(const detector::SteppedMesh& motion, const Vertices& vertices) {
+  Box box{motion.start(vertices[0]), motion.start(vertices[0])};
   for (const std::int32_t v : vertices) {
     for (int k = 0; k < 3; ++k) {
-      for (const double x : {x_t0(v, k), x_t1(v, k)}) {
+      for (const double x : {motion.vertices_t0(v, k), motion.vertices_t1(v, k)}) {
         if (x < box.min[k]) box.min[k] = x;
         if (x > box.max[k]) box.max[k] = x;
       }

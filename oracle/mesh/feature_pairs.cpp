@@ -28,18 +28,17 @@ void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tre
 
 }  // namespace
 
-BoxOfVertices swept_boxes(const detector::PositionsView& x_t0,
-                          const detector::PositionsView& x_t1) {
-  return [&x_t0, &x_t1](std::span<const std::int32_t> vertices) {
+BoxOfVertices swept_boxes(const detector::SteppedMesh& motion) {
+  return [motion](std::span<const std::int32_t> vertices) {
     // A case for each number of vertices, so that the loop over them is unrolled, because a step
     // has some 10 boxes a vertex.
     switch (vertices.size()) {
       case 1:
-        return swept_box(x_t0, x_t1, vertices.first<1>());
+        return swept_box(motion, vertices.first<1>());
       case 2:
-        return swept_box(x_t0, x_t1, vertices.first<2>());
+        return swept_box(motion, vertices.first<2>());
       default:
-        return swept_box(x_t0, x_t1, vertices);
+        return swept_box(motion, vertices);
     }
   };
 }

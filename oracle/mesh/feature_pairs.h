@@ -14,9 +14,9 @@ namespace assay::oracle {
 // Gives the box of a feature from its one, two or three vertices.
 using BoxOfVertices = std::function<Box(std::span<const std::int32_t>)>;
 
-// Boxes over the whole step, or boxes at rest if the same positions are given twice. REQUIRES that
-// the positions outlive the result.
-BoxOfVertices swept_boxes(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1);
+// Boxes over the whole step, or boxes at rest if the mesh is given at rest. REQUIRES that the
+// positions outlive the result.
+BoxOfVertices swept_boxes(const detector::SteppedMesh& motion);
 
 // The features of one mesh, found by their boxes. The trees are built when first asked for. One
 // mesh may have several of these: for example, one with the boxes of the whole step and one with

@@ -24,10 +24,9 @@ struct Worker {
 
 class StepJudge {
  public:
-  StepJudge(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-            const detector::TrianglesView& triangles, const JudgeOptions& options)
-      : x_t0_(x_t0),
-        x_t1_(x_t1),
+  StepJudge(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
+            const JudgeOptions& options)
+      : motion_(motion),
         features_(mesh_features(triangles)),
         gate_(options.stop),
         asked_(options.features),
@@ -42,10 +41,10 @@ class StepJudge {
   }
 
  private:
-  // The features with their boxes over the step, or at t=0 alone when x_end is x_t0. Each phase
-  // makes its own, so that no more than one tree is in memory at a time.
-  FeatureIndex index_until(const detector::PositionsView& x_end) const {
-    return {features_, swept_boxes(x_t0_, x_end)};
+  // The features with their boxes over the step, or at t=0 alone if the mesh at rest is given.
+  // Each phase makes its own, so that no more than one tree is in memory at a time.
+  FeatureIndex index_over(const detector::SteppedMesh& motion) const {
+    return {features_, swept_boxes(motion)};
   }
 
   Workers workers() { return {static_cast<int>(workers_.size()), &gate_}; }
@@ -60,7 +59,7 @@ class StepJudge {
 
   void judge_vertices_and_faces() {
     if (gate_.stopped()) return;
-    const FeatureIndex mesh = index_until(x_t1_);
+    const FeatureIndex mesh = index_over(motion_);
     for_each_vertex_face(mesh, mesh, workers(), [this](std::size_t a, std::size_t b, int worker) {
       judge_vertex_face(a, b, workers_[worker]);
     });
@@ -68,7 +67,7 @@ class StepJudge {
 
   void judge_edges() {
     if (gate_.stopped()) return;
-    const FeatureIndex mesh = index_until(x_t1_);
+    const FeatureIndex mesh = index_over(motion_);
     for_each_edge_edge(mesh, mesh, workers(), [this](std::size_t a, std::size_t b, int worker) {
       judge_edge_edge(a, b, workers_[worker]);
     });
@@ -76,15 +75,13 @@ class StepJudge {
 
   void judge_piercing() {
     if (gate_.stopped()) return;
-    const FeatureIndex mesh = index_until(x_t0_);
+    const FeatureIndex mesh = index_over(motion_.at_start());
     for_each_edge_face(mesh, mesh, workers(), [this](std::size_t a, std::size_t b, int worker) {
       judge_edge_face_at_start(a, b, workers_[worker]);
     });
   }
 
-  detector::MovingPoint path(std::int32_t vertex) const {
-    return detector::moving_point(x_t0_, x_t1_, vertex);
-  }
+  detector::MovingPoint path(std::int32_t vertex) const { return motion_.path(vertex); }
 
   void judge_vertex_face(std::size_t item, std::size_t face, Worker& worker) {
     const std::int32_t v = features_.vertices[item];
@@ -121,7 +118,7 @@ class StepJudge {
   void judge_edge_face_at_start(std::size_t item, std::size_t face, Worker& worker) {
     const Edge& e = features_.edges[item];
     const Face& f = features_.faces[face];
-    auto at = [&](std::int32_t vertex) { return detector::point_of(x_t0_, vertex); };
+    auto at = [&](std::int32_t vertex) { return motion_.start(vertex); };
     if (!segment_pierces_triangle(at(e[0]), at(e[1]), {at(f[0]), at(f[1]), at(f[2])})) return;
     const Feature feature{FeatureKind::piercing, {e[0], e[1], f[0], f[1], f[2]}};
     for (const std::int32_t t : features_.triangles_of_edge.of(item)) {
@@ -151,8 +148,7 @@ class StepJudge {
     return result;
   }
 
-  const detector::PositionsView& x_t0_;
-  const detector::PositionsView& x_t1_;
+  const detector::SteppedMesh& motion_;
   const MeshFeatures features_;
   StopGate gate_;
   const AskedFeatures asked_;
@@ -161,13 +157,13 @@ class StepJudge {
 
 }  // namespace
 
-StepJudgement judge_step(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+StepJudgement judge_step(const detector::SteppedMesh& motion,
                          const detector::TrianglesView& triangles, const JudgeOptions& options) {
   require_exact_processor_state();
-  assert(x_t0.rows() == x_t1.rows());
+  assert(motion.vertices_t0.rows() == motion.vertices_t1.rows());
   assert(triangles.size() == 0 ||
-         (triangles.minCoeff() >= 0 && triangles.maxCoeff() < x_t0.rows()));
-  return StepJudge(x_t0, x_t1, triangles, options).run();
+         (triangles.minCoeff() >= 0 && triangles.maxCoeff() < motion.size()));
+  return StepJudge(motion, triangles, options).run();
 }
 
 }  // namespace assay::oracle

@@ -40,7 +40,7 @@ struct StepJudgement {
 
 // REQUIRES indices in range, finite positions, equal row counts. Two triangles with the same three
 // vertices are in contact at t=0 by convention.
-StepJudgement judge_step(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+StepJudgement judge_step(const detector::SteppedMesh& motion,
                          const detector::TrianglesView& triangles, const JudgeOptions& options);
 
 }  // namespace assay::oracle

@@ -39,11 +39,9 @@ auto order_of(const Contradiction& c) {
 
 class Second {
  public:
-  Second(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-         const detector::TrianglesView& triangles, const StepJudgement& judgement,
-         const SecondOpinionOptions& options)
-      : x_t0_(x_t0),
-        x_t1_(x_t1),
+  Second(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
+         const StepJudgement& judgement, const SecondOpinionOptions& options)
+      : motion_(motion),
         triangles_(triangles),
         judgement_(judgement),
         options_(options),
@@ -52,7 +50,7 @@ class Second {
         found_(std::max(options.jobs, 1)) {}
 
   SecondOpinion run() {
-    const FeatureIndex mesh(features_, swept_boxes(x_t0_, x_t1_));
+    const FeatureIndex mesh(features_, swept_boxes(motion_));
     const Workers workers = {static_cast<int>(found_.size()), &gate_};
     if (!gate_.stopped()) {
       for_each_vertex_face(mesh, mesh, workers, [this](std::size_t a, std::size_t b, int worker) {
@@ -77,9 +75,7 @@ class Second {
     return hash_to_unit(indices) < options_.share;
   }
 
-  detector::MovingPoint path(std::int32_t vertex) const {
-    return detector::moving_point(x_t0_, x_t1_, vertex);
-  }
+  detector::MovingPoint path(std::int32_t vertex) const { return motion_.path(vertex); }
 
   void ask_vertex_face(std::size_t item, std::size_t face, SecondOpinion& found) const {
     const std::int32_t v = features_.vertices[item];
@@ -154,7 +150,7 @@ class Second {
   void check_pair_at(TrianglePair pair, const detector::PairContact* judged, const StaticTime& time,
                      SecondOpinion& found) const {
     ++found.static_checks;
-    const bool met = triangles_meet(x_t0_, x_t1_, triangles_, pair, time);
+    const bool met = triangles_meet(motion_, triangles_, pair, time);
     auto report = [&](ContradictionKind kind, bool by_judgement) {
       found.contradictions.push_back({kind, {}, pair, time, by_judgement, met});
     };
@@ -188,8 +184,7 @@ class Second {
     return all;
   }
 
-  const detector::PositionsView& x_t0_;
-  const detector::PositionsView& x_t1_;
+  const detector::SteppedMesh& motion_;
   const detector::TrianglesView& triangles_;
   const StepJudgement& judgement_;
   const SecondOpinionOptions& options_;
@@ -200,14 +195,13 @@ class Second {
 
 }  // namespace
 
-SecondOpinion second_opinion(const detector::PositionsView& x_t0,
-                             const detector::PositionsView& x_t1,
+SecondOpinion second_opinion(const detector::SteppedMesh& motion,
                              const detector::TrianglesView& triangles,
                              const StepJudgement& judgement, const SecondOpinionOptions& options) {
   require_exact_processor_state();
-  assert(x_t0.rows() == x_t1.rows());
+  assert(motion.vertices_t0.rows() == motion.vertices_t1.rows());
   assert(options.share > 0 && options.share <= 1);
-  return Second(x_t0, x_t1, triangles, judgement, options).run();
+  return Second(motion, triangles, judgement, options).run();
 }
 
 }  // namespace assay::oracle

@@ -51,8 +51,7 @@ struct SecondOpinion {
 
 // REQUIRES what judge_step requires, and its judgement of this step. If that was stopped, only
 // queries are compared, because its pair set and times are not final.
-SecondOpinion second_opinion(const detector::PositionsView& x_t0,
-                             const detector::PositionsView& x_t1,
+SecondOpinion second_opinion(const detector::SteppedMesh& motion,
                              const detector::TrianglesView& triangles,
                              const StepJudgement& judgement, const SecondOpinionOptions& options);
 

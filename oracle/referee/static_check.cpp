@@ -73,9 +73,7 @@ Shape hull(const std::vector<Point>& points) {
 // two ends. The code takes 16 u M, plus what underflow may add.
 class QuickPositions {
  public:
-  QuickPositions(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-                 const StaticTime& time)
-      : x_t0_(x_t0), x_t1_(x_t1) {
+  QuickPositions(const detector::SteppedMesh& motion, const StaticTime& time) : motion_(motion) {
     if (const auto* fraction = std::get_if<RationalTime>(&time)) {
       t_ = static_cast<double>(fraction->numerator) / static_cast<double>(fraction->denominator);
     } else {
@@ -97,7 +95,7 @@ class QuickPositions {
     constexpr double kTooLarge = 0x1p1000;  // sums might overflow
     double least = HUGE_VAL, greatest = -HUGE_VAL;
     for (const std::int32_t v : vertices) {
-      const double begin = x_t0_(v, k), end = x_t1_(v, k);
+      const double begin = motion_.vertices_t0(v, k), end = motion_.vertices_t1(v, k);
       const double size = std::max(std::fabs(begin), std::fabs(end));
       if (size > kTooLarge) return {-HUGE_VAL, HUGE_VAL};
       const double middle = begin * (1 - t_) + end * t_;
@@ -108,8 +106,7 @@ class QuickPositions {
     return {least, greatest};
   }
 
-  const detector::PositionsView& x_t0_;
-  const detector::PositionsView& x_t1_;
+  const detector::SteppedMesh& motion_;
   double t_ = 0;
 };
 
@@ -142,14 +139,13 @@ int compare(const StaticTime& time, double t) {
   return static_cast<int>(CGAL::sign(difference));
 }
 
-bool triangles_meet(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-                    const detector::TrianglesView& triangles, detector::TrianglePair pair,
-                    const StaticTime& time) {
+bool triangles_meet(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
+                    detector::TrianglePair pair, const StaticTime& time) {
   require_exact_processor_state();
   const Rational t = value_of(time);
   auto position = [&](std::int32_t v) {
     auto coordinate = [&](int k) {
-      const Rational begin(x_t0(v, k)), end(x_t1(v, k));
+      const Rational begin(motion.vertices_t0(v, k)), end(motion.vertices_t1(v, k));
       return Rational(begin + t * (end - begin));
     };
     return Point(coordinate(0), coordinate(1), coordinate(2));
@@ -159,7 +155,7 @@ bool triangles_meet(const detector::PositionsView& x_t0, const detector::Positio
     for (const std::int32_t v : vertices) points.push_back(position(v));
     return hull(points);
   };
-  const QuickPositions quick(x_t0, x_t1, time);
+  const QuickPositions quick(motion, time);
   if (t == 0 && same_corners(triangles, pair)) return true;
   const Vertices a = vertices_of(triangles, pair.a), b = vertices_of(triangles, pair.b);
   Vertices common;

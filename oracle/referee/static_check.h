@@ -27,9 +27,8 @@ int compare(const StaticTime& time, double t);
 // places: for them the answer at t=0 is true, and at later times geometry decides.
 // REQUIRES a != b, indices in range, finite positions, a time in [0,1]. 1 us if the boxes are
 // apart at that time, else some 100 us.
-bool triangles_meet(const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-                    const detector::TrianglesView& triangles, detector::TrianglePair pair,
-                    const StaticTime& time);
+bool triangles_meet(const detector::SteppedMesh& motion, const detector::TrianglesView& triangles,
+                    detector::TrianglePair pair, const StaticTime& time);
 
 }  // namespace assay::oracle
 

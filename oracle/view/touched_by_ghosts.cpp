@@ -16,10 +16,10 @@ namespace {
 // flat sheets at rest have many that are coplanar, and finding times for those is slow.
 class SweptTests {
  public:
-  SweptTests(const detector::Positions& x_t0, const detector::Positions& x_t1)
-      : x_t0_(x_t0), x_t1_(x_t1), start_(x_t0) {
-    for (Eigen::Index v = 0; v < x_t0.rows(); ++v) {
-      moves_.push_back(x_t0.row(v) != x_t1.row(v) ? 1 : 0);
+  explicit SweptTests(const detector::SteppedMesh& motion)
+      : motion_(motion), start_(motion.vertices_t0) {
+    for (Eigen::Index v = 0; v < motion.size(); ++v) {
+      moves_.push_back(motion.vertices_t0.row(v) != motion.vertices_t1.row(v) ? 1 : 0);
     }
   }
 
@@ -53,12 +53,9 @@ class SweptTests {
     }
     return false;
   }
-  detector::MovingPoint path(std::int32_t vertex) const {
-    return detector::moving_point(x_t0_, x_t1_, vertex);
-  }
+  detector::MovingPoint path(std::int32_t vertex) const { return motion_.path(vertex); }
 
-  const detector::Positions& x_t0_;
-  const detector::Positions& x_t1_;
+  const detector::SteppedMesh& motion_;
   Instant start_;
   std::vector<std::uint8_t> moves_;
 };
@@ -72,22 +69,22 @@ detector::Positions with_apexes(const detector::PositionsView& x,
   return all;
 }
 
-std::vector<std::uint8_t> touched_by_ghosts(const detector::PositionsView& x_t0,
-                                            const detector::PositionsView& x_t1,
+std::vector<std::uint8_t> touched_by_ghosts(const detector::SteppedMesh& motion,
                                             const detector::TrianglesView& triangles,
                                             const detector::PositionsView& apexes_t0,
                                             const detector::PositionsView& apexes_t1,
                                             const detector::TrianglesView& ghosts,
                                             const GhostSweepOptions& options) {
   require_exact_processor_state();
-  assert(x_t0.rows() == x_t1.rows() && apexes_t0.rows() == apexes_t1.rows());
-  const detector::Positions all_t0 = with_apexes(x_t0, apexes_t0);
-  const detector::Positions all_t1 = with_apexes(x_t1, apexes_t1);
-  const detector::PositionsView view_t0 = all_t0, view_t1 = all_t1;
-  const BoxOfVertices box_of = swept_boxes(view_t0, view_t1);
+  assert(motion.vertices_t0.rows() == motion.vertices_t1.rows() &&
+         apexes_t0.rows() == apexes_t1.rows());
+  const detector::Positions all_t0 = with_apexes(motion.vertices_t0, apexes_t0);
+  const detector::Positions all_t1 = with_apexes(motion.vertices_t1, apexes_t1);
+  const detector::SteppedMesh all = {all_t0, all_t1};
+  const BoxOfVertices box_of = swept_boxes(all);
   const MeshFeatures mesh_parts = mesh_features(triangles), fan_parts = mesh_features(ghosts);
   const FeatureIndex mesh(mesh_parts, box_of), fans(fan_parts, box_of);
-  const SweptTests swept(all_t0, all_t1);
+  const SweptTests swept(all);
   // Elements are only ever set to 1, so the order of threads does not matter.
   std::vector<std::atomic<std::uint8_t>> touched(static_cast<std::size_t>(triangles.rows()));
   for_each_contact(mesh, fans, swept.tests(options.static_at_start), {options.jobs},

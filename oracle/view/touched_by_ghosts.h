@@ -19,13 +19,12 @@ struct GhostSweepOptions {
 // not share with the ghost. All faces of a ghost count, its loop edge and corners too; a
 // degenerate ghost is the segment or point that it has become.
 //
-// In the numbering of the ghosts the vertices of the mesh come first: apex k is x_t0.rows() + k.
+// In the numbering of the ghosts the vertices of the mesh come first: apex k is motion.size() + k.
 // It moves linearly from apexes_t0.row(k) at t=0 to apexes_t1.row(k) at t=1. REQUIRES indices in
 // range, finite positions. Features of which nothing moves are judged by integers. Each other pair
 // of features whose swept boxes meet costs what contact.h says, until the triangle is known to be
 // touched.
-std::vector<std::uint8_t> touched_by_ghosts(const detector::PositionsView& x_t0,
-                                            const detector::PositionsView& x_t1,
+std::vector<std::uint8_t> touched_by_ghosts(const detector::SteppedMesh& motion,
                                             const detector::TrianglesView& triangles,
                                             const detector::PositionsView& apexes_t0,
                                             const detector::PositionsView& apexes_t1,

@@ -16,22 +16,19 @@ detector::ViewSign view_sign(const std::array<detector::MovingPoint, 3>& triangl
   return exact_view_sign(triangle, primitive);
 }
 
-std::vector<detector::ViewSign> view_signs(const detector::PositionsView& x_t0,
-                                           const detector::PositionsView& x_t1,
+std::vector<detector::ViewSign> view_signs(const detector::SteppedMesh& motion,
                                            const detector::TrianglesView& triangles,
                                            std::span<const detector::ViewPrimitive> primitives,
                                            int jobs) {
   const auto count = static_cast<std::size_t>(triangles.rows());
-  assert(x_t0.rows() == x_t1.rows());
+  assert(motion.vertices_t0.rows() == motion.vertices_t1.rows());
   assert(primitives.size() == 1 || primitives.size() == count);
   std::vector<detector::ViewSign> signs(count);
   constexpr std::size_t kChunk = 256;
   StopGate never({});
   for_each_chunk(count, kChunk, jobs, never, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t t = begin; t < end; ++t) {
-      auto corner = [&](int i) {
-        return detector::moving_point(x_t0, x_t1, triangles(static_cast<Eigen::Index>(t), i));
-      };
+      auto corner = [&](int i) { return motion.path(triangles(static_cast<Eigen::Index>(t), i)); };
       signs[t] =
           view_sign({corner(0), corner(1), corner(2)}, primitives[primitives.size() == 1 ? 0 : t]);
     }

@@ -17,8 +17,7 @@ detector::ViewSign view_sign(const std::array<detector::MovingPoint, 3>& triangl
                              const detector::ViewPrimitive& primitive);
 
 // REQUIRES one primitive for all triangles, or one for each.
-std::vector<detector::ViewSign> view_signs(const detector::PositionsView& x_t0,
-                                           const detector::PositionsView& x_t1,
+std::vector<detector::ViewSign> view_signs(const detector::SteppedMesh& motion,
                                            const detector::TrianglesView& triangles,
                                            std::span<const detector::ViewPrimitive> primitives,
                                            int jobs);

@@ -3,11 +3,13 @@
 namespace assay::properties {
 namespace {
 
+using detector::GivenStep;
 using detector::PairContact;
 using detector::PairRule;
 using detector::ReleaseRule;
+using detector::StepCost;
+using detector::StepMarks;
 using detector::StepState;
-using detector::StepWork;
 
 enum Place : std::size_t { one_vertex, handled_when_not_free, reduced_u, corollary_4, released };
 constexpr Deviation all[] = {
@@ -35,17 +37,22 @@ struct PrintedRule : PairRule {
 struct PrintedRelease : ReleaseRule {
   std::shared_ptr<const ReleaseRule> by_view = stages_at(handled_when_not_free).release;
   std::shared_ptr<const ReleaseRule> when_free = stages_at(released).release;
-  bool is_free(StepWork& work, std::size_t component) const override {
-    return by_view->is_free(work, component);
+  bool is_free(const GivenStep& step, const StepMarks& marks, StepCost& cost,
+               std::size_t component) const override {
+    return by_view->is_free(step, marks, cost, component);
   }
-  bool released_at_start(const StepWork& work, std::size_t component) const override {
-    return by_view->released_at_start(work, component);
+  bool released_at_start(const GivenStep& step, const StepMarks& marks, StepCost& cost,
+                         std::size_t component) const override {
+    return by_view->released_at_start(step, marks, cost, component);
   }
   // Nothing but a free step empties Vv.
-  bool release(StepWork&, const std::vector<std::int32_t>&) const override { return true; }
-  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              StepState& state) const override {
-    when_free->settle(work, pairs, complete, state);
+  bool release(const GivenStep&, StepMarks&, StepCost&,
+               const std::vector<std::int32_t>&) const override {
+    return true;
+  }
+  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
+              bool complete, StepState& state) const override {
+    when_free->settle(step, marks, pairs, complete, state);
   }
 };
 

@@ -9,6 +9,7 @@ namespace {
 using detector::BoundaryHandler;
 using detector::MovingPoint;
 using detector::PositionsView;
+using detector::SteppedMesh;
 using detector::Surface;
 
 // No loops where `is_closed` says so of the number of triangles at each edge.
@@ -40,18 +41,16 @@ bool no_edge_used_once(const std::vector<std::size_t>& uses) {
 struct ApexStaysBehind : BoundaryHandler {
   std::vector<MovingPoint> place_apexes(const Surface& surface,
                                         const std::vector<detector::ApexRule>& rules,
-                                        const PositionsView& x_t0,
-                                        const PositionsView&) const override {
-    return BoundaryHandler::place_apexes(surface, rules, x_t0, x_t0);
+                                        const SteppedMesh& motion) const override {
+    return BoundaryHandler::place_apexes(surface, rules, motion.at_start());
   }
 };
 
 struct ApexAhead : BoundaryHandler {
   std::vector<MovingPoint> place_apexes(const Surface& surface,
                                         const std::vector<detector::ApexRule>& rules,
-                                        const PositionsView&,
-                                        const PositionsView& x_t1) const override {
-    return BoundaryHandler::place_apexes(surface, rules, x_t1, x_t1);
+                                        const SteppedMesh& motion) const override {
+    return BoundaryHandler::place_apexes(surface, rules, {motion.vertices_t1, motion.vertices_t1});
   }
 };
 
@@ -59,11 +58,10 @@ struct ApexAhead : BoundaryHandler {
 struct ApexChosenAnew : BoundaryHandler {
   std::vector<MovingPoint> place_apexes(const Surface& surface,
                                         const std::vector<detector::ApexRule>&,
-                                        const PositionsView& x_t0,
-                                        const PositionsView& x_t1) const override {
-    detector::BoundingVolumeTree tree(surface.mesh, x_t0);
-    const auto rules = choose_apexes(surface, tree, x_t0, detector::ElementaryTest());
-    return BoundaryHandler::place_apexes(surface, rules, x_t0, x_t1);
+                                        const SteppedMesh& motion) const override {
+    detector::BoundingVolumeTree tree(surface.mesh, motion.vertices_t0);
+    const auto rules = choose_apexes(surface, tree, motion.vertices_t0, detector::ElementaryTest());
+    return BoundaryHandler::place_apexes(surface, rules, motion);
   }
 };
 

@@ -14,7 +14,6 @@ using detector::DirectedEdge;
 using detector::DirectionSet;
 using detector::MovingContour;
 using detector::NormalConeSearch;
-using detector::PositionsView;
 using detector::Topology;
 using Triangle = std::array<detector::MovingPoint, 3>;
 
@@ -56,19 +55,11 @@ struct NoContourTest : NormalConeSearch {
   bool stays_simple(MovingContour&, Contour, int) const override { return true; }
 };
 
-class ContourAtEnd : public NormalConeSearch {
- public:
-  bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
-              const detector::PairSink& sink) const override {
-    x_ = input.x_t1;
-    return NormalConeSearch::search(input, counts, sink);
+struct ContourAtEnd : NormalConeSearch {
+  bool stays_simple(MovingContour& moving, Contour contour, int direction_bit) const override {
+    const auto& end = moving.motion().vertices_t1;
+    return MovingContour({end, end}).stays_simple(contour, direction_bit);
   }
-  bool stays_simple(MovingContour&, Contour contour, int direction_bit) const override {
-    return MovingContour(*x_, *x_).stays_simple(contour, direction_bit);
-  }
-
- private:
-  mutable const PositionsView* x_ = nullptr;  // of the step at hand
 };
 
 // Triangles that hang together at a vertex are taken for a patch, and the first walk around some of

@@ -34,8 +34,9 @@ struct NothingSwept : BoundaryHandler {
 struct OverlapAtEnds : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
-    const GhostSweep start{s.surface, s.tree, s.x_t0, s.x_t0, s.elementary, true};
-    const GhostSweep end{s.surface, s.tree, s.x_t1, s.x_t1, s.elementary, true};
+    const GhostSweep start{s.surface, s.tree, s.motion.at_start(), s.elementary, true};
+    const GhostSweep end{
+        s.surface, s.tree, {s.motion.vertices_t1, s.motion.vertices_t1}, s.elementary, true};
     return BoundaryHandler::sweep(start, ghosts, stop, touched, counts) &&
            BoundaryHandler::sweep(end, ghosts, stop, touched, counts);
   }
@@ -58,11 +59,9 @@ struct GhostsNotMoved : BoundaryHandler {
   static bool meet(const GhostSweep& s, std::int32_t ghost, std::int32_t triangle) {
     const Corners &g = s.surface.all().triangles[at(ghost)],
                   &t = s.surface.mesh.triangles[at(triangle)];
-    const auto moving = [&](std::size_t i) {
-      return detector::moving_point(s.x_t0, s.x_t1, t[i % 3]);
-    };
+    const auto moving = [&](std::size_t i) { return s.motion.path(t[i % 3]); };
     const auto stays = [&](std::size_t i) {
-      const auto place = detector::point_of(s.x_t0, g[i % 3]);
+      const auto place = s.motion.start(g[i % 3]);
       return MovingPoint{place, place};
     };
     const auto same = [&](std::size_t i, std::size_t j) { return g[i % 3] == t[j % 3]; };
@@ -107,8 +106,8 @@ struct FirstLoopOnly : GhostsSkipped {
 
 struct FlatGhostsSkipped : GhostsSkipped {
   bool skips(const GhostSweep& s, std::int32_t ghost) const override {
-    return detector::has_zero_area(s.surface.all(), s.x_t0, ghost) ||
-           detector::has_zero_area(s.surface.all(), s.x_t1, ghost);
+    return detector::has_zero_area(s.surface.all(), s.motion.vertices_t0, ghost) ||
+           detector::has_zero_area(s.surface.all(), s.motion.vertices_t1, ghost);
   }
 };
 
@@ -139,7 +138,7 @@ struct SweptVertexFaceOnly : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
     const VertexFaceTests no_edges;
-    const GhostSweep half{s.surface, s.tree, s.x_t0, s.x_t1, no_edges, s.piercing_at_start};
+    const GhostSweep half{s.surface, s.tree, s.motion, no_edges, s.piercing_at_start};
     return BoundaryHandler::sweep(half, ghosts, stop, touched, counts);
   }
 };
@@ -147,7 +146,7 @@ struct SweptVertexFaceOnly : BoundaryHandler {
 struct PiercedGhostsIgnored : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction& stop, Flags& touched,
              GhostCounts& counts) const override {
-    const GhostSweep half{s.surface, s.tree, s.x_t0, s.x_t1, s.elementary, false};
+    const GhostSweep half{s.surface, s.tree, s.motion, s.elementary, false};
     return BoundaryHandler::sweep(half, ghosts, stop, touched, counts);
   }
 };

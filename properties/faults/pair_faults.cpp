@@ -14,6 +14,7 @@ using detector::PairTables;
 using detector::PositionsView;
 using detector::SearchCounts;
 using detector::SearchInput;
+using detector::SteppedMesh;
 using detector::Topology;
 using detector::TrianglePair;
 
@@ -88,14 +89,14 @@ struct NeighboursSkipped : FilteredSearch {
 // "Nothing can be hit where there is no area", at t=0 or t=1.
 class ZeroAreaDropped : public FilteredSearch {
  public:
-  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1, detector::PacedStop& pace) const override {
-    if (!FilteredSearch::fit(tree, mesh, x_t0, x_t1, pace)) return false;
+  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           detector::PacedStop& pace) const override {
+    if (!FilteredSearch::fit(tree, mesh, motion, pace)) return false;
     dropped_.resize(mesh.triangles.size());
     for (std::size_t t = 0; t < dropped_.size(); ++t) {
       const auto triangle = static_cast<std::int32_t>(t);
-      dropped_[t] = detector::has_zero_area(mesh, x_t0, triangle) ||
-                    detector::has_zero_area(mesh, x_t1, triangle);
+      dropped_[t] = detector::has_zero_area(mesh, motion.vertices_t0, triangle) ||
+                    detector::has_zero_area(mesh, motion.vertices_t1, triangle);
     }
     return true;
   }
@@ -111,13 +112,12 @@ struct Box {
   double lo[3], hi[3];
 };
 
-Box swept_box(const std::array<std::int32_t, 3>& triangle, const PositionsView& x_t0,
-              const PositionsView& x_t1) {
+Box swept_box(const std::array<std::int32_t, 3>& triangle, const SteppedMesh& motion) {
   Box box;
   for (int k = 0; k < 3; ++k) {
-    box.lo[k] = box.hi[k] = x_t0(triangle[0], k);
+    box.lo[k] = box.hi[k] = motion.vertices_t0(triangle[0], k);
     for (const auto v : triangle) {
-      for (const double x : {x_t0(v, k), x_t1(v, k)}) {
+      for (const double x : {motion.vertices_t0(v, k), motion.vertices_t1(v, k)}) {
         box.lo[k] = std::min(box.lo[k], x);
         box.hi[k] = std::max(box.hi[k], x);
       }
@@ -129,12 +129,12 @@ Box swept_box(const std::array<std::int32_t, 3>& triangle, const PositionsView& 
 // Boxes that only touch do not meet: lost are contacts in their common face.
 class OpenBoxes : public FilteredSearch {
  public:
-  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1, detector::PacedStop& pace) const override {
-    if (!FilteredSearch::fit(tree, mesh, x_t0, x_t1, pace)) return false;
+  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           detector::PacedStop& pace) const override {
+    if (!FilteredSearch::fit(tree, mesh, motion, pace)) return false;
     boxes_.clear();
     for (const auto& triangle : mesh.triangles) {
-      boxes_.push_back(swept_box(triangle, x_t0, x_t1));
+      boxes_.push_back(swept_box(triangle, motion));
     }
     return true;
   }
@@ -152,20 +152,20 @@ class OpenBoxes : public FilteredSearch {
 
 template <bool end>
 struct StillBoxes : detector::TreeSearch {
-  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1, detector::PacedStop& pace) const override {
-    const PositionsView& x = end ? x_t1 : x_t0;
-    return tree.refit(mesh, x, x, pace);
+  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           detector::PacedStop& pace) const override {
+    const PositionsView& x = end ? motion.vertices_t1 : motion.vertices_t0;
+    return tree.refit(mesh, {x, x}, pace);
   }
 };
 
 // K and one round of the closure; what that finds starts no other.
 class SinglePassClosure : public detector::TreeSearch {
  public:
-  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1, detector::PacedStop& pace) const override {
+  bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           detector::PacedStop& pace) const override {
     searches_ = 0;
-    return TreeSearch::fit(tree, mesh, x_t0, x_t1, pace);
+    return TreeSearch::fit(tree, mesh, motion, pace);
   }
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
     return ++searches_ > 2 || TreeSearch::search(input, counts, sink);

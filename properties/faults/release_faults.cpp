@@ -9,8 +9,10 @@
 namespace assay::properties {
 namespace {
 
+using detector::GivenStep;
 using detector::ReleaseRule;
-using detector::StepWork;
+using detector::StepCost;
+using detector::StepMarks;
 
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
@@ -23,30 +25,32 @@ enum class ReleasedLayers { of_pieces, by_connection, across_touched, not_looked
 // The release, put together again with parts of it missing or changed.
 template <Contacts contacts, Ghosts ghosts, ReleasedLayers layers>
 struct ReleaseHalfChecked : ReleaseRule {
-  bool release(StepWork& work, const Components& components) const override {
-    Flags touched(work.clean.size(), 0), seen(touched);
-    const detector::FloatGrid grid(work.x_t0, work.x_t0);
-    if (contacts == Contacts::tested) detector::add_lasting_contacts(work, touched);
+  bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
+               const Components& components) const override {
+    Flags touched(marks.clean.size(), 0), seen(touched);
+    const detector::FloatGrid grid(step.motion.at_start());
+    if (contacts == Contacts::tested) detector::add_lasting_contacts(step, cost, touched);
     for (const auto component : components) {
       const std::size_t c = at(component);
       Triangles in_doubt;
-      for (const auto t : work.own_triangles(c)) {
-        if (!work.clean[at(t)]) in_doubt.push_back(t);
+      for (const auto t : step.own_triangles(c)) {
+        if (!marks.clean[at(t)]) in_doubt.push_back(t);
       }
-      if (ghosts == Ghosts::tested) detector::add_ghost_touches(work, grid, c, in_doubt, touched);
+      if (ghosts == Ghosts::tested)
+        detector::add_ghost_touches(step, cost, grid, c, in_doubt, touched);
       switch (layers) {
         case ReleasedLayers::of_pieces:
-          detector::release_pieces({work.surface, work.x_t0, touched}, c, in_doubt,
-                                   witnesses(work, c), seen, work.clean);
+          detector::release_pieces({step.surface, step.motion.vertices_t0, touched}, c, in_doubt,
+                                   witnesses(step, marks, c), seen, marks.clean);
           break;
         case ReleasedLayers::across_touched:
-          release_across_touched(work, c, in_doubt, touched);
+          release_across_touched(step, marks, c, in_doubt, touched);
           break;
         case ReleasedLayers::by_connection:
-          release_connected(work, in_doubt, touched);
+          release_connected(step, marks, in_doubt, touched);
           break;
         case ReleasedLayers::not_looked_at:
-          for (const auto t : in_doubt) work.clean[at(t)] = !touched[at(t)];
+          for (const auto t : in_doubt) marks.clean[at(t)] = !touched[at(t)];
       }
     }
     return true;
@@ -54,28 +58,29 @@ struct ReleaseHalfChecked : ReleaseRule {
 
  private:
   // Pieces go on through what is touched, and that alone stays dirty.
-  void release_across_touched(StepWork& work, std::size_t c, const Triangles& in_doubt,
-                              const Flags& touched) const {
+  void release_across_touched(const GivenStep& step, StepMarks& marks, std::size_t c,
+                              const Triangles& in_doubt, const Flags& touched) const {
     const Flags nothing(touched.size(), 0);
     Flags seen(nothing);
-    detector::release_pieces({work.surface, work.x_t0, nothing}, c, in_doubt, witnesses(work, c),
-                             seen, work.clean);
-    for (const auto t : in_doubt) work.clean[at(t)] &= !touched[at(t)];
+    detector::release_pieces({step.surface, step.motion.vertices_t0, nothing}, c, in_doubt,
+                             witnesses(step, marks, c), seen, marks.clean);
+    for (const auto t : in_doubt) marks.clean[at(t)] &= !touched[at(t)];
   }
 
   // A clean neighbour at any edge will do, however many triangles meet there.
-  static void release_connected(StepWork& work, const Triangles& in_doubt, const Flags& touched) {
-    const auto& mesh = work.surface.mesh;
+  static void release_connected(const GivenStep& step, StepMarks& marks, const Triangles& in_doubt,
+                                const Flags& touched) {
+    const auto& mesh = step.surface.mesh;
     for (bool grows = true; grows;) {
       grows = false;
       for (const auto t : in_doubt) {
-        if (work.clean[at(t)] || touched[at(t)]) continue;
+        if (marks.clean[at(t)] || touched[at(t)]) continue;
         for (const auto edge : mesh.triangle_edges[at(t)]) {
           const auto around = mesh.edge_triangles.row(edge);
-          work.clean[at(t)] |= std::any_of(around.begin(), around.end(),
-                                           [&](auto s) { return work.clean[at(s)] != 0; });
+          marks.clean[at(t)] |= std::any_of(around.begin(), around.end(),
+                                            [&](auto s) { return marks.clean[at(s)] != 0; });
         }
-        grows |= work.clean[at(t)] != 0;
+        grows |= marks.clean[at(t)] != 0;
       }
     }
   }
@@ -83,14 +88,15 @@ struct ReleaseHalfChecked : ReleaseRule {
 
 // A clean neighbour serves also what a ghost or the mesh touches; pieces end there all the same.
 struct ReleasedWhileTouched : ReleaseRule {
-  bool release(StepWork& work, const Components& components) const override {
-    if (!ReleaseRule::release(work, components)) return false;
-    const auto& mesh = work.surface.mesh;
-    const Flags released = work.clean;
+  bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
+               const Components& components) const override {
+    if (!ReleaseRule::release(step, marks, cost, components)) return false;
+    const auto& mesh = step.surface.mesh;
+    const Flags released = marks.clean;
     for (const auto component : components) {
-      for (const auto t : work.own_triangles(at(component))) {
+      for (const auto t : step.own_triangles(at(component))) {
         for (const auto edge : mesh.triangle_edges[at(t)]) {
-          for (const auto s : mesh.edge_triangles.row(edge)) work.clean[at(t)] |= released[at(s)];
+          for (const auto s : mesh.edge_triangles.row(edge)) marks.clean[at(t)] |= released[at(s)];
         }
       }
     }
@@ -100,11 +106,11 @@ struct ReleasedWhileTouched : ReleaseRule {
 
 // The state of a triangle is asked for by its place in the component: another component's answers.
 struct WitnessesByPlace : ReleaseRule {
-  Triangles witnesses(const StepWork& work, std::size_t c) const override {
+  Triangles witnesses(const GivenStep& step, const StepMarks& marks, std::size_t c) const override {
     Triangles found;
-    const auto own = work.own_triangles(c);
+    const auto own = step.own_triangles(c);
     for (std::size_t i = 0; i < own.size(); ++i) {
-      if (work.clean[i]) found.push_back(own[i]);
+      if (marks.clean[i]) found.push_back(own[i]);
     }
     return found;
   }

@@ -14,9 +14,9 @@ using detector::MarkingCounts;
 using detector::Marks;
 using detector::PairSink;
 using detector::PairTable;
-using detector::PositionsView;
 using detector::SearchCounts;
 using detector::SearchInput;
+using detector::SteppedMesh;
 using detector::Topology;
 
 // A flag gone from a leaf goes from all above, though another leaf there may have it.
@@ -120,9 +120,9 @@ class SkippedForOneSet : public detector::TreeSearch {
 // The tree is fitted to the first step that searches, and to no other.
 class FittedOnce : public detector::TreeSearch {
  public:
-  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1, detector::PacedStop& pace) const override {
-    fitted_ = fitted_ || TreeSearch::fit(tree, mesh, x_t0, x_t1, pace);
+  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           detector::PacedStop& pace) const override {
+    fitted_ = fitted_ || TreeSearch::fit(tree, mesh, motion, pace);
     return fitted_;
   }
 

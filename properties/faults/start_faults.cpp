@@ -9,18 +9,20 @@
 namespace assay::properties {
 namespace {
 
+using detector::GivenStep;
 using detector::ReleaseRule;
-using detector::StepWork;
+using detector::StepCost;
+using detector::StepMarks;
 using detector::ViewSign;
 
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
 
 // Triangles that meet another one of their component at t=0.
-void add_own_contacts(const StepWork& work, std::size_t c, Flags& touched) {
-  detector::FeatureContacts contacts(work.surface.mesh, work.x_t0, work.x_t0, work.elementary,
+void add_own_contacts(const GivenStep& step, std::size_t c, Flags& touched) {
+  detector::FeatureContacts contacts(step.surface.mesh, step.motion.at_start(), step.elementary,
                                      detector::Want::yes_no);
-  const auto own = work.own_triangles(c);
+  const auto own = step.own_triangles(c);
   for (std::size_t i = 0; i < own.size(); ++i) {
     for (std::size_t j = i + 1; j < own.size(); ++j) contacts.add_candidate(own[i], own[j], true);
   }
@@ -33,25 +35,27 @@ enum class StartLayers { by_piece, of_component, not_looked_at };
 // The check of a new start, put together again with parts of it missing or changed.
 template <bool contacts, bool ghosts, StartLayers layers>
 struct StartHalfChecked : ReleaseRule {
-  bool verify_start(StepWork& work, const Components& components) const override {
-    Flags touched(work.surface.mesh.triangles.size(), 0);
-    work.tree.refit(work.surface.mesh, work.x_t0, work.x_t0);
-    const detector::GhostSweep still{work.surface, work.tree,       work.x_t0,
-                                     work.x_t0,    work.elementary, true};
-    Flags seen(work.surface.all().triangles.size(), 0);
+  bool verify_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
+                    const Components& components) const override {
+    Flags touched(step.surface.mesh.triangles.size(), 0);
+    step.tree.refit(step.surface.mesh, step.motion.at_start());
+    const detector::GhostSweep still{step.surface, step.tree, step.motion.at_start(),
+                                     step.elementary, true};
+    Flags seen(step.surface.all().triangles.size(), 0);
     for (const auto component : components) {
       const std::size_t c = at(component);
-      if (contacts) add_own_contacts(work, c, touched);
+      if (contacts) add_own_contacts(step, c, touched);
       if (ghosts) {
-        work.boundary.sweep(still, work.ghosts(c), work.stop, touched, work.counts.ghosts);
+        step.boundary.sweep(still, step.ghosts(c), step.stop, touched, cost.counts.ghosts);
       }
-      detector::mark_clean_by_layers({work.surface, work.x_t0, touched}, c, seen, work.clean);
+      detector::mark_clean_by_layers({step.surface, step.motion.vertices_t0, touched}, c, seen,
+                                     marks.clean);
       if (layers == StartLayers::by_piece) continue;
-      const auto own = work.own_triangles(c);
+      const auto own = step.own_triangles(c);
       const bool some =
           layers == StartLayers::not_looked_at ||
-          std::any_of(own.begin(), own.end(), [&](auto t) { return work.clean[at(t)] != 0; });
-      for (const auto t : own) work.clean[at(t)] = some && !touched[at(t)];
+          std::any_of(own.begin(), own.end(), [&](auto t) { return marks.clean[at(t)] != 0; });
+      for (const auto t : own) marks.clean[at(t)] = some && !touched[at(t)];
     }
     return true;
   }
@@ -59,23 +63,24 @@ struct StartHalfChecked : ReleaseRule {
 
 // Of all layers that of the lowest untouched triangle, however few have it.
 struct LowestLayerIsCommon : ReleaseRule {
-  bool verify_start(StepWork& work, const Components& components) const override {
-    if (!ReleaseRule::verify_start(work, components)) return false;
+  bool verify_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
+                    const Components& components) const override {
+    if (!ReleaseRule::verify_start(step, marks, cost, components)) return false;
     for (const auto component : components) {
       const std::size_t c = at(component);
-      Flags touched(work.surface.mesh.triangles.size(), 0);
-      add_own_contacts(work, c, touched);
-      const detector::GhostSweep still{work.surface, work.tree,       work.x_t0,
-                                       work.x_t0,    work.elementary, true};
-      work.boundary.sweep(still, work.ghosts(c), work.stop, touched, work.counts.ghosts);
+      Flags touched(step.surface.mesh.triangles.size(), 0);
+      add_own_contacts(step, c, touched);
+      const detector::GhostSweep still{step.surface, step.tree, step.motion.at_start(),
+                                       step.elementary, true};
+      step.boundary.sweep(still, step.ghosts(c), step.stop, touched, cost.counts.ghosts);
       std::optional<int> common;
-      for (const auto t : work.own_triangles(c)) {
-        work.clean[at(t)] = 0;
+      for (const auto t : step.own_triangles(c)) {
+        marks.clean[at(t)] = 0;
         if (touched[at(t)]) continue;
         const auto outside = detector::winding_numbers_outside(
-            work.surface.all(), work.component(c).triangles, work.x_t0, {{t}})[0];
+            step.surface.all(), step.component(c).triangles, step.motion.vertices_t0, {{t}})[0];
         if (!common) common = outside;
-        work.clean[at(t)] = outside && outside == common;
+        marks.clean[at(t)] = outside && outside == common;
       }
     }
     return true;
@@ -83,48 +88,54 @@ struct LowestLayerIsCommon : ReleaseRule {
 };
 
 struct StartNotChecked : ReleaseRule {
-  bool verify_start(StepWork& work, const Components& components) const override {
+  bool verify_start(const GivenStep& step, StepMarks& marks, StepCost&,
+                    const Components& components) const override {
     for (const auto c : components) {
-      for (const auto t : work.own_triangles(at(c))) work.clean[at(t)] = 1;
+      for (const auto t : step.own_triangles(at(c))) marks.clean[at(t)] = 1;
     }
     return true;
   }
 };
 
-bool all_positive(const StepWork& work, std::span<const std::int32_t> triangles) {
+bool all_positive(const StepMarks& marks, std::span<const std::int32_t> triangles) {
   return std::all_of(triangles.begin(), triangles.end(),
-                     [&](std::int32_t t) { return work.signs[at(t)] == ViewSign::positive; });
+                     [&](std::int32_t t) { return marks.signs[at(t)] == ViewSign::positive; });
 }
 
 // `surface`: that of the step, or its mesh without ghosts.
-bool all_positive_at_start(const StepWork& work, std::size_t c, const detector::Topology& surface) {
-  const auto& primitive = work.primitives[c];
-  return detector::all_positive_at(surface, surface.components[c], work.x_t0, primitive.q0.t0,
-                                   primitive.q1.t0);
+bool all_positive_at_start(const GivenStep& step, const StepMarks& marks, std::size_t c,
+                           const detector::Topology& surface) {
+  const auto& primitive = marks.primitives[c];
+  return detector::all_positive_at(surface, surface.components[c], step.motion.vertices_t0,
+                                   primitive.q0.t0, primitive.q1.t0);
 }
 
 struct WindingNotChecked : ReleaseRule {
-  bool is_free(StepWork& work, std::size_t c) const override {
-    return all_positive(work, work.component(c).triangles);
+  bool is_free(const GivenStep& step, const StepMarks& marks, StepCost&,
+               std::size_t c) const override {
+    return all_positive(marks, step.component(c).triangles);
   }
-  bool released_at_start(const StepWork& work, std::size_t c) const override {
-    return all_positive_at_start(work, c, work.surface.all());
+  bool released_at_start(const GivenStep& step, const StepMarks& marks, StepCost&,
+                         std::size_t c) const override {
+    return all_positive_at_start(step, marks, c, step.surface.all());
   }
 };
 
 // Ghosts count for the winding number, but may be seen from behind.
 struct GhostSignsNotAsked : ReleaseRule {
-  bool is_free(StepWork& work, std::size_t c) const override {
-    return all_positive(work, work.own_triangles(c)) && is_inside(work, c);
+  bool is_free(const GivenStep& step, const StepMarks& marks, StepCost&,
+               std::size_t c) const override {
+    return all_positive(marks, step.own_triangles(c)) && is_inside(step, marks, c);
   }
-  bool released_at_start(const StepWork& work, std::size_t c) const override {
-    return all_positive_at_start(work, c, work.surface.mesh) && is_inside(work, c);
+  bool released_at_start(const GivenStep& step, const StepMarks& marks, StepCost&,
+                         std::size_t c) const override {
+    return all_positive_at_start(step, marks, c, step.surface.mesh) && is_inside(step, marks, c);
   }
 
  private:
-  static bool is_inside(const StepWork& work, std::size_t c) {
-    return detector::winding_number(work.surface.all(), work.component(c).triangles, work.x_t0,
-                                    work.primitives[c].q0.t0) == 1;
+  static bool is_inside(const GivenStep& step, const StepMarks& marks, std::size_t c) {
+    return detector::winding_number(step.surface.all(), step.component(c).triangles,
+                                    step.motion.vertices_t0, marks.primitives[c].q0.t0) == 1;
   }
 };
 

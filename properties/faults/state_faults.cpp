@@ -6,50 +6,52 @@
 namespace assay::properties {
 namespace {
 
+using detector::GivenStep;
 using detector::PairContact;
 using detector::ReleaseRule;
+using detector::StepCost;
+using detector::StepMarks;
 using detector::StepState;
-using detector::StepWork;
 
 // What the step leaves behind, from a start at which more is believed clean, or from a step that
 // has seen less.
 struct DirtyNotCarried : ReleaseRule {
-  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              StepState& state) const override {
-    StepWork forgetful = work;
-    forgetful.clean.assign(work.clean.size(), 1);
-    ReleaseRule::settle(forgetful, pairs, complete, state);
+  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
+              bool complete, StepState& state) const override {
+    StepMarks forgetful = marks;
+    forgetful.clean.assign(marks.clean.size(), 1);
+    ReleaseRule::settle(step, forgetful, pairs, complete, state);
   }
 };
 
 struct ViolatedNotCarried : ReleaseRule {
-  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              StepState& state) const override {
-    StepWork forgetful = work;
-    forgetful.touched.assign(work.touched.size(), 0);
-    ReleaseRule::settle(forgetful, pairs, complete, state);
+  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
+              bool complete, StepState& state) const override {
+    StepMarks forgetful = marks;
+    forgetful.touched.assign(marks.touched.size(), 0);
+    ReleaseRule::settle(step, forgetful, pairs, complete, state);
   }
 };
 
 struct ReleasedOnNoContact : ReleaseRule {
-  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              StepState& state) const override {
-    ReleaseRule::settle(work, pairs, complete, state);
+  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
+              bool complete, StepState& state) const override {
+    ReleaseRule::settle(step, marks, pairs, complete, state);
     if (pairs.empty()) std::fill(state.clean.begin(), state.clean.end(), 1);
   }
 };
 
 struct ContactsNotCarried : ReleaseRule {
-  void settle(const StepWork& work, const std::vector<PairContact>&, bool,
+  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>&, bool,
               StepState& state) const override {
-    ReleaseRule::settle(work, {}, true, state);
+    ReleaseRule::settle(step, marks, {}, true, state);
   }
 };
 
 struct OneSideDirty : ReleaseRule {
-  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool,
-              StepState& state) const override {
-    ReleaseRule::settle(work, {}, true, state);
+  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
+              bool, StepState& state) const override {
+    ReleaseRule::settle(step, marks, {}, true, state);
     for (const auto& contact : pairs) {
       state.clean[at(contact.pair.a)] = 0;
       state.met.push_back(contact.pair);
@@ -58,23 +60,23 @@ struct OneSideDirty : ReleaseRule {
 };
 
 struct FirstPairsAreAll : ReleaseRule {
-  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool,
-              StepState& state) const override {
-    ReleaseRule::settle(work, pairs, true, state);
+  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
+              bool, StepState& state) const override {
+    ReleaseRule::settle(step, marks, pairs, true, state);
   }
 };
 
 // After a step without views an open component is dirty only where that found a contact.
 struct LostByContactAlone : ReleaseRule {
-  bool knows_clean(const StepWork& work, const std::vector<PairContact>& pairs,
+  bool knows_clean(const GivenStep& step, const std::vector<PairContact>& pairs,
                    std::size_t c) const override {
-    return pairs.empty() || ReleaseRule::knows_clean(work, pairs, c);
+    return pairs.empty() || ReleaseRule::knows_clean(step, pairs, c);
   }
 };
 
 // Clean bits are carried through a step without views as through any other, ghosts or not.
 struct CarriedPastGhosts : ReleaseRule {
-  bool knows_clean(const StepWork&, const std::vector<PairContact>&, std::size_t) const override {
+  bool knows_clean(const GivenStep&, const std::vector<PairContact>&, std::size_t) const override {
     return true;
   }
 };
@@ -82,10 +84,10 @@ struct CarriedPastGhosts : ReleaseRule {
 // What the step before did not find in contact is not held against the ghosts either.
 struct OnlyMetAgainstGhosts : ReleaseRule {
   std::vector<std::int32_t> may_touch_ghosts(
-      const StepWork& work, const std::vector<std::int32_t>& in_doubt) const override {
+      const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const override {
     std::vector<std::int32_t> met;
     const auto is_met = [&](std::int32_t t) {
-      return std::any_of(work.known->met.begin(), work.known->met.end(),
+      return std::any_of(step.known->met.begin(), step.known->met.end(),
                          [&](const auto& pair) { return pair.a == t || pair.b == t; });
     };
     std::copy_if(in_doubt.begin(), in_doubt.end(), std::back_inserter(met), is_met);
@@ -104,16 +106,18 @@ struct KeptElsewhere : ReleaseRule {
 // was seen to be free there, so nothing there is dirty".
 class EvaluationKept : public ReleaseRule {
  public:
-  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              StepState& state) const override {
-    ReleaseRule::settle(work, pairs, complete, state);
-    free_from_.resize(pairs.empty() ? work.x_t0.rows() : 0, 3);
-    if (pairs.empty()) free_from_ = work.x_t0;
+  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
+              bool complete, StepState& state) const override {
+    ReleaseRule::settle(step, marks, pairs, complete, state);
+    free_from_.resize(pairs.empty() ? step.motion.size() : 0, 3);
+    if (pairs.empty()) free_from_ = step.motion.vertices_t0;
   }
-  bool release(StepWork& work, const std::vector<std::int32_t>& components) const override {
-    if (!ReleaseRule::release(work, components)) return false;
-    const bool is_known = free_from_.rows() == work.x_t0.rows() && free_from_ == work.x_t0;
-    if (is_known) std::fill(work.clean.begin(), work.clean.end(), 1);
+  bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
+               const std::vector<std::int32_t>& components) const override {
+    if (!ReleaseRule::release(step, marks, cost, components)) return false;
+    const bool is_known =
+        free_from_.rows() == step.motion.size() && free_from_ == step.motion.vertices_t0;
+    if (is_known) std::fill(marks.clean.begin(), marks.clean.end(), 1);
     return true;
   }
 

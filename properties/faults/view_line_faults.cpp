@@ -66,13 +66,14 @@ ViewSign from_midpoint(const MovingTriangle& triangle, const ViewPrimitive& prim
 
 // The winding number where the view is from: that of an end would say nothing.
 struct FreeFromMidpoint : detector::ReleaseRule {
-  bool is_free(detector::StepWork& work, std::size_t c) const override {
-    const auto& triangles = work.component(c).triangles;
+  bool is_free(const detector::GivenStep& step, const detector::StepMarks& marks,
+               detector::StepCost&, std::size_t c) const override {
+    const auto& triangles = step.component(c).triangles;
     for (const auto t : triangles) {
-      if (work.signs[at(t)] != ViewSign::positive) return false;
+      if (marks.signs[at(t)] != ViewSign::positive) return false;
     }
-    return detector::winding_number(work.surface.all(), triangles, work.x_t0,
-                                    midpoint(work.primitives[c]).q0.t0) == 1;
+    return detector::winding_number(step.surface.all(), triangles, step.motion.vertices_t0,
+                                    midpoint(marks.primitives[c]).q0.t0) == 1;
   }
 };
 

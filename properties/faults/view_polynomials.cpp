@@ -142,13 +142,12 @@ ViewSign common_sign(std::initializer_list<ViewSign> signs) {
 
 bool TriangleSigns::classify(const detector::Topology& surface,
                              const detector::Component& component,
-                             const detector::PositionsView& x_t0,
-                             const detector::PositionsView& x_t1, const ViewPrimitive& primitive,
+                             const detector::SteppedMesh& motion, const ViewPrimitive& primitive,
                              std::vector<ViewSign>& signs, detector::ViewCounts& counts,
                              detector::PacedStop&) const {
   for (const auto t : component.triangles) {
     const auto& v = surface.triangles[at(t)];
-    const auto corner = [&](std::size_t i) { return detector::moving_point(x_t0, x_t1, v[i]); };
+    const auto corner = [&](std::size_t i) { return motion.path(v[i]); };
     signs[at(t)] = sign({corner(0), corner(1), corner(2)}, primitive);
     ++counts.exact;
   }

@@ -66,9 +66,9 @@ detector::ViewSign sampled(const detector::MovingTriangle& triangle,
 class TriangleSigns : public detector::ViewClassifier {
  public:
   bool classify(const detector::Topology& surface, const detector::Component& component,
-                const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-                const detector::ViewPrimitive& primitive, std::vector<detector::ViewSign>& signs,
-                detector::ViewCounts& counts, detector::PacedStop& pace) const override;
+                const detector::SteppedMesh& motion, const detector::ViewPrimitive& primitive,
+                std::vector<detector::ViewSign>& signs, detector::ViewCounts& counts,
+                detector::PacedStop& pace) const override;
   virtual detector::ViewSign sign(const detector::MovingTriangle& triangle,
                                   const detector::ViewPrimitive& primitive) const = 0;
 };

@@ -13,7 +13,7 @@ using detector::Point;
 using detector::Positions;
 
 bool is_free(const Positions& x_t0, const Positions& x_t1, const corpus::Case& c) {
-  return oracle::judge_step(x_t0, x_t1, c.triangles, {1, {}}).answer == detector::Answer::free;
+  return oracle::judge_step({x_t0, x_t1}, c.triangles, {1, {}}).answer == detector::Answer::free;
 }
 
 Point shortened(const Point& a, const Point& b, double s) {
@@ -65,7 +65,8 @@ class Responder {
 
   void step(std::size_t k) {
     const std::int32_t whole = add_frame(k, 1);
-    const auto judgement = oracle::judge_step(frame(now_), frame(whole), made_.triangles, {1, {}});
+    const auto judgement =
+        oracle::judge_step({frame(now_), frame(whole)}, made_.triangles, {1, {}});
     if (judgement.answer == detector::Answer::free) {
       made_.script.push_back({now_, whole, true});
       now_ = whole;

@@ -63,7 +63,7 @@ class CaseChecker {
   void check_step(std::size_t s) {
     CaseStepReport step{
         player_->play(s),
-        oracle::judge_step(player_->x_t0(s), player_->x_t1(s), case_.triangles, {jobs_, {}}),
+        oracle::judge_step({player_->x_t0(s), player_->x_t1(s)}, case_.triangles, {jobs_, {}}),
         {}};
     step.diff = compare(step.result, step.judgement, options_);
     const std::string where = fmt::format("step {}: ", s + 1);
@@ -132,7 +132,7 @@ class CaseChecker {
   ViewSign sign_by_oracle(std::size_t s, std::int32_t t,
                           const detector::ViewPrimitive& view) const {
     const auto corner = [&](int i) {
-      return detector::moving_point(player_->x_t0(s), player_->x_t1(s), case_.triangles(t, i));
+      return detector::SteppedMesh{player_->x_t0(s), player_->x_t1(s)}.path(case_.triangles(t, i));
     };
     return oracle::view_sign({corner(0), corner(1), corner(2)}, view);
   }

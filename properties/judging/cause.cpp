@@ -15,6 +15,7 @@ using detector::FeatureKind;
 using detector::MovingPoint;
 using detector::PairContact;
 using detector::PositionsView;
+using detector::SteppedMesh;
 using detector::TrianglesView;
 
 constexpr const char* time_words[] = {"t inside", "t at 1", "t at 0"};
@@ -47,19 +48,17 @@ CauseShape shape_of(oracle::ContactShape shape) {
 // The two triangles of a pair during a step.
 class PairOfStep {
  public:
-  PairOfStep(const TrianglesView& triangles, const PositionsView& x_t0, const PositionsView& x_t1,
-             detector::TrianglePair pair)
-      : triangles_(triangles), x_t0_(x_t0), x_t1_(x_t1), pair_(pair), faces_{pair.a, pair.b} {}
+  PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, detector::TrianglePair pair)
+      : triangles_(triangles), motion_(motion), pair_(pair), faces_{pair.a, pair.b} {}
 
   // Whose area counts; else both.
   void set_faces(std::vector<std::int32_t> faces) { faces_ = std::move(faces); }
 
-  MovingPoint path(std::int32_t vertex) const {
-    return detector::moving_point(x_t0_, x_t1_, vertex);
-  }
+  MovingPoint path(std::int32_t vertex) const { return motion_.path(vertex); }
 
   bool moves(std::int32_t vertex) const {
-    return (x_t0_.row(vertex).array() != x_t1_.row(vertex).array()).any();
+    return (motion_.vertices_t0.row(vertex).array() != motion_.vertices_t1.row(vertex).array())
+        .any();
   }
 
   bool moves() const {
@@ -72,7 +71,7 @@ class PairOfStep {
     bool is_tiny = false, is_huge = false;
     for (const auto triangle : {pair_.a, pair_.b}) {
       for (const int k : corners) {
-        for (const auto* x : {&x_t0_, &x_t1_}) {
+        for (const auto* x : {&motion_.vertices_t0, &motion_.vertices_t1}) {
           for (int axis = 0; axis < 3; ++axis) {
             const double magnitude = std::abs((*x)(corner(triangle, k), axis));
             is_huge |= magnitude > 0x1p40;
@@ -86,7 +85,8 @@ class PairOfStep {
 
   bool is_without_area(const detector::TimeEnclosure& t) const {
     for (const auto triangle : faces_) {
-      if (has_no_area(triangle, x_t0_) || has_no_area(triangle, x_t1_)) return true;
+      if (has_no_area(triangle, motion_.vertices_t0) || has_no_area(triangle, motion_.vertices_t1))
+        return true;
       if (t.lo == t.hi && has_no_area_at(triangle, t.lo)) return true;
     }
     return false;
@@ -133,13 +133,13 @@ class PairOfStep {
   bool has_no_area_at(std::int32_t triangle, double t) const {
     const mpq_class time(t);
     return has_no_area_by(triangle, [&](std::int32_t v, int axis) {
-      const mpq_class from(x_t0_(v, axis)), to(x_t1_(v, axis));
+      const mpq_class from(motion_.vertices_t0(v, axis)), to(motion_.vertices_t1(v, axis));
       return mpq_class(from + time * (to - from));
     });
   }
 
   const TrianglesView& triangles_;
-  const PositionsView &x_t0_, &x_t1_;
+  const SteppedMesh& motion_;
   const detector::TrianglePair pair_;
   std::vector<std::int32_t> faces_;
 };
@@ -158,14 +158,14 @@ Cause cause_of_contact(const PairOfStep& pair, const PairContact& contact) {
 
 }  // namespace
 
-Cause cause_of(const TrianglesView& triangles, const PositionsView& x_t0, const PositionsView& x_t1,
+Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
                const PairContact& contact) {
-  return cause_of_contact({triangles, x_t0, x_t1, contact.pair}, contact);
+  return cause_of_contact({triangles, motion, contact.pair}, contact);
 }
 
-Cause cause_of_query(const TrianglesView& triangles, const PositionsView& x_t0,
-                     const PositionsView& x_t1, const PairContact& contact) {
-  PairOfStep pair(triangles, x_t0, x_t1, contact.pair);
+Cause cause_of_query(const TrianglesView& triangles, const SteppedMesh& motion,
+                     const PairContact& contact) {
+  PairOfStep pair(triangles, motion, contact.pair);
   if (contact.feature.kind == FeatureKind::vertex_face) {
     pair.set_faces({contact.pair.b});
   } else {
@@ -174,9 +174,9 @@ Cause cause_of_query(const TrianglesView& triangles, const PositionsView& x_t0,
   return cause_of_contact(pair, contact);
 }
 
-Cause cause_of(const TrianglesView& triangles, const PositionsView& x_t0, const PositionsView& x_t1,
+Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
                detector::TrianglePair pair) {
-  const PairOfStep of(triangles, x_t0, x_t1, pair);
+  const PairOfStep of(triangles, motion, pair);
   return {std::nullopt, of.moves(), std::nullopt, of.numbers()};
 }
 

@@ -40,16 +40,16 @@ struct Cause {
   friend bool operator==(const Cause&, const Cause&) = default;
 };
 
-// The cause for a contact of the oracle in the step from x_t0 to x_t1.
-Cause cause_of(const detector::TrianglesView& triangles, const detector::PositionsView& x_t0,
-               const detector::PositionsView& x_t1, const detector::PairContact& contact);
+// The cause for a contact of the oracle in the step.
+Cause cause_of(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
+               const detector::PairContact& contact);
 // The cause for a contact of the two features of a query (query_case.h). The triangles of its mesh
 // hold more than these features, so only the area of the face counts.
-Cause cause_of_query(const detector::TrianglesView& triangles, const detector::PositionsView& x_t0,
-                     const detector::PositionsView& x_t1, const detector::PairContact& contact);
+Cause cause_of_query(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
+                     const detector::PairContact& contact);
 // The cause for a pair of triangles that is not in contact.
-Cause cause_of(const detector::TrianglesView& triangles, const detector::PositionsView& x_t0,
-               const detector::PositionsView& x_t1, detector::TrianglePair pair);
+Cause cause_of(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
+               detector::TrianglePair pair);
 
 // "t inside, moving, coplanar throughout, huge numbers". Ordinary numbers are not mentioned.
 std::string text_of(const Cause& cause);

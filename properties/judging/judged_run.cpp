@@ -41,7 +41,7 @@ std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
   std::vector<oracle::StepJudgement> judgements;
   for (const auto& step : corpus::steps_of(c)) {
     judgements.push_back(
-        oracle::judge_step(start_of(c, step), end_of(c, step), c.triangles, options));
+        oracle::judge_step({start_of(c, step), end_of(c, step)}, c.triangles, options));
   }
   return judgements;
 }

@@ -34,7 +34,7 @@ Observation certified_patches_are_free(CaseFacts& facts, std::size_t s) {
 // another pair of triangles shares.
 Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   if (!has_certified_patch(facts, s) || facts.judgement(s).pairs.empty()) return not_met();
-  const auto candidates = facts.traditional_scheme()->candidates(facts.x_t0(s), facts.x_t1(s));
+  const auto candidates = facts.traditional_scheme()->candidates({facts.x_t0(s), facts.x_t1(s)});
   for (const auto& contact : facts.judgement(s).pairs) {
     if (candidates.count(contact.pair)) continue;
     return fmt::format("({}, {}) is in contact, and the search by normal cones leaves it out",
@@ -45,26 +45,38 @@ Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
 
 // The search of a detector, asked for proofs wherever they are not hopeless: the law is about what
 // they leave out, and not about when they pay.
+class EagerMeshSearch : public detector::MeshSearch {
+ public:
+  EagerMeshSearch(const detector::PairSearch& by, std::unique_ptr<detector::MeshSearch> search)
+      : MeshSearch(by), search_(std::move(search)) {}
+  bool fit(detector::BoundingVolumeTree& tree, const detector::Topology& mesh,
+           const detector::SteppedMesh& motion, detector::PacedStop& pace) override {
+    return search_->fit(tree, mesh, motion, pace);
+  }
+  bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
+              const detector::PairSink& sink) override {
+    return search_->search(input, counts, sink);
+  }
+  detector::ProvableShares provable_shares(const detector::Topology&) const override {
+    return {1, 1};
+  }
+
+ private:
+  std::unique_ptr<detector::MeshSearch> search_;
+};
+
 class EagerProofs : public detector::PairSearch {
  public:
   explicit EagerProofs(std::shared_ptr<const detector::PairSearch> search)
       : search_(std::move(search)) {}
-  std::unique_ptr<detector::KeptBySearch> prepare(const detector::Topology& mesh,
-                                                  const detector::BoundingVolumeTree& tree,
-                                                  detector::PacedStop& pace) const override {
-    return search_->prepare(mesh, tree, pace);
-  }
-  bool fit(detector::BoundingVolumeTree& tree, const detector::Topology& mesh,
-           const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-           detector::PacedStop& pace) const override {
-    return search_->fit(tree, mesh, x_t0, x_t1, pace);
+  std::unique_ptr<detector::MeshSearch> prepare(const detector::Topology& mesh,
+                                                const detector::BoundingVolumeTree& tree,
+                                                detector::PacedStop& pace) const override {
+    return std::make_unique<EagerMeshSearch>(*this, search_->prepare(mesh, tree, pace));
   }
   bool search(const detector::SearchInput& input, detector::SearchCounts& counts,
               const detector::PairSink& sink) const override {
     return search_->search(input, counts, sink);
-  }
-  detector::ProvableShares provable_shares(const detector::SearchInput&) const override {
-    return {1, 1};
   }
 
  private:

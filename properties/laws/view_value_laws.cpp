@@ -20,16 +20,15 @@ Observation each_sample(CaseFacts& facts, std::size_t s, Look look) {
   constexpr int triangles = 2, times = 2;
   Random random(Random::hash(facts.source().id), s);
   const auto& surface = facts.surface().all();
-  const auto x_t0 = facts.all_t0(s), x_t1 = facts.all_t1(s);
+  const auto start = facts.all_t0(s), end = facts.all_t1(s);
+  const detector::SteppedMesh motion = {start, end};
   for (int i = 0; i < triangles; ++i) {
     const auto t =
         static_cast<std::size_t>(random.below(static_cast<int>(surface.triangles.size())));
     const auto c = at(surface.component_of_triangle[t]);
     const auto& corners = surface.triangles[t];
     const std::array<detector::MovingPoint, 3> triangle = {
-        detector::moving_point(x_t0, x_t1, corners[0]),
-        detector::moving_point(x_t0, x_t1, corners[1]),
-        detector::moving_point(x_t0, x_t1, corners[2])};
+        motion.path(corners[0]), motion.path(corners[1]), motion.path(corners[2])};
     for (int k = 0; k < times; ++k) {
       const int eighths = random.between(0, 8);
       const ExactView view(triangle, facts.result(s).primitives[c], eighths);

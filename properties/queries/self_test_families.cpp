@@ -120,7 +120,7 @@ class StepFamily final : public SelfTestFamily {
     ++tally.queries;
     try {
       const SmallStep step = make_small_step(seed, index);
-      const auto judged = oracle::judge_step(step.x_t0, step.x_t1, step.triangles, {});
+      const auto judged = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
       tally.contacts += judged.answer == detector::Answer::collision ? 1 : 0;
       tally.rungs += judged.rungs;
       const auto found = detect(step);
@@ -137,7 +137,7 @@ class StepFamily final : public SelfTestFamily {
 
   std::string text(std::uint64_t seed, std::uint64_t index) const override {
     const SmallStep step = make_small_step(seed, index);
-    const auto judged = oracle::judge_step(step.x_t0, step.x_t1, step.triangles, {});
+    const auto judged = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {});
     const auto found = detect(step);
     std::string out = step.family + "\n";
     for (Eigen::Index v = 0; v < step.x_t0.rows(); ++v) {

@@ -35,7 +35,7 @@ class Check {
     faces_[0] << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
     faces_[1] = faces_[0].rowwise().reverse();
     // Contacts do not depend on the orientation of the faces.
-    judgement_ = oracle::judge_step(x_t0_, x_t1_, faces_[0], {1, {}});
+    judgement_ = oracle::judge_step({x_t0_, x_t1_}, faces_[0], {1, {}});
     collides_ = judgement_.answer == detector::Answer::collision;
     // One tetrahedron without a contact is embedded: its layers are all (1,0) or all (0,-1).
     clean_start_ = !collides_ || judgement_.first.hi > 0;
@@ -76,7 +76,7 @@ class Check {
 
   // The law that does not hold, or null.
   const char* check_laws(std::size_t turned, const ViewPrimitive& q) {
-    const auto signs = oracle::view_signs(x_t0_, x_t1_, faces_[turned], {&q, 1}, 1);
+    const auto signs = oracle::view_signs({x_t0_, x_t1_}, faces_[turned], {&q, 1}, 1);
     const auto all = [&](ViewSign sign) {
       return std::all_of(signs.begin(), signs.end(), [=](ViewSign s) { return s == sign; });
     };

@@ -59,9 +59,8 @@ FeatureKey mixed(FeatureKey key) {
   return key ^ (key >> 31);
 }
 
-FourPoints query_of(FeatureKey key, const Topology& mesh, const PositionsView& x_t0,
-                    const PositionsView& x_t1) {
-  const auto point = [&](std::int32_t v) { return moving_point(x_t0, x_t1, v); };
+FourPoints query_of(FeatureKey key, const Topology& mesh, const SteppedMesh& motion) {
+  const auto point = [&](std::int32_t v) { return motion.path(v); };
   if (kind_of(key) == FeatureKind::vertex_face) {
     const auto& f = mesh.triangles[at(second_of(key))];
     return {{point(first_of(key)), point(f[0]), point(f[1]), point(f[2])}, 1};
@@ -90,11 +89,11 @@ bool append_file(const std::string& csv, const std::string& truth, LabelledSet& 
 }  // namespace
 
 MeshCandidates mesh_candidates(const corpus::Sequence& step, std::size_t most) {
-  const Positions &x_t0 = step.frames[0], &x_t1 = step.frames[1];
-  const Topology mesh = make_topology(step.triangles, x_t0.rows());
-  BoundingVolumeTree tree(mesh, x_t0);
-  tree.refit(mesh, x_t0, x_t1);
-  const RoundedPositions points(x_t0, x_t1);
+  const SteppedMesh motion = {step.frames[0], step.frames[1]};
+  const Topology mesh = make_topology(step.triangles, motion.size());
+  BoundingVolumeTree tree(mesh, motion.vertices_t0);
+  tree.refit(mesh, motion);
+  const RoundedPositions points(motion);
   const Enumeration features(mesh, points);
   std::vector<FeatureKey> keys;
   SearchCounts counts;
@@ -113,7 +112,7 @@ MeshCandidates mesh_candidates(const corpus::Sequence& step, std::size_t most) {
   std::partial_sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(most), keys.end(),
                     before);
   for (std::size_t i = 0; i < most; ++i) {
-    out.queries.push_back(query_of(keys[i], mesh, x_t0, x_t1));
+    out.queries.push_back(query_of(keys[i], mesh, motion));
   }
   return out;
 }

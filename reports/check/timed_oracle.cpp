@@ -28,7 +28,7 @@ Timed<oracle::StepJudgement> TimedOracle::judge(const detector::Positions& x_t0,
                                                 const detector::Triangles& triangles,
                                                 const detector::StopFunction& stop) const {
   return timed(limits_, [&] {
-    return oracle::judge_step(x_t0, x_t1, triangles, {jobs_, stop, asked_});
+    return oracle::judge_step({x_t0, x_t1}, triangles, {jobs_, stop, asked_});
   });
 }
 
@@ -39,7 +39,7 @@ Timed<oracle::SecondOpinion> TimedOracle::second_opinion(const detector::Positio
                                                          double share,
                                                          const detector::StopFunction& stop) const {
   return timed(limits_, [&] {
-    return oracle::second_opinion(x_t0, x_t1, triangles, judgement, {share, jobs_, stop, {}});
+    return oracle::second_opinion({x_t0, x_t1}, triangles, judgement, {share, jobs_, stop, {}});
   });
 }
 

@@ -29,7 +29,7 @@ py::dict judge(const py::object& triangles, const py::object& x_t0, const py::ob
   Interruption interruption;
   const auto judgement = [&] {
     const py::gil_scoped_release others_may_run;
-    return oracle::judge_step(from.view(), to.view(), mesh.view(),
+    return oracle::judge_step({from.view(), to.view()}, mesh.view(),
                               {jobs, interruption.stop_function()});
   }();
   interruption.raise();

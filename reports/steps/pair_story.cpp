@@ -37,7 +37,7 @@ class PairStory {
     std::string out;
     const auto layers = layers_at_start(result, x_t0);
     for (const auto t : {pair_.a, pair_.b}) out += triangle_text(t, result, layers);
-    const detector::RoundedPositions points(x_t0, x_t1);
+    const detector::RoundedPositions points({x_t0, x_t1});
     const auto& triangles = detector_.topology().triangles;
     const bool boxes_apart =
         apart(points.box(triangles[at(pair_.a)]), points.box(triangles[at(pair_.b)]));

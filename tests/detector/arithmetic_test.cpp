@@ -144,9 +144,9 @@ TEST(Arithmetic, BoundedViewSignsAreRightOrZero) {
     const MovingPoint q0 = still(draw.point(2)), q1 = i % 2 ? q0 : still(draw.point(2));
     std::vector<ViewSign> bounded(8), exact(8);
     PacedStop pace(never_stops);
-    bounded_classifier.classify(mesh, mesh.components[0], x_t0, x_t1, {q0, q1}, bounded,
+    bounded_classifier.classify(mesh, mesh.components[0], {x_t0, x_t1}, {q0, q1}, bounded,
                                 bounded_counts, pace);
-    exact_classifier.classify(mesh, mesh.components[0], x_t0, x_t1, {q0, q1}, exact, exact_counts,
+    exact_classifier.classify(mesh, mesh.components[0], {x_t0, x_t1}, {q0, q1}, exact, exact_counts,
                               pace);
     for (std::size_t t = 0; t < 8; ++t) {
       if (bounded[t] != ViewSign::zero) {

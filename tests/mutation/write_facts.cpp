@@ -57,7 +57,7 @@ std::optional<CaseFact> case_fact(const corpus::Case& c) {
         script[s].from, script[s].to, script[s].commit, corpus::view_of_step(c, s), {}, {}, {}};
     const auto& x_t0 = c.frames[static_cast<std::size_t>(step.from)];
     const auto& x_t1 = c.frames[static_cast<std::size_t>(step.to)];
-    judgements.push_back(oracle::judge_step(x_t0, x_t1, c.triangles, {1, {}}));
+    judgements.push_back(oracle::judge_step({x_t0, x_t1}, c.triangles, {1, {}}));
     const auto& judgement = judgements.back();
     if (!judgement.complete) return {};
     for (const auto& contact : judgement.pairs) step.pairs.push_back({contact.pair, contact.time});

@@ -29,7 +29,7 @@ Pairs pairs_that_meet(const detector::Positions& x_t0, const detector::Positions
   Pairs pairs;
   for (std::int32_t a = 0; a < f.rows(); ++a) {
     for (std::int32_t b = a + 1; b < f.rows(); ++b) {
-      if (triangles_meet(x_t0, x_t1, f, {a, b}, time)) pairs.push_back({a, b});
+      if (triangles_meet({x_t0, x_t1}, f, {a, b}, time)) pairs.push_back({a, b});
     }
   }
   return pairs;
@@ -45,7 +45,7 @@ TEST(RationalTime, MeansTheSameToTheInstantAndToTheStaticCheck) {
     const auto x_t0 = random_places(random), x_t1 = random_places(random);
     Pairs first;
     for (const RationalTime& time : {RationalTime{0, 1}, {1, 3}, {2, 4}, {5, 7}, {1, 1}}) {
-      const Pairs pairs = contacts_at(Instant(x_t0, x_t1, time), f);
+      const Pairs pairs = contacts_at(Instant({x_t0, x_t1}, time), f);
       EXPECT_EQ(pairs, pairs_that_meet(x_t0, x_t1, f, time))
           << i << ": " << time.numerator << "/" << time.denominator;
       if (time.numerator == 0) first = pairs;
@@ -59,7 +59,7 @@ TEST(RationalTime, MeansTheSameToTheInstantAndToTheStaticCheck) {
 
 TEST(RationalTime, NeedNotBeInLowestTerms) {
   const auto x_t0 = test::positions({{0, 0, 1}}), x_t1 = test::positions({{0, 0, 2}});
-  EXPECT_EQ(Instant(x_t0, x_t1, {1, 2}).box(0).min, Instant(x_t0, x_t1, {2, 4}).box(0).min);
+  EXPECT_EQ(Instant({x_t0, x_t1}, {1, 2}).box(0).min, Instant({x_t0, x_t1}, {2, 4}).box(0).min);
   EXPECT_EQ(compare(RationalTime{2, 4}, .5), 0);
 }
 

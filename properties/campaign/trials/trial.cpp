@@ -56,9 +56,10 @@ void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
   const auto& pairs = contract.features == TestedFeatures::both ? truth.pairs : truth.asked_pairs;
   const auto contact = std::find_if(pairs.begin(), pairs.end(),
                                     [&](const auto& exact) { return exact.pair == *failure.pair; });
-  failure.cause = text_of(contact == pairs.end() ? cause_of(c.triangles, x_t0, x_t1, *failure.pair)
-                          : says_query(c)        ? cause_of_query(c.triangles, x_t0, x_t1, *contact)
-                                                 : cause_of(c.triangles, x_t0, x_t1, *contact));
+  failure.cause =
+      text_of(contact == pairs.end() ? cause_of(c.triangles, {x_t0, x_t1}, *failure.pair)
+              : says_query(c)        ? cause_of_query(c.triangles, {x_t0, x_t1}, *contact)
+                                     : cause_of(c.triangles, {x_t0, x_t1}, *contact));
 }
 
 // Of a query, whose two triangles only hold the features that were asked.

@@ -26,7 +26,7 @@ bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component
   const auto& triangles = surface.components[component].triangles;
   return std::all_of(triangles.begin(), triangles.end(), [&](std::int32_t t) {
     const auto& v = surface.triangles[at(t)];
-    const auto corner = [&](std::size_t i) { return detector::moving_point(x, x, v[i]); };
+    const auto corner = [&](std::size_t i) { return detector::SteppedMesh{x, x}.path(v[i]); };
     return oracle::view_sign({corner(0), corner(1), corner(2)}, still) ==
            detector::ViewSign::positive;
   });

@@ -124,7 +124,7 @@ const std::vector<detector::ViewSign>& CaseFacts::signs(std::size_t s) {
       every[at(t)] = t;
     }
   }
-  signs = oracle::view_signs(all_t0(s), all_t1(s), rows_of(all, every), primitives, 1);
+  signs = oracle::view_signs({all_t0(s), all_t1(s)}, rows_of(all, every), primitives, 1);
   return *signs;
 }
 
@@ -140,7 +140,7 @@ const std::vector<std::uint8_t>& CaseFacts::touched(std::size_t s) {
     const auto ghosts = std::span(surface_.all().components[c].triangles).subspan(own.size());
     if (ghosts.empty()) continue;
     const auto part =
-        oracle::touched_by_ghosts(x_t0(s), x_t1(s), rows_of(surface_.all(), own), apexes_t0,
+        oracle::touched_by_ghosts({x_t0(s), x_t1(s)}, rows_of(surface_.all(), own), apexes_t0,
                                   apexes_t1, rows_of(surface_.all(), ghosts), {1, is_new});
     for (std::size_t i = 0; i < part.size(); ++i) (*touched)[at(own[i])] = part[i];
   }
@@ -207,7 +207,7 @@ const ValueRange& CaseFacts::view_range(std::size_t s) {
   const Positions all_start = all_t0(s), all_end = all_t1(s);
   for (std::size_t c = 0; c < surface_.mesh.components.size(); ++c) {
     const auto part = properties::view_range(surface_.all(), surface_.all().components[c].triangles,
-                                             all_start, all_end, results_[s].primitives[c]);
+                                             {all_start, all_end}, results_[s].primitives[c]);
     if (range) range->widen(part);
     if (!range) range = part;
   }
@@ -233,7 +233,7 @@ TraditionalScheme* CaseFacts::traditional_scheme() {
 
 const CertifiedPatches& CaseFacts::certified_patches(std::size_t s) {
   auto& patches = facts_[s].certified_patches;
-  if (!patches) patches = traditional_scheme()->certify(x_t0(s), x_t1(s));
+  if (!patches) patches = traditional_scheme()->certify({x_t0(s), x_t1(s)});
   return *patches;
 }
 

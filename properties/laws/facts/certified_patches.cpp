@@ -11,10 +11,10 @@ namespace assay::properties {
 using detector::BoundingVolumeTree;
 using detector::Contour;
 using detector::DirectionSet;
-using detector::moving_point;
 using detector::NormalConeSearch;
 using detector::PatchContours;
 using detector::PositionsView;
+using detector::SteppedMesh;
 using detector::Topology;
 using detector::TrianglePair;
 
@@ -25,14 +25,13 @@ using MovingTriangle = std::array<detector::MovingPoint, 3>;
 class PatchFinder {
  public:
   PatchFinder(const NormalConeSearch& search, const Topology& mesh, const BoundingVolumeTree& tree,
-              const PatchContours& contours, const PositionsView& x_t0, const PositionsView& x_t1)
+              const PatchContours& contours, const SteppedMesh& motion)
       : search_(search),
         mesh_(mesh),
         tree_(tree),
         contours_(contours),
-        x_t0_(x_t0),
-        x_t1_(x_t1),
-        moving_(x_t0_, x_t1_),
+        motion_(motion),
+        moving_(motion_),
         cones_(tree.node_count()) {
     found_.patch_of.assign(mesh.triangles.size(), CertifiedPatches::none);
   }
@@ -52,8 +51,7 @@ class PatchFinder {
 
   MovingTriangle triangle(std::int32_t t) const {
     const auto& corners = mesh_.triangles[at(t)];
-    return {moving_point(x_t0_, x_t1_, corners[0]), moving_point(x_t0_, x_t1_, corners[1]),
-            moving_point(x_t0_, x_t1_, corners[2])};
+    return {motion_.path(corners[0]), motion_.path(corners[1]), motion_.path(corners[2])};
   }
 
   // Children come after their node.
@@ -134,7 +132,7 @@ class PatchFinder {
   const Topology& mesh_;
   const BoundingVolumeTree& tree_;
   const PatchContours& contours_;
-  const PositionsView &x_t0_, &x_t1_;
+  const SteppedMesh& motion_;
   detector::MovingContour moving_;
   std::vector<DirectionSet> cones_;  // by node
   std::vector<Patch> patches_;
@@ -165,25 +163,22 @@ TraditionalScheme::TraditionalScheme(std::shared_ptr<const NormalConeSearch> sea
       maker_(search_->contour_maker(mesh)),
       contours_(mesh, tree_, *maker_) {}
 
-CertifiedPatches TraditionalScheme::certify(const PositionsView& x_t0,
-                                            const PositionsView& x_t1) const {
-  return PatchFinder(*search_, mesh_, tree_, contours_, x_t0, x_t1).run();
+CertifiedPatches TraditionalScheme::certify(const SteppedMesh& motion) const {
+  return PatchFinder(*search_, mesh_, tree_, contours_, motion).run();
 }
 
-std::set<TrianglePair> TraditionalScheme::candidates(const PositionsView& x_t0,
-                                                     const PositionsView& x_t1) {
+std::set<TrianglePair> TraditionalScheme::candidates(const SteppedMesh& motion) {
   detector::PacedStop pace(detector::never_stops);
-  search_->fit(tree_, mesh_, x_t0, x_t1, pace);
-  const auto kept = search_->prepare(mesh_, tree_, pace);
+  const auto search = search_->prepare(mesh_, tree_, pace);
+  search->fit(tree_, mesh_, motion, pace);
   const detector::Marks marks(tree_);  // normal cones know no view sets
   const detector::PairTables tables = detector::EveryPair().candidates();
   std::set<TrianglePair> found;
   detector::SearchCounts counts;
-  search_->search({mesh_, tree_, marks, tables, kept.get(), &x_t0, &x_t1}, counts,
-                  [&](std::int32_t a, std::int32_t b) {
-                    found.insert({std::min(a, b), std::max(a, b)});
-                    return true;
-                  });
+  search->search({mesh_, tree_, marks, tables}, counts, [&](std::int32_t a, std::int32_t b) {
+    found.insert({std::min(a, b), std::max(a, b)});
+    return true;
+  });
   return found;
 }
 

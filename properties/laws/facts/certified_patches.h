@@ -44,12 +44,10 @@ class TraditionalScheme {
 
   // The patches that are certified in this step. As dear as a step of the scheme: 10 us for 20
   // triangles.
-  CertifiedPatches certify(const detector::PositionsView& x_t0,
-                           const detector::PositionsView& x_t1) const;
+  CertifiedPatches certify(const detector::SteppedMesh& motion) const;
 
   // The pairs of triangles that the scheme's search of this step does not leave out.
-  std::set<detector::TrianglePair> candidates(const detector::PositionsView& x_t0,
-                                              const detector::PositionsView& x_t1);
+  std::set<detector::TrianglePair> candidates(const detector::SteppedMesh& motion);
 
  private:
   TraditionalScheme(std::shared_ptr<const detector::NormalConeSearch> search,

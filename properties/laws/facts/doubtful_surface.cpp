@@ -52,7 +52,7 @@ bool has_zero_area(const CaseFacts& facts, std::size_t s, std::int32_t triangle)
   const auto& v = facts.surface().mesh.triangles[at(triangle)];
   for (const auto* x : {&facts.x_t0(s), &facts.x_t1(s)}) {
     if (surely_has_area(*x, v)) continue;
-    const auto corner = [&](std::size_t i) { return detector::moving_point(*x, *x, v[i]); };
+    const auto corner = [&](std::size_t i) { return detector::SteppedMesh{*x, *x}.path(v[i]); };
     if (ExactView({corner(0), corner(1), corner(2)}, {}, 0).has_zero_area()) return true;
   }
   return false;

@@ -32,10 +32,10 @@ double greatest(const detector::PositionsView& x) {
 }  // namespace
 
 ValueRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
-                      const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+                      const detector::SteppedMesh& motion,
                       const detector::ViewPrimitive& primitive) {
   constexpr int times = 17;
-  double size = std::max(greatest(x_t0), greatest(x_t1));
+  double size = std::max(greatest(motion.vertices_t0), greatest(motion.vertices_t1));
   for (const auto* q : {&primitive.q0, &primitive.q1}) {
     for (int k = 0; k < 3; ++k) size = std::max({size, std::abs(q->t0[k]), std::abs(q->t1[k])});
   }
@@ -52,7 +52,7 @@ ValueRange view_range(const detector::Topology& surface, std::span<const std::in
   for (const auto t : triangles) {
     std::array<MovingPoint, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = scaled(detector::moving_point(x_t0, x_t1, surface.triangles[at(t)][i]));
+      corners[i] = scaled(motion.path(surface.triangles[at(t)][i]));
     }
     bool positive = false, negative = false;
     for (int k = 0; k < times; ++k) {

@@ -16,7 +16,7 @@ namespace assay::properties {
 // Looks at the triangles given (indices into `surface`), all seen from one primitive. The rows of
 // x are the vertices of the surface. About 0.5 us a triangle.
 ValueRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
-                      const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
+                      const detector::SteppedMesh& motion,
                       const detector::ViewPrimitive& primitive);
 
 }  // namespace assay::properties

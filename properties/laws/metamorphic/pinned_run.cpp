@@ -62,11 +62,9 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
   // Before the first step, where view primitives are chosen, no apex is pinned yet.
   std::vector<MovingPoint> place_apexes(const detector::Surface& surface,
                                         const std::vector<detector::ApexRule>& rules,
-                                        const detector::PositionsView& x_t0,
-                                        const detector::PositionsView& x_t1) const override {
-    return apexes.size() == surface.loops.size()
-               ? apexes
-               : otherwise_->place_apexes(surface, rules, x_t0, x_t1);
+                                        const detector::SteppedMesh& motion) const override {
+    return apexes.size() == surface.loops.size() ? apexes
+                                                 : otherwise_->place_apexes(surface, rules, motion);
   }
   bool sweep(const detector::GhostSweep& sweep, std::span<const std::int32_t> ghosts,
              const detector::StopFunction& stop, std::vector<std::uint8_t>& touched,

@@ -52,7 +52,7 @@ std::optional<detector::FourPoints> query_of(const corpus::Case& c) {
   detector::FourPoints query;
   query.first_group = is_vertex_face ? 1 : 2;
   for (int v = 0; v < vertices_of_a_query; ++v)
-    query.points[static_cast<std::size_t>(v)] = detector::moving_point(x_t0, x_t1, v);
+    query.points[static_cast<std::size_t>(v)] = detector::SteppedMesh{x_t0, x_t1}.path(v);
   return query;
 }
 

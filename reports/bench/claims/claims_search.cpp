@@ -83,7 +83,7 @@ void compare_a_look(const NamedStep& named, int rounds, BenchReport& report) {
   for (const auto sign : views.result().signs) types.push_back(type_of(sign));
   const Topology mesh = make_topology(step.triangles, step.frames[0].rows());
   BoundingVolumeTree tree(mesh, step.frames[0]);
-  tree.refit(mesh, step.frames[0], step.frames[1]);
+  tree.refit(mesh, {step.frames[0], step.frames[1]});
   Marks marks(tree);
   MarkingCounts unused;
   Marking().bring_to(types, tree, marks, unused);

@@ -31,7 +31,7 @@ void judge_rod_twist(const corpus::Sequence& step, const BenchSettings& settings
   std::size_t pairs = 0;
   const auto judge = [&] {
     const auto judgement =
-        oracle::judge_step(step.frames[0], step.frames[1], step.triangles, {jobs, {}});
+        oracle::judge_step({step.frames[0], step.frames[1]}, step.triangles, {jobs, {}});
     pairs = judgement.pairs.size();
   };
   // The memory first: what is freed is given back to the system then, and none is kept for reuse.

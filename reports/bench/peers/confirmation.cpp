@@ -49,10 +49,7 @@ oracle::RationalTime simplest_between(double lo, double hi) {
 class StepWitness {
  public:
   StepWitness(const corpus::Case& c, const corpus::CaseStep& step, bool takes_triangles)
-      : c_(c),
-        x_t0_(start_of(c, step)),
-        x_t1_(end_of(c, step)),
-        takes_triangles_(takes_triangles) {}
+      : c_(c), motion_{start_of(c, step), end_of(c, step)}, takes_triangles_(takes_triangles) {}
 
   // Whether the contact's features, or its triangles, meet at some time before `told`, or, where
   // nothing was told, at all.
@@ -79,9 +76,7 @@ class StepWitness {
   }
 
  private:
-  detector::MovingPoint path(std::int32_t v) const {
-    return detector::moving_point(x_t0_, x_t1_, v);
-  }
+  detector::MovingPoint path(std::int32_t v) const { return motion_.path(v); }
 
   using Query = std::variant<detector::VertexFace, detector::EdgeEdge>;
 
@@ -113,7 +108,7 @@ class StepWitness {
 
   // The features alone are triangles that have become a point, a segment, or are one.
   bool meet_at(const PairContact& contact, const oracle::StaticTime& time) const {
-    if (takes_triangles_ && oracle::triangles_meet(x_t0_, x_t1_, c_.triangles, contact.pair, time))
+    if (takes_triangles_ && oracle::triangles_meet(motion_, c_.triangles, contact.pair, time))
       return true;
     const auto& v = contact.feature.vertices;
     detector::Triangles two(2, 3);
@@ -124,11 +119,11 @@ class StepWitness {
     } else {
       return false;
     }
-    return oracle::triangles_meet(x_t0_, x_t1_, two, {0, 1}, time);
+    return oracle::triangles_meet(motion_, two, {0, 1}, time);
   }
 
   const corpus::Case& c_;
-  const detector::Positions &x_t0_, &x_t1_;
+  const detector::SteppedMesh motion_;
   bool takes_triangles_;
 };
 

@@ -20,7 +20,7 @@ constexpr std::chrono::seconds oracle_limit{20};
 
 oracle::StepJudgement judge(const corpus::Case& c, const corpus::CaseStep& step) {
   const auto end = std::chrono::steady_clock::now() + oracle_limit;
-  return oracle::judge_step(start_of(c, step), end_of(c, step), c.triangles,
+  return oracle::judge_step({start_of(c, step), end_of(c, step)}, c.triangles,
                             {1, [end] { return std::chrono::steady_clock::now() > end; }});
 }
 

@@ -37,7 +37,7 @@ StepResult run_hard_case(const corpus::Case& c, const StabilitySubject& subject)
 }
 
 HardTruth::HardTruth(const corpus::Case& c)
-    : case_(c), judgement_(oracle::judge_step(c.frames[0], c.frames[1], c.triangles, {})) {
+    : case_(c), judgement_(oracle::judge_step({c.frames[0], c.frames[1]}, c.triangles, {})) {
   component_of_triangle_ =
       detector::make_topology(c.triangles, c.frames[0].rows()).component_of_triangle;
 }
@@ -48,7 +48,7 @@ bool HardTruth::agrees_with_construction() const {
   if (known.first_time && judgement_.first != *known.first_time) return false;
   if (!known.view_signs) return true;
   const auto view = corpus::view_of_step(case_, 0);
-  return oracle::view_signs(case_.frames[0], case_.frames[1], case_.triangles, {&*view, 1}, 1) ==
+  return oracle::view_signs({case_.frames[0], case_.frames[1]}, case_.triangles, {&*view, 1}, 1) ==
          *known.view_signs;
 }
 
@@ -66,7 +66,7 @@ const std::vector<ViewSign>& HardTruth::signs(const StepResult& result) {
   for (const auto component : component_of_triangle_) {
     of_triangle.push_back(from[static_cast<std::size_t>(component)]);
   }
-  signs_ = oracle::view_signs(case_.frames[0], case_.frames[1], case_.triangles, of_triangle, 1);
+  signs_ = oracle::view_signs({case_.frames[0], case_.frames[1]}, case_.triangles, of_triangle, 1);
   return signs_;
 }
 

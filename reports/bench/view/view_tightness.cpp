@@ -73,7 +73,7 @@ void compare_with_oracle(const std::string& name, const corpus::Sequence& scene,
   for (const auto c : mesh.component_of_triangle) {
     of_triangle.push_back(by_exact.primitives[static_cast<std::size_t>(c)]);
   }
-  const auto truth = oracle::view_signs(frames[0], frames[1], scene.triangles, of_triangle, 1);
+  const auto truth = oracle::view_signs({frames[0], frames[1]}, scene.triangles, of_triangle, 1);
   std::size_t wrong = 0;
   for (std::size_t t = 0; t < truth.size(); ++t) {
     wrong += by_exact.signs[t] != ViewSign::zero && by_exact.signs[t] != truth[t];

@@ -66,7 +66,7 @@ void compare(const std::string& what, const ViewStep& step, Wanted bound, int ro
       ViewCounts counts;
       return ns_of([&] {
         for (std::size_t c = 0; c < step.mesh.components.size(); ++c) {
-          classify(step.mesh, step.mesh.components[c], step.x_t0, step.x_t1, step.primitives[c],
+          classify(step.mesh, step.mesh.components[c], {step.x_t0, step.x_t1}, step.primitives[c],
                    signs[i], counts, sets[i]);
         }
       });

@@ -104,8 +104,8 @@ TEST(Apex, OfEachHoleIsPlacedByTheRuleOfThatHole) {
   const Positions x_t0 = octahedron_positions(2), x_t1 = octahedron_positions(3);
   const std::vector<ApexRule> rules = {{0.0}, {0.25}};
   const BoundaryHandler handler;
-  const auto step = handler.place_apexes(surface, rules, x_t0, x_t1),
-             next = handler.place_apexes(surface, rules, x_t1, x_t0);
+  const auto step = handler.place_apexes(surface, rules, {x_t0, x_t1}),
+             next = handler.place_apexes(surface, rules, {x_t1, x_t0});
   for (std::size_t l = 0; l < 2; ++l) {
     EXPECT_EQ(step[l].t0, place_apex(rules[l], surface.loops[l], x_t0));
     EXPECT_EQ(step[l].t1, next[l].t0);

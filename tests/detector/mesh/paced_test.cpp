@@ -112,13 +112,13 @@ TEST_F(Paced, TreeAndItsBoxes) {
   });
   BoundingVolumeTree tree(topology_, mesh_.x_t0);
   expect_paced(8 * count_, [&](PacedStop& pace) {
-    const bool is_done = tree.refit(topology_, mesh_.x_t0, mesh_.x_t1, pace);
+    const bool is_done = tree.refit(topology_, {mesh_.x_t0, mesh_.x_t1}, pace);
     EXPECT_EQ(is_done, !pace.stopped());
   });
   // What a stop leaves behind does not stay.
-  tree.refit(topology_, mesh_.x_t0, mesh_.x_t1);
+  tree.refit(topology_, {mesh_.x_t0, mesh_.x_t1});
   BoundingVolumeTree fresh(topology_, mesh_.x_t0);
-  fresh.refit(topology_, mesh_.x_t0, mesh_.x_t1);
+  fresh.refit(topology_, {mesh_.x_t0, mesh_.x_t1});
   const auto &box = tree.box(BoundingVolumeTree::root), &same = fresh.box(BoundingVolumeTree::root);
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(box.lo_t0[k], same.lo_t0[k]);
@@ -127,8 +127,9 @@ TEST_F(Paced, TreeAndItsBoxes) {
 }
 
 TEST_F(Paced, PointsAndRepresentatives) {
-  expect_paced(3 * count_,
-               [&](PacedStop& pace) { const FeaturePoints points(mesh_.x_t0, mesh_.x_t1, &pace); });
+  expect_paced(3 * count_, [&](PacedStop& pace) {
+    const FeaturePoints points({mesh_.x_t0, mesh_.x_t1}, &pace);
+  });
   expect_paced(6 * count_, [&](PacedStop& pace) { const Representatives all(topology_, &pace); });
   Representatives some(topology_);
   const std::vector<TriangleType> types(count_, TriangleType::dirty);
@@ -143,21 +144,20 @@ TEST_F(Paced, PointsAndRepresentatives) {
 TEST_F(Paced, NormalCones) {
   const NormalConeSearch search;
   BoundingVolumeTree tree(topology_, mesh_.x_t0);
-  tree.refit(topology_, mesh_.x_t0, mesh_.x_t1);
   expect_paced(60 * count_, [&](PacedStop& pace) { search.prepare(topology_, tree, pace); });
   PacedStop never(never_stops);
-  const auto kept = search.prepare(topology_, tree, never);
+  const auto of_mesh = search.prepare(topology_, tree, never);
   const Marks marks(tree);
   const PairTables tables = EveryPair().candidates();
-  const PositionsView x_t0 = mesh_.x_t0, x_t1 = mesh_.x_t1;
+  of_mesh->fit(tree, topology_, {mesh_.x_t0, mesh_.x_t1}, never);
   expect_paced(30 * count_, [&](PacedStop& pace) {
     SearchCounts counts;
     const auto sink = [&](std::int32_t, std::int32_t) {
       EXPECT_FALSE(pace.stopped()) << "a pair after the end";
       return true;
     };
-    const SearchInput input{topology_, tree, marks, tables, kept.get(), &x_t0, &x_t1, &pace};
-    const bool is_done = search.search(input, counts, sink);
+    const SearchInput input{topology_, tree, marks, tables, &pace};
+    const bool is_done = of_mesh->search(input, counts, sink);
     EXPECT_EQ(is_done, !pace.stopped());
   });
 }

@@ -52,7 +52,7 @@ TEST(FeatureBoxes, L3_ApartAlongDiagonalsIsOrderedExactly) {
         if (family == 5) c = below(5) * std::numeric_limits<double>::denorm_min();
       }
     }
-    const FeaturePoints points(x[0], x[1]);
+    const FeaturePoints points({x[0], x[1]});
     const FeatureBox a = feature_box(points[0]), b = feature_box(points[1]);
     const bool is_apart = apart_along_diagonals(a.diagonals, b.diagonals);
     const bool is_ordered = ordered(x[0], x[1], 0, 1);
@@ -67,7 +67,7 @@ TEST(FeatureBoxes, L3_ApartAlongDiagonalsIsOrderedExactly) {
 // Neither the axes nor a diagonal tells these apart; one of each alone does.
 TEST(FeatureBoxes, AxesAndDiagonals) {
   const Positions x = positions({{0, 0, 0}, {1, -1, 0}, {.9, .9, 0}, {1.5, -.5, .1}});
-  const FeaturePoints points(x, x);
+  const FeaturePoints points({x, x});
   const FeatureBox edge = feature_box(points[0], points[1]);
   const FeatureBox other = feature_box(points[2], points[3]);
   EXPECT_FALSE(apart(edge.axes, other.axes));

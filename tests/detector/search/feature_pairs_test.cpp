@@ -15,7 +15,7 @@ using namespace detector;
 class BruteForce {
  public:
   explicit BruteForce(const MovingMesh& mesh)
-      : mesh_(mesh.topology), points_(mesh.x_t0, mesh.x_t1) {}
+      : mesh_(mesh.topology), points_({mesh.x_t0, mesh.x_t1}) {}
 
   void add(std::int32_t a, std::int32_t b, bool may_pierce, std::set<FeatureKey>& out) const {
     add_one_way(a, b, may_pierce, out);
@@ -63,9 +63,9 @@ class Sequence {
         mesh_(mesh),
         tree_(mesh.topology, mesh.x_t0),
         memory_(mesh.topology, tree_),
-        pairs_(mesh.topology, mesh.x_t0, mesh.x_t1, memory_.representatives, memory_.marks.types),
+        pairs_(mesh.topology, {mesh.x_t0, mesh.x_t1}, memory_.representatives, memory_.marks.types),
         brute_force_(mesh) {
-    tree_.refit(mesh.topology, mesh.x_t0, mesh.x_t1);
+    tree_.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
   }
 
   void mark(const std::vector<TriangleType>& types) {

@@ -163,8 +163,8 @@ TEST(Search, L3_PairsAreThoseAskedForWithAndWithoutSkipping) {
     const bool coarse = round % 2 == 1;
     const MovingMesh mesh = random.sheets(1 + round % 3, 2 + round % 5, coarse);
     BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
-    tree.refit(mesh.topology, mesh.x_t0, mesh.x_t1);
-    const RoundedPositions points(mesh.x_t0, mesh.x_t1);
+    tree.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
+    const RoundedPositions points({mesh.x_t0, mesh.x_t1});
     Marks marks(tree);
     std::vector<TriangleType> types = marks.types;
     random.change(types, 1 + random.below(20));
@@ -219,7 +219,7 @@ TEST(Search, StopsWhereTheSinkSays) {
   SearchMeshes random(5);
   const MovingMesh mesh = random.sheets(2, 4, true);
   BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
-  tree.refit(mesh.topology, mesh.x_t0, mesh.x_t1);
+  tree.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
   const Marks marks(tree);
   const PairTables tables = EveryPair().candidates();
   int seen = 0;

@@ -69,7 +69,7 @@ TEST(MovingBox, RoundingKeepsOrder) {
     for (Eigen::Index i = 0; i < n; ++i) x.row(i).setConstant(family[static_cast<std::size_t>(i)]);
     // Also of a step that holds only part of them.
     for (const auto rows : {n, n / 2}) {
-      const FloatGrid f(x.topRows(rows), x.topRows(rows));
+      const FloatGrid f({x.topRows(rows), x.topRows(rows)});
       for (std::int32_t i = 0; i < n; ++i) {
         for (int k = 0; k < 3; ++k) EXPECT_FALSE(std::isnan(f(x, i)[k]));
         for (std::int32_t j = 0; j < n; ++j) {
@@ -89,7 +89,7 @@ TEST(MovingBox, L3_ApartIsApartInDoubles) {
   for (const auto& family : families()) {
     for (int round = 0; round < 400; ++round) {
       const RandomPoints p(family, 4, engine);
-      const RoundedPositions points(p.x_t0, p.x_t1);
+      const RoundedPositions points({p.x_t0, p.x_t1});
       const bool is_apart = apart(points.box({0, 1, 1}), points.box({2, 3, 3}));
       told_apart += is_apart;
       for (std::int32_t i = 0; i < 2; ++i) {
@@ -106,14 +106,14 @@ TEST(MovingBox, L3_ApartIsApartInDoubles) {
 
 TEST(MovingBox, TouchingIsNotApart) {
   const Positions x = positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}});
-  const RoundedPositions still(x, x);
+  const RoundedPositions still({x, x});
   EXPECT_FALSE(apart(still.box({0, 1, 2}), still.box({3, 4, 5})));
   Positions away = x;
   away.bottomRows(3).col(0).array() += 0x1p-20;
-  EXPECT_FALSE(
-      apart(RoundedPositions(x, away).box({0, 1, 2}), RoundedPositions(x, away).box({3, 4, 5})));
-  EXPECT_TRUE(apart(RoundedPositions(away, away).box({0, 1, 2}),
-                    RoundedPositions(away, away).box({3, 4, 5})));
+  EXPECT_FALSE(apart(RoundedPositions({x, away}).box({0, 1, 2}),
+                     RoundedPositions({x, away}).box({3, 4, 5})));
+  EXPECT_TRUE(apart(RoundedPositions({away, away}).box({0, 1, 2}),
+                    RoundedPositions({away, away}).box({3, 4, 5})));
 }
 
 // Two triangles change places: ordered at both ends, but not in the same sense.
@@ -121,7 +121,7 @@ TEST(MovingBox, PassingEachOtherIsNotApart) {
   const Positions x = positions({{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {5, 1, 0}, {5, 0, 1}});
   Positions swapped(6, 3);
   swapped << x.bottomRows(3), x.topRows(3);
-  const RoundedPositions points(x, swapped);
+  const RoundedPositions points({x, swapped});
   EXPECT_FALSE(apart(points.box({0, 1, 2}), points.box({3, 4, 5})));
 }
 
@@ -130,7 +130,7 @@ TEST(MovingBox, MovingTogetherIsApart) {
   const Positions x = positions({{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {5, 1, 0}, {5, 0, 1}});
   Positions moved = x;
   moved.col(0).array() += 100;
-  const RoundedPositions points(x, moved);
+  const RoundedPositions points({x, moved});
   EXPECT_TRUE(apart(points.box({0, 1, 2}), points.box({3, 4, 5})));
 }
 
@@ -143,11 +143,11 @@ TEST(MovingBox, NodesHoldTheirTriangles) {
     for (Eigen::Index t = 0; t < 28; ++t) list.row(t) << t, t + 1, t + 2;
     const Topology mesh = make_topology(list, 30);
     BoundingVolumeTree tree(mesh, p.x_t0);
-    tree.refit(mesh, p.x_t0, p.x_t1);
+    tree.refit(mesh, {p.x_t0, p.x_t1});
     ASSERT_EQ(tree.node_count(), 55u);
     for (std::int32_t t = 0; t < 28; ++t) {
       const MovingBox box =
-          tree.box_of_triangle(mesh.triangles[static_cast<std::size_t>(t)], p.x_t0, p.x_t1);
+          tree.box_of_triangle(mesh.triangles[static_cast<std::size_t>(t)], {p.x_t0, p.x_t1});
       std::int32_t node = tree.leaf_of(t);
       ASSERT_EQ(tree.triangle(node), t);
       for (int k = 0; k < 3; ++k) {

@@ -16,10 +16,10 @@ class StoppedMarking : public testing::Test {
     bool operator==(const Found&) const = default;
   };
 
-  StoppedMarking() { tree_.refit(mesh_.topology, mesh_.x_t0, mesh_.x_t1); }
+  StoppedMarking() { search_->fit(tree_, mesh_.topology, {mesh_.x_t0, mesh_.x_t1}, never_); }
 
   CandidateSearch search(SearchMemory& memory, const StopFunction& stop) const {
-    return {stages_, mesh_.topology, tree_, memory, mesh_.x_t0, mesh_.x_t1, stop};
+    return {stages_, mesh_.topology, tree_, memory, {mesh_.x_t0, mesh_.x_t1}, stop};
   }
   Found found(SearchMemory& memory, std::span<const TriangleType> types) const {
     auto whole = search(memory, never_stops);
@@ -33,9 +33,12 @@ class StoppedMarking : public testing::Test {
   tests::SearchMeshes random_{11};
   const tests::MovingMesh mesh_ = random_.sheets(2, 100, false);  // 40,000 triangles
   const Stages standard_ = standard_stages({Culling::view_point});
-  const SearchStages stages_{*standard_.pair_rule, *standard_.marking, *standard_.pair_search,
-                             *standard_.elementary};
   BoundingVolumeTree tree_{mesh_.topology, mesh_.x_t0};
+  PacedStop never_{never_stops};
+  const std::unique_ptr<MeshSearch> search_ =
+      standard_.pair_search->prepare(mesh_.topology, tree_, never_);
+  const SearchStages stages_{*standard_.pair_rule, *standard_.marking, *search_,
+                             *standard_.elementary};
 };
 
 TEST_F(StoppedMarking, IsForgotten) {

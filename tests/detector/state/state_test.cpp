@@ -170,22 +170,22 @@ TEST(StepState, L15_AfterAStepWithoutViewsOnlyClosedComponentsAreClean) {
 struct Still {
   Still(const Triangles& triangles, const Positions& at)
       : x(at), surface(make_surface(triangles, at.rows())), tree(surface.mesh, x) {}
-  StepWork work() { return {surface, tree, boundary, elementary, stop, workers, x, x, nullptr}; }
   Positions x;
   Surface surface;
   BoundingVolumeTree tree;
   BoundaryHandler boundary;
   ElementaryTest elementary;
   StopFunction stop;
-  Workers workers;
+  GivenStep given{surface, tree, boundary, elementary, stop, {x, x}, nullptr};
+  StepMarks marks;
+  StepCost cost{.pace = PacedStop(stop)};
 };
 
 TEST(Release, L5_ReleasesWithWindingOneOnly) {
   Still still(octahedron(), octahedron_positions(1));
   const auto released_from = [&](const Point& q) {
-    StepWork work = still.work();
-    work.primitives = {{{q, q}, {q, q}}};
-    return ReleaseRule().released_at_start(work, 0);
+    still.marks.primitives = {{{q, q}, {q, q}}};
+    return ReleaseRule().released_at_start(still.given, still.marks, still.cost, 0);
   };
   EXPECT_TRUE(released_from({0, 0, 0}));
   EXPECT_FALSE(released_from({2, 0, 0}));
@@ -196,30 +196,30 @@ TEST(Release, L9_FindsStaticContactsOfAStartInContact) {
   Positions x = octahedron_positions(2);
   x.row(4) << 3, .5, -.25;
   Still still(octahedron(), x);
-  StepWork work = still.work();
-  work.clean.assign(8, 2);
-  ASSERT_TRUE(ReleaseRule().verify_start(work, {0}));
+  auto& clean = still.marks.clean;
+  clean.assign(8, 2);
+  ASSERT_TRUE(ReleaseRule().verify_start(still.given, still.marks, still.cost, {0}));
   // Edge (1,4) of triangles 1 and 2 pierces triangle 4.
-  EXPECT_EQ(work.clean[1], 0);
-  EXPECT_EQ(work.clean[2], 0);
-  EXPECT_GT(std::count(work.clean.begin(), work.clean.end(), 0), 2);
+  EXPECT_EQ(clean[1], 0);
+  EXPECT_EQ(clean[2], 0);
+  EXPECT_GT(std::count(clean.begin(), clean.end(), 0), 2);
 }
 
 // The state after a step: clean before, not touched, in no contact of its own component.
 TEST(Release, L8_ContactsAndTouchesMakeDirty) {
   Still still(octahedron(), octahedron_positions(1));
-  StepWork work = still.work();
-  work.clean.assign(8, 1);
-  work.clean[7] = 0;
-  work.touched.assign(8, 0);
-  work.touched[3] = 1;
+  StepMarks& marks = still.marks;
+  marks.clean.assign(8, 1);
+  marks.clean[7] = 0;
+  marks.touched.assign(8, 0);
+  marks.touched[3] = 1;
   const std::vector<PairContact> pairs = {{{0, 6}, {}, {}}};
   StepState state;
-  ReleaseRule().settle(work, pairs, true, state);
+  ReleaseRule().settle(still.given, marks, pairs, true, state);
   EXPECT_EQ(state.clean, (std::vector<std::uint8_t>{0, 1, 1, 0, 1, 1, 0, 0}));
   EXPECT_EQ(state.met, (std::vector<TrianglePair>{{0, 6}}));
   EXPECT_TRUE(state.met_is_complete);
-  ReleaseRule().settle(work, pairs, false, state);
+  ReleaseRule().settle(still.given, marks, pairs, false, state);
   EXPECT_FALSE(state.met_is_complete);
   EXPECT_EQ(std::count(state.clean.begin(), state.clean.end(), 1), 0)
       << "an incomplete set vouches for none";

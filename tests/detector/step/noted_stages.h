@@ -27,11 +27,11 @@ class Trace {
 class NotedClassifier : public ViewClassifier {
  public:
   explicit NotedClassifier(Trace& trace) : trace_(trace) {}
-  bool classify(const Topology& surface, const Component& component, const PositionsView& x_t0,
-                const PositionsView& x_t1, const ViewPrimitive& primitive,
-                std::vector<ViewSign>& signs, ViewCounts& counts, PacedStop& pace) const override {
+  bool classify(const Topology& surface, const Component& component, const SteppedMesh& motion,
+                const ViewPrimitive& primitive, std::vector<ViewSign>& signs, ViewCounts& counts,
+                PacedStop& pace) const override {
     trace_.note("view test");
-    return ViewClassifier::classify(surface, component, x_t0, x_t1, primitive, signs, counts, pace);
+    return ViewClassifier::classify(surface, component, motion, primitive, signs, counts, pace);
   }
 
  private:
@@ -42,10 +42,9 @@ class NotedBoundary : public BoundaryHandler {
  public:
   explicit NotedBoundary(Trace& trace) : trace_(trace) {}
   std::vector<MovingPoint> place_apexes(const Surface& surface, const std::vector<ApexRule>& rules,
-                                        const PositionsView& x_t0,
-                                        const PositionsView& x_t1) const override {
+                                        const SteppedMesh& motion) const override {
     trace_.note("apexes");
-    return BoundaryHandler::place_apexes(surface, rules, x_t0, x_t1);
+    return BoundaryHandler::place_apexes(surface, rules, motion);
   }
   bool sweep(const GhostSweep& sweep, std::span<const std::int32_t> ghosts,
              const StopFunction& stop, std::vector<std::uint8_t>& touched,
@@ -102,10 +101,10 @@ class NotedMarking : public Marking {
 class NotedSearch : public TreeSearch {
  public:
   explicit NotedSearch(Trace& trace) : trace_(trace) {}
-  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const PositionsView& x_t0,
-           const PositionsView& x_t1, PacedStop& pace) const override {
+  bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
+           PacedStop& pace) const override {
     trace_.note("fit");
-    return TreeSearch::fit(tree, mesh, x_t0, x_t1, pace);
+    return TreeSearch::fit(tree, mesh, motion, pace);
   }
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
     trace_.note("search");
@@ -140,26 +139,30 @@ class NotedRelease : public ReleaseRule {
     trace_.note("known?");
     return ReleaseRule::still_holds(state, x_t0, pace);
   }
-  bool is_free(StepWork& work, std::size_t component) const override {
+  bool is_free(const GivenStep& step, const StepMarks& marks, StepCost& cost,
+               std::size_t component) const override {
     trace_.note("free?");
-    return ReleaseRule::is_free(work, component);
+    return ReleaseRule::is_free(step, marks, cost, component);
   }
-  bool released_at_start(const StepWork& work, std::size_t component) const override {
+  bool released_at_start(const GivenStep& step, const StepMarks& marks, StepCost& cost,
+                         std::size_t component) const override {
     trace_.note("released?");
-    return ReleaseRule::released_at_start(work, component);
+    return ReleaseRule::released_at_start(step, marks, cost, component);
   }
-  bool verify_start(StepWork& work, const std::vector<std::int32_t>& components) const override {
+  bool verify_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
+                    const std::vector<std::int32_t>& components) const override {
     trace_.note("layers");
-    return ReleaseRule::verify_start(work, components);
+    return ReleaseRule::verify_start(step, marks, cost, components);
   }
-  bool release(StepWork& work, const std::vector<std::int32_t>& components) const override {
+  bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
+               const std::vector<std::int32_t>& components) const override {
     trace_.note("release");
-    return ReleaseRule::release(work, components);
+    return ReleaseRule::release(step, marks, cost, components);
   }
-  void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
-              StepState& state) const override {
+  void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
+              bool complete, StepState& state) const override {
     trace_.note("settle");
-    ReleaseRule::settle(work, pairs, complete, state);
+    ReleaseRule::settle(step, marks, pairs, complete, state);
   }
 
  private:

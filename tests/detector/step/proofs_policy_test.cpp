@@ -91,16 +91,16 @@ TEST(ProofsPolicy, PatchesOfFewerThanFourTrianglesAreNotAskedFor) {
   const NormalConeSearch all, few(NormalConeSearch::Asked::of_four_triangles_or_more);
   const Topology mesh = make_topology(strip, 4);
   BoundingVolumeTree tree(mesh, x);
-  tree.refit(mesh, x, x);
   const Marks marks(tree);
   const PairTables tables = EveryPair().candidates();
-  const PositionsView view = x;
+  const SteppedMesh motion = {x, x};
   for (const auto* search : {&all, &few}) {
     PacedStop never(never_stops);
-    const auto kept = search->prepare(mesh, tree, never);
+    const auto of_mesh = search->prepare(mesh, tree, never);
+    of_mesh->fit(tree, mesh, motion, never);
     SearchCounts counts;
-    search->search({mesh, tree, marks, tables, kept.get(), &view, &view, &never}, counts,
-                   [](std::int32_t, std::int32_t) { return true; });
+    of_mesh->search({mesh, tree, marks, tables, &never}, counts,
+                    [](std::int32_t, std::int32_t) { return true; });
     EXPECT_EQ(counts.contour_tests, search == &all ? 1u : 0u);
     EXPECT_EQ(counts.candidate_pairs, search == &all ? 0u : 1u);
   }

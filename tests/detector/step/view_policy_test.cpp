@@ -23,12 +23,15 @@ struct TwoOpen {
         1. / 3, 1. / 3, 1. / 3, 10 + 1. / 3, 1. / 3, 1. / 3;  // two apexes
     return x;
   }
-  StepWork work(bool first_is_free, bool second_is_free) {
-    StepWork work{surface, tree, boundary, elementary, stop, workers, x, x, nullptr};
-    work.primitives.resize(2);
-    work.signs.assign(surface.all().triangles.size(), ViewSign::positive);
-    work.free = {first_is_free, second_is_free};
-    return work;
+  GivenStep given(const StepState* known = nullptr) {
+    return {surface, tree, boundary, elementary, stop, {x, x}, known};
+  }
+  StepMarks marks(bool first_is_free, bool second_is_free) const {
+    StepMarks marks;
+    marks.primitives.resize(2);
+    marks.signs.assign(surface.all().triangles.size(), ViewSign::positive);
+    marks.free = {first_is_free, second_is_free};
+    return marks;
   }
   Positions x = positions();
   Surface surface = make_surface(triangles(), 12);
@@ -36,7 +39,7 @@ struct TwoOpen {
   BoundaryHandler boundary;
   ElementaryTest elementary;
   StopFunction stop;
-  Workers workers;
+  PacedStop pace{stop};
 };
 
 // The fewest pairs of culling bvh at which the views of a step are used.
@@ -44,9 +47,11 @@ std::uint64_t least_pairs(bool first_is_free, bool second_is_free, double overhe
   TwoOpen mesh;
   PolicyState before;
   before.overhead = overhead;
-  StepWork work = mesh.work(first_is_free, second_is_free);
+  const GivenStep given = mesh.given();
+  const StepMarks marks = mesh.marks(first_is_free, second_is_free);
   for (std::uint64_t pairs = 0; pairs < 10'000; ++pairs) {
-    if (CostModel(mesh.surface, pairs, before).worth_sweeping(work)) return pairs;
+    if (CostModel(mesh.surface, pairs, before).worth_sweeping(given, marks, mesh.pace))
+      return pairs;
   }
   return 10'000;
 }
@@ -63,22 +68,22 @@ TEST(ViewPolicy, GhostsOfFreeComponentsAreNoWork) {
 // Where nothing was known of the start, that too much is dirty says nothing against views.
 TEST(ViewPolicy, L15_DirtyAtAnUnknownStartTheNextStepIsLookedAt) {
   TwoOpen mesh;
-  StepWork work = mesh.work(true, false);
-  work.clean.assign(mesh.surface.mesh.triangles.size(), 0);
+  StepMarks marks = mesh.marks(true, false);
+  marks.clean.assign(mesh.surface.mesh.triangles.size(), 0);
   CostModel policy(mesh.surface, 1'000'000, {});
-  ASSERT_TRUE(policy.worth_sweeping(work));
-  EXPECT_FALSE(policy.worth_using(work));
+  ASSERT_TRUE(policy.worth_sweeping(mesh.given(), marks, mesh.pace));
+  EXPECT_FALSE(policy.worth_using(mesh.given(), marks, {}));
   EXPECT_EQ(policy.use(), ViewUse::start_unknown);
   EXPECT_EQ(policy.next({}, true).pause, 0u);
   const StepState state;
-  work.known = &state;
+  const GivenStep given = mesh.given(&state);
   CostModel known(mesh.surface, 1'000'000, {});
-  ASSERT_TRUE(known.worth_sweeping(work));
-  EXPECT_FALSE(known.worth_using(work));
+  ASSERT_TRUE(known.worth_sweeping(given, marks, mesh.pace));
+  EXPECT_FALSE(known.worth_using(given, marks, {}));
   EXPECT_EQ(known.use(), ViewUse::among_dirty);
   EXPECT_EQ(known.next({}, true).pause, 1u);
-  work.clean.assign(mesh.surface.mesh.triangles.size(), 1);
-  EXPECT_TRUE(known.worth_using(work));
+  marks.clean.assign(mesh.surface.mesh.triangles.size(), 1);
+  EXPECT_TRUE(known.worth_using(given, marks, {}));
 }
 
 // A pair left out saves a third of its cost.

@@ -97,8 +97,7 @@ constexpr int up = 4;  // +z
 bool stays_simple(const Positions& x_t0, const Positions& x_t1) {
   std::vector<std::int32_t> walk;
   for (std::int32_t v = 0; v < x_t0.rows(); ++v) walk.push_back(v);
-  const PositionsView a = x_t0, b = x_t1;
-  return MovingContour(a, b).stays_simple(walk, up);
+  return MovingContour({x_t0, x_t1}).stays_simple(walk, up);
 }
 
 TEST(MovingContour, L13_SeesWhatHappensBetweenTheEnds) {
@@ -157,8 +156,7 @@ TEST(MovingContour, L13_SimpleIsNeverSaidOfACrossing) {
     }
     std::vector<std::int32_t> walk;
     for (std::int32_t v = 0; v < n; ++v) walk.push_back(v);
-    const PositionsView a = x_t0, b = x_t1;
-    if (!MovingContour(a, b).stays_simple(walk, bit)) {
+    if (!MovingContour({x_t0, x_t1}).stays_simple(walk, bit)) {
       ++crossing;
       continue;
     }

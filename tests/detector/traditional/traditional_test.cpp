@@ -32,19 +32,18 @@ StepResult step(const Triangles& rows, const Positions& x_t0, const Positions& x
 PairSet candidates(const PairSearch& search, const Topology& mesh, const Positions& x_t0,
                    const Positions& x_t1) {
   BoundingVolumeTree tree(mesh, x_t0);
-  const PositionsView a = x_t0, b = x_t1;
+  const SteppedMesh motion = {x_t0, x_t1};
   PacedStop never(never_stops);
-  search.fit(tree, mesh, a, b, never);
+  const auto of_mesh = search.prepare(mesh, tree, never);
+  of_mesh->fit(tree, mesh, motion, never);
   const Marks marks(tree);
-  const auto kept = search.prepare(mesh, tree, never);
   const PairTables tables = EveryPair().candidates();
   PairSet pairs;
   SearchCounts counts;
-  search.search({mesh, tree, marks, tables, kept.get(), &a, &b}, counts,
-                [&](std::int32_t t, std::int32_t u) {
-                  EXPECT_TRUE(pairs.insert(std::minmax(t, u)).second) << "twice";
-                  return true;
-                });
+  of_mesh->search({mesh, tree, marks, tables}, counts, [&](std::int32_t t, std::int32_t u) {
+    EXPECT_TRUE(pairs.insert(std::minmax(t, u)).second) << "twice";
+    return true;
+  });
   EXPECT_EQ(counts.candidate_pairs, pairs.size());
   return pairs;
 }
@@ -102,11 +101,12 @@ TEST(Traditional, L13_ARampThatWindsOverItselfIsTraversed) {
   const auto meets = step(before.rows, before.x, through, Culling::normal_cone);
   EXPECT_EQ(meets.answer, Answer::collision);
   expect_same_contacts(meets, step(before.rows, before.x, through, Culling::bvh));
+  const SteppedMesh motion = {before.x, apart};
   DirectionSet cone = ~DirectionSet{0};
   for (Eigen::Index t = 0; t < before.rows.rows(); ++t) {
     std::array<MovingPoint, 3> corners;
     for (int k = 0; k < 3; ++k) {
-      corners[static_cast<std::size_t>(k)] = moving_point(before.x, apart, before.rows(t, k));
+      corners[static_cast<std::size_t>(k)] = motion.path(before.rows(t, k));
     }
     cone &= faced_directions(corners);
   }
@@ -136,6 +136,7 @@ TEST(Traditional, HalvesOfASphereHaveNormalCones) {
   ContourMaker maker(mesh);
   const PatchContours contours(mesh, tree, maker);
   EXPECT_TRUE(contours.of(BoundingVolumeTree::root).empty());
+  const SteppedMesh motion = {before.x, after};
   const auto child = tree.child(BoundingVolumeTree::root);
   for (const auto half : {child, child + 1}) {
     EXPECT_FALSE(contours.of(half).empty());
@@ -150,8 +151,7 @@ TEST(Traditional, HalvesOfASphereHaveNormalCones) {
       }
       std::array<MovingPoint, 3> corners;
       for (int k = 0; k < 3; ++k) {
-        corners[static_cast<std::size_t>(k)] =
-            moving_point(before.x, after, before.rows(tree.triangle(node), k));
+        corners[static_cast<std::size_t>(k)] = motion.path(before.rows(tree.triangle(node), k));
       }
       cone &= faced_directions(corners);
     }

@@ -32,8 +32,8 @@ struct TriangleBatch {
 
   std::array<detector::MovingPoint, 3> triangle(std::size_t t) const {
     const auto& v = mesh.triangles[t];
-    return {detector::moving_point(x_t0, x_t1, v[0]), detector::moving_point(x_t0, x_t1, v[1]),
-            detector::moving_point(x_t0, x_t1, v[2])};
+    const detector::SteppedMesh motion = {x_t0, x_t1};
+    return {motion.path(v[0]), motion.path(v[1]), motion.path(v[2])};
   }
 };
 

@@ -49,7 +49,7 @@ TEST(ViewBounds, L2_CubicsAndValuesOfLanes) {
     const TriangleBatch batch =
         maker.make(families[static_cast<std::size_t>(n) % families.size()], 8, true);
     LaneInput in{};
-    ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, batch.x_t0, batch.x_t1,
+    ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
                                 batch.primitive, in));
     in.corners = batch.mesh.triangles[0].data();
     for (std::int32_t t = 0; t < 8; t += 2) {
@@ -91,13 +91,13 @@ TEST(ViewBounds, L1_RatiosOfCoefficientsOfLanes) {
     const TriangleBatch batch =
         maker.make(families[static_cast<std::size_t>(n) % families.size()], 4, true);
     LaneInput in{};
-    ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, batch.x_t0, batch.x_t1,
+    ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
                                 batch.primitive, in));
     if (in.axial_error >= 2) continue;  // s may be anything
     const MovingExact d = exact_difference(batch.primitive.q1, batch.primitive.q0);
     const Exact length2[3] = {dot(d.t0, d.t0), dot(d.t0, d.t1) + dot(d.t1, d.t0), dot(d.t1, d.t1)};
     for (const auto v : batch.mesh.components[0].vertices) {
-      const MovingPoint p = moving_point(batch.x_t0, batch.x_t1, v);
+      const MovingPoint p = SteppedMesh{batch.x_t0, batch.x_t1}.path(v);
       const MovingExact w = exact_difference(p, batch.primitive.q0);
       const Exact along[3] = {dot(w.t0, d.t0), dot(w.t0, d.t1) + dot(w.t1, d.t0), dot(w.t1, d.t1)};
       // As in middle_group.
@@ -127,13 +127,13 @@ TEST(ViewBounds, OutOfRangeIsRefused) {
   TriangleBatch batch = maker.make(BatchFamily::generic, 4, false);
   LaneInput in{};
   const auto& vertices = batch.mesh.components[0].vertices;
-  ASSERT_TRUE(make_lane_input(vertices, batch.x_t0, batch.x_t1, batch.primitive, in));
+  ASSERT_TRUE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
   batch.x_t1(2, 1) = 0x1p305;
-  EXPECT_FALSE(make_lane_input(vertices, batch.x_t0, batch.x_t1, batch.primitive, in));
+  EXPECT_FALSE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
   batch.x_t0 *= 0x1p-320;
   batch.x_t1 = batch.x_t0;
   batch.primitive = {};
-  EXPECT_FALSE(make_lane_input(vertices, batch.x_t0, batch.x_t1, batch.primitive, in));
+  EXPECT_FALSE(make_lane_input(vertices, {batch.x_t0, batch.x_t1}, batch.primitive, in));
 }
 
 TEST(ViewBounds, LinesThatTurnHaveAnyAxialCoordinate) {
@@ -141,7 +141,7 @@ TEST(ViewBounds, LinesThatTurnHaveAnyAxialCoordinate) {
   TriangleBatch batch = maker.make(BatchFamily::generic, 4, true);
   batch.primitive = {{{0, 0, 0}, {0, 0, 0}}, {{1, 0, 0}, {-1, 0, 0}}};
   LaneInput in{};
-  ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, batch.x_t0, batch.x_t1,
+  ASSERT_TRUE(make_lane_input(batch.mesh.components[0].vertices, {batch.x_t0, batch.x_t1},
                               batch.primitive, in));
   EXPECT_EQ(in.axial_error, 2);
 }

@@ -28,7 +28,7 @@ Found find(const TriangleBatch& batch, InstructionSet set,
            Arithmetic arithmetic = Arithmetic::exact) {
   Found found;
   found.signs.resize(batch.mesh.triangles.size());
-  classify(batch.mesh, batch.mesh.components[0], batch.x_t0, batch.x_t1, batch.primitive,
+  classify(batch.mesh, batch.mesh.components[0], {batch.x_t0, batch.x_t1}, batch.primitive,
            found.signs, found.counts, set, arithmetic);
   return found;
 }
@@ -148,7 +148,7 @@ TEST(ViewLanes, RowsMayHaveAnyStride) {
   wide.leftCols<3>() = batch.x_t0;
   Found found;
   found.signs.resize(packed.signs.size());
-  classify(batch.mesh, batch.mesh.components[0], wide.leftCols<3>(), batch.x_t1, batch.primitive,
+  classify(batch.mesh, batch.mesh.components[0], {wide.leftCols<3>(), batch.x_t1}, batch.primitive,
            found.signs, found.counts);
   EXPECT_EQ(found.signs, packed.signs);
   EXPECT_EQ(found.counts.lanes, packed.counts.lanes);

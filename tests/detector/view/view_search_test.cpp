@@ -95,7 +95,7 @@ TEST(ViewAnchorKind, IsALineWhereThatAloneSeesAll) {
   const auto positive_from = [&](const ViewAnchor& anchor) {
     std::vector<ViewSign> signs(mesh.triangles.size());
     ViewCounts counts;
-    classify(mesh, mesh.components[0], x, x, place_view(anchor, x, x), signs, counts);
+    classify(mesh, mesh.components[0], {x, x}, place_view(anchor, {x, x}), signs, counts);
     return std::count(signs.begin(), signs.end(), ViewSign::positive);
   };
   const auto all = static_cast<long>(mesh.triangles.size());

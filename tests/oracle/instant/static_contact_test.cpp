@@ -32,7 +32,7 @@ TEST(StaticContact, AgreesWithTheStepQueries) {
     const detector::Positions x = random_rows(random, kind, 5);
     const Instant instant(x);
     const StaticPoints points = instant.points();
-    auto p = [&](int v) { return detector::moving_point(x, x, v); };
+    auto p = [&](int v) { return detector::SteppedMesh{x, x}.path(v); };
     auto at = [&](int v) { return detector::point_of(x, v); };
     const auto no_time = detector::Want::yes_no;
     const bool vf = vertex_face_contact({p(0), {p(1), p(2), p(3)}}, no_time).contact;
@@ -62,7 +62,7 @@ detector::Triangles random_triangles(test::Random& random, int vertices, int cou
 std::vector<detector::TrianglePair> judged(const detector::Positions& x,
                                            const detector::Triangles& f) {
   std::vector<detector::TrianglePair> pairs;
-  for (const auto& contact : judge_step(x, x, f, {}).pairs) pairs.push_back(contact.pair);
+  for (const auto& contact : judge_step({x, x}, f, {}).pairs) pairs.push_back(contact.pair);
   return pairs;
 }
 
@@ -88,15 +88,15 @@ TEST(Instant, RationalTimesAreExact) {
     const detector::Triangles f = random_triangles(random, 8, 6);
     const detector::Positions to = from + 3 * step;
     const detector::Positions third = from + step;
-    EXPECT_EQ(contacts_at(Instant(from, to, {1, 3}), f), judged(third, f));
-    EXPECT_EQ(contacts_at(Instant(from, to, {3, 3}), f), judged(to, f));
-    EXPECT_EQ(contacts_at(Instant(from, to, {0, 7}), f), judged(from, f));
+    EXPECT_EQ(contacts_at(Instant({from, to}, {1, 3}), f), judged(third, f));
+    EXPECT_EQ(contacts_at(Instant({from, to}, {3, 3}), f), judged(to, f));
+    EXPECT_EQ(contacts_at(Instant({from, to}, {0, 7}), f), judged(from, f));
   }
 }
 
 TEST(Instant, BoxesEncloseWhatIsNoDouble) {
   const auto from = test::positions({{0, 1, -1}}), to = test::positions({{1, 1, 5e-324}});
-  const Instant instant(from, to, {1, 3});
+  const Instant instant({from, to}, {1, 3});
   const Box& box = instant.box(0);
   EXPECT_LT(box.min[0], box.max[0]);
   EXPECT_LT(mpq_class(box.min[0]), mpq_class(1, 3));

@@ -24,7 +24,7 @@ using test::Step;
 using test::triangles;
 
 StepJudgement judge(const Step& step, int jobs = 1) {
-  return judge_step(step.x_t0, step.x_t1, step.f, {jobs, {}});
+  return judge_step({step.x_t0, step.x_t1}, step.f, {jobs, {}});
 }
 
 // Times to the digits that the cases state.
@@ -214,7 +214,7 @@ Step random_soup(std::uint64_t seed, int vertices, int faces) {
 // All features of all triangle pairs, one pair after the other.
 Times brute_force(const Step& step) {
   Times times;
-  auto path = [&](int v) { return detector::moving_point(step.x_t0, step.x_t1, v); };
+  auto path = [&](int v) { return detector::SteppedMesh{step.x_t0, step.x_t1}.path(v); };
   auto start = [&](int v) { return detector::point_of(step.x_t0, v); };
   for (int a = 0; a < step.f.rows(); ++a) {
     for (int b = a + 1; b < step.f.rows(); ++b) {
@@ -285,7 +285,7 @@ TEST(JudgeStep, TimeReversalKeepsTheSweptPairs) {
 TEST(JudgeStep, StoppedAtOnce) {
   const Step step = random_soup(8, 200, 200);
   const StepJudgement judgement =
-      judge_step(step.x_t0, step.x_t1, step.f, {2, [] { return true; }});
+      judge_step({step.x_t0, step.x_t1}, step.f, {2, [] { return true; }});
   EXPECT_EQ(judgement.answer, Answer::undecided);
   EXPECT_FALSE(judgement.complete);
 }
@@ -295,7 +295,7 @@ TEST(JudgeStep, StoppedLaterKeepsWhatItFound) {
   const StepJudgement whole = judge(step);
   int asked = 0;
   const StepJudgement part =
-      judge_step(step.x_t0, step.x_t1, step.f, {1, [&] { return ++asked > 3; }});
+      judge_step({step.x_t0, step.x_t1}, step.f, {1, [&] { return ++asked > 3; }});
   EXPECT_EQ(part.answer, Answer::undecided);
   EXPECT_FALSE(part.complete);
   EXPECT_LT(part.pairs.size(), whole.pairs.size());
@@ -308,7 +308,7 @@ TEST(JudgeStep, StoppedLaterKeepsWhatItFound) {
 
 TEST(JudgeStep, ExceptionOfTheStopFunctionComesThrough) {
   const Step step = random_soup(8, 50, 50);
-  EXPECT_THROW(judge_step(step.x_t0, step.x_t1, step.f,
+  EXPECT_THROW(judge_step({step.x_t0, step.x_t1}, step.f,
                           {2, []() -> bool { throw std::runtime_error("stop"); }}),
                std::runtime_error);
 }

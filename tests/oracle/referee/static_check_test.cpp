@@ -20,7 +20,7 @@ using test::Step;
 using test::triangles;
 
 bool meet_at(const Step& step, const StaticTime& time) {
-  return triangles_meet(step.x_t0, step.x_t1, step.f, {0, 1}, time);
+  return triangles_meet({step.x_t0, step.x_t1}, step.f, {0, 1}, time);
 }
 
 bool meet_at_rest(Rows rows, test::Corners corners) {
@@ -103,12 +103,12 @@ TEST(StaticCheck, MeetingsAreInThePairSet) {
       }
     }
     const auto f = triangles({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}, {2, 3, 4}, {1, 4, 5}});
-    const StepJudgement judged = judge_step(x_t0, x_t1, f, {});
+    const StepJudgement judged = judge_step({x_t0, x_t1}, f, {});
     for (std::int32_t a = 0; a < f.rows(); ++a) {
       for (std::int32_t b = a + 1; b < f.rows(); ++b) {
         for (const RationalTime& time : {RationalTime{0, 1}, {2, 7}, {1, 2}, {1, 1}}) {
           ++checks;
-          if (!triangles_meet(x_t0, x_t1, f, {a, b}, time)) continue;
+          if (!triangles_meet({x_t0, x_t1}, f, {a, b}, time)) continue;
           ++meetings;
           const auto found =
               std::find_if(judged.pairs.begin(), judged.pairs.end(), [&](const auto& p) {

@@ -28,7 +28,7 @@ TEST(TrianglesMeetNow, AgreesWithRationalArithmeticOnSmallIntegers) {
       ++without_area;
       continue;
     }
-    EXPECT_EQ(answer, triangles_meet(x, x, f, {0, 1}, RationalTime{0, 1})) << x;
+    EXPECT_EQ(answer, triangles_meet({x, x}, f, {0, 1}, RationalTime{0, 1})) << x;
     ++(answer ? met : apart);
   }
   EXPECT_GT(met, 500);

@@ -180,7 +180,7 @@ TEST(ViewSigns, ExtremeNumbers) {
 std::vector<int> signs_of(const test::Step& step, const ViewPrimitive& primitive, int jobs) {
   std::vector<int> result;
   for (const ViewSign s :
-       view_signs(step.x_t0, step.x_t1, step.f, std::span(&primitive, 1), jobs)) {
+       view_signs({step.x_t0, step.x_t1}, step.f, std::span(&primitive, 1), jobs)) {
     result.push_back(static_cast<int>(s));
   }
   return result;
@@ -201,7 +201,7 @@ TEST(ViewSigns, OnePrimitiveForEachTriangle) {
   const test::Step step = test::intersecting_octahedron();
   std::vector<ViewPrimitive> primitives(8, view_point({0, 0, 0}));
   primitives[0] = view_point({100, -100, 100});
-  const auto signs = view_signs(step.x_t0, step.x_t1, step.f, primitives, 1);
+  const auto signs = view_signs({step.x_t0, step.x_t1}, step.f, primitives, 1);
   EXPECT_NE(signs[0], ViewSign::positive);
   EXPECT_EQ(signs[1], ViewSign::positive);
   EXPECT_EQ(signs[3], ViewSign::negative);

@@ -61,11 +61,11 @@ TEST(Allocation, NoneInTheViewTest) {
     for (const auto arithmetic : {Arithmetic::exact, Arithmetic::bounded,
                                   Arithmetic::double_precision, Arithmetic::single_precision}) {
       const auto anchor = make_view_anchor(kind, mesh, mesh.components[0], x_t0.rows(), x_t0);
-      const auto view = place_view(anchor, x_t0, x_t1);
+      const auto view = place_view(anchor, {x_t0, x_t1});
       std::vector<ViewSign> signs(mesh.triangles.size());
       ViewCounts counts;
       EXPECT_EQ(allocations_of([&] {
-                  classify(mesh, mesh.components[0], x_t0, x_t1, view, signs, counts,
+                  classify(mesh, mesh.components[0], {x_t0, x_t1}, view, signs, counts,
                            best_instruction_set(), arithmetic);
                 }),
                 0u);

@@ -117,7 +117,7 @@ class Peers : public testing::Test {
     for (const auto& contact : truth[s].pairs) {
       if (contact.pair != *verdict.failure->pair) continue;
       EXPECT_GT(contact.time.hi, 0) << signature;
-      return text_of(cause_of(c.triangles, start_of(c, step), end_of(c, step), contact));
+      return text_of(cause_of(c.triangles, {start_of(c, step), end_of(c, step)}, contact));
     }
     ADD_FAILURE() << signature << ": the oracle has no such contact";
     return "";

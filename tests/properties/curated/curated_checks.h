@@ -212,7 +212,7 @@ inline std::map<std::string, Check> checks() {
        })},
       {"viewline_never_pierced", with([](const Facts& f) {
          const auto& s = f.last();
-         return !oracle::meets_primitive(s.x_t0, s.x_t1, s.triangles, s.primitive);
+         return !oracle::meets_primitive({s.x_t0, s.x_t1}, s.triangles, s.primitive);
        })},
       {"K_empty", k_nothing},
       {"K_finds_nothing", k_nothing},

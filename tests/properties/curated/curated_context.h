@@ -47,12 +47,12 @@ class CuratedStep {
     const auto view = corpus::view_of_step(c, step);
     if (view) primitive = *view;
     signs = signs_between(x_t0, x_t1);
-    judgement = oracle::judge_step(x_t0, x_t1, triangles, {});
+    judgement = oracle::judge_step({x_t0, x_t1}, triangles, {});
   }
 
   std::vector<detector::ViewSign> signs_between(const detector::Positions& from,
                                                 const detector::Positions& to) const {
-    return oracle::view_signs(from, to, triangles, {&primitive, 1}, 1);
+    return oracle::view_signs({from, to}, triangles, {&primitive, 1}, 1);
   }
   bool all_signs(detector::ViewSign wanted) const {
     return std::all_of(signs.begin(), signs.end(), [&](auto s) { return s == wanted; });
@@ -65,18 +65,18 @@ class CuratedStep {
   }
 
   Flags touched(const detector::Positions& from, const detector::Positions& to) const {
-    return oracle::touched_by_ghosts(x_t0, x_t1, triangles, from, to, ghosts);
+    return oracle::touched_by_ghosts({x_t0, x_t1}, triangles, from, to, ghosts);
   }
   Flags swept() const { return touched(apexes_t0, apexes_t1); }
   // As a first step: also what is pierced at t=0 (L11).
   Flags swept_alone() const {
-    return oracle::touched_by_ghosts(x_t0, x_t1, triangles, apexes_t0, apexes_t1, ghosts,
+    return oracle::touched_by_ghosts({x_t0, x_t1}, triangles, apexes_t0, apexes_t1, ghosts,
                                      {1, true});
   }
   // Ghosts and mesh at one end of the step, piercing included.
   Flags at_rest(bool end) const {
     const auto &x = end ? x_t1 : x_t0, &apexes = end ? apexes_t1 : apexes_t0;
-    return oracle::touched_by_ghosts(x, x, triangles, apexes, apexes, ghosts, {1, true});
+    return oracle::touched_by_ghosts({x, x}, triangles, apexes, apexes, ghosts, {1, true});
   }
   Flags at_either_end() const {
     Flags flags = at_rest(false);
@@ -93,7 +93,7 @@ class CuratedStep {
       corners.row(i) = all.row(ghosts(i / 3, i % 3));
       frozen(i / 3, i % 3) = static_cast<std::int32_t>(x_t0.rows() + i);
     }
-    return oracle::touched_by_ghosts(x_t0, x_t1, triangles, corners, corners, frozen);
+    return oracle::touched_by_ghosts({x_t0, x_t1}, triangles, corners, corners, frozen);
   }
 
   // K with this Vv.
@@ -122,7 +122,8 @@ inline std::vector<detector::TrianglePair> CuratedStep::lost_feature_pairs() con
   const auto mesh = oracle::mesh_features(triangles);
   const oracle::Candidates candidates = k();
   std::vector<detector::TrianglePair> lost;
-  auto path = [&](std::int32_t v) { return detector::moving_point(x_t0, x_t1, v); };
+  const detector::SteppedMesh motion = {x_t0, x_t1};
+  auto path = [&](std::int32_t v) { return motion.path(v); };
   auto add = [&](std::span<const std::int32_t> of_a, std::span<const std::int32_t> of_b) {
     std::vector<detector::TrianglePair> pairs;
     for (const auto s : of_a) {

@@ -60,7 +60,7 @@ std::optional<json> value_of(const Facts& f, const std::string& name) {
   if (name == "Vv_after_A" && f.two_steps()) return members(f.first().swept());
   if (name == "first_B") return s.judgement.first.lo;
   if (name == "penetrates") {
-    return oracle::meets_primitive(s.x_t0, s.x_t1, s.triangles, s.primitive);
+    return oracle::meets_primitive({s.x_t0, s.x_t1}, s.triangles, s.primitive);
   }
   if (name == "flipped_triangle") {
     // The triangle that, turned over, makes the mesh a cycle.

@@ -40,14 +40,13 @@ struct Slowest {
   }
 };
 
-void time_step(const std::string& file, const corpus::Case& c, const PositionsView& x_t0,
-               const PositionsView& x_t1, const std::optional<ViewPrimitive>& view,
-               Slowest& slowest) {
-  const Topology mesh = make_topology(c.triangles, x_t0.rows());
-  const auto point = [&](std::int32_t v) { return moving_point(x_t0, x_t1, v); };
+void time_step(const std::string& file, const corpus::Case& c, const SteppedMesh& motion,
+               const std::optional<ViewPrimitive>& view, Slowest& slowest) {
+  const Topology mesh = make_topology(c.triangles, motion.size());
+  const auto point = [&](std::int32_t v) { return motion.path(v); };
   for (const auto& face : mesh.triangles) {
     const std::array<MovingPoint, 3> corners = {point(face[0]), point(face[1]), point(face[2])};
-    for (std::int32_t v = 0; v < x_t0.rows(); ++v) {
+    for (std::int32_t v = 0; v < motion.size(); ++v) {
       if (v == face[0] || v == face[1] || v == face[2]) continue;
       const FourPoints query = four_points(VertexFace{point(v), corners});
       slowest.time(file, [&] { test_contact(query, Want::first_time); });
@@ -75,7 +74,8 @@ TEST(CuratedTimes, NoQueryIsSlow) {
     const auto c = corpus::read_case(file);
     ASSERT_TRUE(c.has_value()) << c.error().message;
     for (std::size_t step = 0; step + 1 < c.value().frames.size(); ++step) {
-      time_step(file.stem().string(), c.value(), c.value().frames[step], c.value().frames[step + 1],
+      time_step(file.stem().string(), c.value(),
+                {c.value().frames[step], c.value().frames[step + 1]},
                 corpus::view_of_step(c.value(), step), slowest);
     }
   }

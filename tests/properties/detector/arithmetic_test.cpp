@@ -118,7 +118,7 @@ TEST(ArithmeticSteps, BoundedKeepsItsClaimsOnSmallSteps) {
   std::uint64_t pairs = 0, spurious = 0, false_collisions = 0;
   for (std::uint64_t i = 0; i < steps; ++i) {
     const SmallStep step = make_small_step(seed, i);
-    const auto judgement = oracle::judge_step(step.x_t0, step.x_t1, step.triangles, {1, {}});
+    const auto judgement = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {1, {}});
     pairs += judgement.pairs.size();
     for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
                                Culling::normal_cone, Culling::bvh, Culling::none}) {

@@ -35,7 +35,7 @@ TEST_P(HardFamilies, TheConstructedAnswerIsTheOracles) {
     for (int variant = 0; variant < 3 * family.kinds_at(strength); ++variant) {
       const auto c = corpus::hard_case(family, strength, variant);
       const auto& known = c.expected.steps.front();
-      const auto judged = oracle::judge_step(c.frames[0], c.frames[1], c.triangles, {});
+      const auto judged = oracle::judge_step({c.frames[0], c.frames[1]}, c.triangles, {});
       ASSERT_EQ(judged.answer, known.answer) << c.id;
       if (known.first_time) {
         EXPECT_EQ(judged.first, *known.first_time)
@@ -44,7 +44,8 @@ TEST_P(HardFamilies, TheConstructedAnswerIsTheOracles) {
       if (!known.view_signs) continue;
       const auto view = corpus::view_of_step(c, 0);
       ASSERT_TRUE(view) << c.id;
-      const auto signs = oracle::view_signs(c.frames[0], c.frames[1], c.triangles, {&*view, 1}, 1);
+      const auto signs =
+          oracle::view_signs({c.frames[0], c.frames[1]}, c.triangles, {&*view, 1}, 1);
       for (std::size_t t = 0; t < signs.size(); ++t) {
         EXPECT_EQ(static_cast<int>(signs[t]), static_cast<int>((*known.view_signs)[t]))
             << c.id << ", triangle " << t;

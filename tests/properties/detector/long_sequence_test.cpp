@@ -62,7 +62,8 @@ class Player {
   explicit Player(std::string_view scene) : scene_(period_of(scene, 400)) {
     for (std::size_t step = 0; step < periods * steps_a_period; step += judged_every) {
       const std::size_t s = step % steps_a_period;
-      judged_[s] = oracle::judge_step(scene_.frames[s], scene_.frames[s + 1], scene_.triangles, {});
+      judged_[s] =
+          oracle::judge_step({scene_.frames[s], scene_.frames[s + 1]}, scene_.triangles, {});
     }
   }
 

@@ -26,7 +26,7 @@ Share share_of(const Topology& mesh, const Component& component, const Positions
                const ViewPrimitive& primitive) {
   std::vector<ViewSign> signs(mesh.triangles.size());
   ViewCounts counts;
-  classify(mesh, component, x, x, primitive, signs, counts);
+  classify(mesh, component, {x, x}, primitive, signs, counts);
   Share share;
   for (const auto t : component.triangles) {
     share.positive += signs[static_cast<std::size_t>(t)] == ViewSign::positive;
@@ -63,9 +63,9 @@ Judged judge(const Triangles& triangles, const Positions& x, const char* name) {
   for (const auto& component : mesh.components) {
     const auto point = make_view_anchor(ViewKind::point, mesh, component, x.rows(), x);
     const auto line = make_view_anchor(ViewKind::line, mesh, component, x.rows(), x);
-    const ViewPrimitive at_point = place_view(point, x, x);
+    const ViewPrimitive at_point = place_view(point, {x, x});
     judged.point = share_of(mesh, component, x, at_point);
-    judged.line = share_of(mesh, component, x, place_view(line, x, x));
+    judged.line = share_of(mesh, component, x, place_view(line, {x, x}));
     judged.sampled = best_of_samples(mesh, component, x);
     if (component.is_cycle) {
       judged.winding = winding_number(mesh, component.triangles, x, at_point.q0.t0);

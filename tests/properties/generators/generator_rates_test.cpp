@@ -110,7 +110,7 @@ void add_step(const corpus::Case& c, const ClosedUp& closed, std::size_t s, Rate
   const auto& x_t0 = c.frames[static_cast<std::size_t>(step.from)];
   const auto& x_t1 = c.frames[static_cast<std::size_t>(step.to)];
   const auto begin = std::clock();
-  const auto judgement = oracle::judge_step(x_t0, x_t1, c.triangles, {1, {}});
+  const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {1, {}});
   rates.judging += microseconds_since(begin);
   ++rates.steps;
   rates.pairs += static_cast<std::int64_t>(judgement.pairs.size());
@@ -122,7 +122,7 @@ void add_step(const corpus::Case& c, const ClosedUp& closed, std::size_t s, Rate
   const auto y_t0 = closed.at(x_t0), y_t1 = closed.at(x_t1);
   const auto given = corpus::view_of_step(c, s);
   const ViewPrimitive view = given ? *given : mean_of(x_t0, x_t1);
-  const auto signs = oracle::view_signs(y_t0, y_t1, closed.all, {&view, 1}, 1);
+  const auto signs = oracle::view_signs({y_t0, y_t1}, closed.all, {&view, 1}, 1);
   const auto count = [&](ViewSign sign) { return std::count(signs.begin(), signs.end(), sign); };
   if (count(ViewSign::positive) == closed.all.rows()) {
     ++rates.positive;

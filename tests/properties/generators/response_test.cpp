@@ -70,9 +70,10 @@ TEST(Response, GeneratedOnesCommitWhatIsFreeAndTheDetectorAgrees) {
       for (std::size_t s = 0; s < made.c.script.size(); ++s) {
         const auto& step = made.c.script[s];
         ASSERT_EQ(step.from, now);
-        const auto judgement = oracle::judge_step(
-            made.c.frames[static_cast<std::size_t>(step.from)],
-            made.c.frames[static_cast<std::size_t>(step.to)], made.c.triangles, {1, {}});
+        const auto judgement =
+            oracle::judge_step({made.c.frames[static_cast<std::size_t>(step.from)],
+                                made.c.frames[static_cast<std::size_t>(step.to)]},
+                               made.c.triangles, {1, {}});
         ASSERT_EQ(judgement.answer == Answer::free, step.commit);
         if (step.commit) {
           const bool after_attempt = s > 0 && !made.c.script[s - 1].commit;

@@ -20,9 +20,9 @@ struct Fall {
   }
 
   std::string cause() const {
-    const auto judged = oracle::judge_step(x_t0, x_t1, triangles, {});
+    const auto judged = oracle::judge_step({x_t0, x_t1}, triangles, {});
     if (judged.pairs.size() != 1) return "none";
-    return text_of(cause_of(triangles, x_t0, x_t1, judged.pairs[0]));
+    return text_of(cause_of(triangles, {x_t0, x_t1}, judged.pairs[0]));
   }
 };
 
@@ -54,7 +54,7 @@ TEST(Cause, SaysWhatIsSpecial) {
 
 TEST(Cause, OfAPairThatDoesNotMeet) {
   const Fall fall;
-  EXPECT_EQ(text_of(cause_of(fall.triangles, fall.x_t0, fall.x_t1, detector::TrianglePair{0, 1})),
+  EXPECT_EQ(text_of(cause_of(fall.triangles, {fall.x_t0, fall.x_t1}, detector::TrianglePair{0, 1})),
             "moving");
 }
 

@@ -53,8 +53,8 @@ std::vector<std::uint8_t> touched_of_own(const detector::Surface& surface, const
       list.bottomRows(1) = is_ghost ? ghosts.row(t - triangles.rows()) : triangles.row(t);
       if (!is_ghost) index.push_back(t);
     }
-    const auto part =
-        oracle::touched_by_ghosts(x_t0, x_t1, own, apexes_t0, apexes_t1, own_ghosts, {1, at_start});
+    const auto part = oracle::touched_by_ghosts({x_t0, x_t1}, own, apexes_t0, apexes_t1, own_ghosts,
+                                                {1, at_start});
     for (std::size_t i = 0; i < part.size(); ++i) {
       touched[static_cast<std::size_t>(index[i])] = part[i];
     }

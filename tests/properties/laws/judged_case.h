@@ -69,7 +69,7 @@ class JudgedCase {
     for (std::size_t s = 0; s < player_.steps(); ++s) {
       results.push_back(player_.play(s));
       judgements.push_back(
-          oracle::judge_step(player_.x_t0(s), player_.x_t1(s), source.triangles, {1, {}}));
+          oracle::judge_step({player_.x_t0(s), player_.x_t1(s)}, source.triangles, {1, {}}));
     }
   }
   JudgedCase(const JudgedCase&) = delete;

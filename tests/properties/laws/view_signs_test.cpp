@@ -40,7 +40,7 @@ void compare(bool line) {
       std::vector<ViewSign> found(batch.mesh.triangles.size());
       ViewCounts counts;
       tests::on_small_stack([&] {
-        classify(batch.mesh, batch.mesh.components[0], batch.x_t0, batch.x_t1, batch.primitive,
+        classify(batch.mesh, batch.mesh.components[0], {batch.x_t0, batch.x_t1}, batch.primitive,
                  found, counts);
       });
       Triangles triangles(static_cast<Eigen::Index>(found.size()), 3);
@@ -48,7 +48,7 @@ void compare(bool line) {
         const auto& v = batch.mesh.triangles[t];
         triangles.row(static_cast<Eigen::Index>(t)) << v[0], v[1], v[2];
       }
-      ASSERT_EQ(found, oracle::view_signs(batch.x_t0, batch.x_t1, triangles,
+      ASSERT_EQ(found, oracle::view_signs({batch.x_t0, batch.x_t1}, triangles,
                                           std::span(&batch.primitive, 1), 1))
           << tests::batch_family_names[f] << ", batch " << b;
       count += found.size();

@@ -30,7 +30,7 @@ Judge step_judge(JudgeOne judge_one) {
     for (std::size_t s = 0; s < steps.size(); ++s) {
       const auto& x_t0 = c.frames[static_cast<std::size_t>(steps[s].from)];
       const auto& x_t1 = c.frames[static_cast<std::size_t>(steps[s].to)];
-      const auto judgement = oracle::judge_step(x_t0, x_t1, c.triangles, {});
+      const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
       if (judgement.answer != detector::Answer::collision) continue;
       const ToyStep step = {c, x_t0, x_t1, topology, view_of(c, s), not_clean(c, x_t0)};
       if (auto found = judge_one(step, judgement, s)) return found;
@@ -126,7 +126,7 @@ Judge open_as_closed_judge() {
       bool positive = true;
       for (const ViewSign sign : exact_signs(step)) positive &= sign == ViewSign::positive;
       if (!positive) continue;
-      const auto judgement = oracle::judge_step(x_t0, x_t1, c.triangles, {});
+      const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
       if (judgement.answer != detector::Answer::collision) continue;
       return missing(judgement.pairs.front(), "free-sound", "ghosts", s);
     }
@@ -144,7 +144,7 @@ Judge dirty_not_carried_judge() {
       const auto& x_t0 = c.frames[static_cast<std::size_t>(steps[s].from)];
       const auto& x_t1 = c.frames[static_cast<std::size_t>(steps[s].to)];
       const bool is_new_start = s == 0 || steps[s - 1].to != steps[s].from;
-      const auto judgement = oracle::judge_step(x_t0, x_t1, c.triangles, {});
+      const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
       const ToyStep step = {
           c,        x_t0,          x_t1,
           topology, view_of(c, s), is_new_start ? not_clean(c, x_t0) : std::vector<std::uint8_t>{}};
@@ -189,10 +189,10 @@ Judge violated_not_carried_judge() {
           carried.push_back(clean == 0 ? 1 : 0);
         }
       }
-      auto violated =
-          oracle::touched_by_ghosts(x_t0, x_t1, c.triangles, a_t0, a_t1, ghosts, {1, is_new_start});
+      auto violated = oracle::touched_by_ghosts({x_t0, x_t1}, c.triangles, a_t0, a_t1, ghosts,
+                                                {1, is_new_start});
       for (std::size_t t = 0; t < violated.size(); ++t) violated[t] |= carried[t];
-      const auto judgement = oracle::judge_step(x_t0, x_t1, c.triangles, {});
+      const auto judgement = oracle::judge_step({x_t0, x_t1}, c.triangles, {});
       const ToyStep step = {c, x_t0, x_t1, topology, view_of(c, s), violated};
       const oracle::Candidates k(exact_signs(step), violated, topology.component_of_triangle);
       if (!oracle::holds_a_first_contact(judgement.pairs, k)) {

@@ -16,14 +16,14 @@ using detector::ViewPrimitive;
 using detector::ViewSign;
 
 Signs exact_signs(const ToyStep& step) {
-  return oracle::view_signs(step.x_t0, step.x_t1, step.mesh.triangles, {&step.view, 1}, 1);
+  return oracle::view_signs({step.x_t0, step.x_t1}, step.mesh.triangles, {&step.view, 1}, 1);
 }
 
 Signs sampled_signs(const ToyStep& step, const std::vector<double>& times) {
   Signs shared;
   for (const double t : times) {
     const Positions x = (1 - t) * step.x_t0 + t * step.x_t1;
-    const Signs now = oracle::view_signs(x, x, step.mesh.triangles, {&step.view, 1}, 1);
+    const Signs now = oracle::view_signs({x, x}, step.mesh.triangles, {&step.view, 1}, 1);
     if (shared.empty()) shared = now;
     for (std::size_t i = 0; i < now.size(); ++i) {
       if (now[i] != shared[i]) shared[i] = ViewSign::zero;
@@ -39,7 +39,7 @@ Signs one_vertex_signs(const ToyStep& step) {
     std::array<detector::MovingPoint, 3> corners;
     for (int i = 0; i < 3; ++i) {
       corners[static_cast<std::size_t>(i)] =
-          detector::moving_point(step.x_t0, step.x_t1, triangles(t, i));
+          detector::SteppedMesh{step.x_t0, step.x_t1}.path(triangles(t, i));
     }
     // The nearest point of the first vertex, at both ends, as a moving point.
     const auto nearest = [&](bool end) {

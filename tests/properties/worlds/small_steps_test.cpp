@@ -59,7 +59,7 @@ void check_signs(const SmallStep& step, const detector::Topology& mesh,
   for (std::size_t c = 0; c < mesh.components.size(); ++c) {
     for (const auto t : mesh.components[c].triangles) {
       const auto corner = [&](int i) {
-        return detector::moving_point(step.x_t0, step.x_t1, step.triangles(t, i));
+        return detector::SteppedMesh{step.x_t0, step.x_t1}.path(step.triangles(t, i));
       };
       const auto exact = oracle::view_sign({corner(0), corner(1), corner(2)}, result.primitives[c]);
       ASSERT_EQ(result.signs[static_cast<std::size_t>(t)], exact) << "view sign of triangle " << t;
@@ -69,7 +69,7 @@ void check_signs(const SmallStep& step, const detector::Topology& mesh,
 }
 
 void check(const SmallStep& step, Tally& tally) {
-  const auto judgement = oracle::judge_step(step.x_t0, step.x_t1, step.triangles, {1, {}});
+  const auto judgement = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {1, {}});
   ++tally.families[step.family];
   tally.collisions += judgement.pairs.empty() ? 0 : 1;
   tally.at_start += !judgement.pairs.empty() && judgement.first.hi == 0 ? 1 : 0;
@@ -141,7 +141,7 @@ TEST(SmallSteps, L8_StateIsCarriedSoundly) {
     detector::Positions x_t2 = step.x_t1;
     for (Eigen::Index v = 0; v < std::min(x_t2.rows(), other.x_t1.rows()); ++v)
       x_t2.row(v) = other.x_t1.row(v);
-    const auto judgement = oracle::judge_step(step.x_t1, x_t2, step.triangles, {1, {}});
+    const auto judgement = oracle::judge_step({step.x_t1, x_t2}, step.triangles, {1, {}});
     for (const auto& variant : variants) {
       if (variant.primitive != Variant::own) continue;
       auto made = detector::Detector::create(

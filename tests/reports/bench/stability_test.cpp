@@ -115,10 +115,10 @@ TEST(Stability, FalseAlarmsAreSpurious) {
 
 class CallsZeroPositive : public detector::ViewClassifier {
   bool classify(const detector::Topology& surface, const detector::Component& component,
-                const detector::PositionsView& x_t0, const detector::PositionsView& x_t1,
-                const detector::ViewPrimitive& primitive, std::vector<detector::ViewSign>& signs,
-                detector::ViewCounts& counts, detector::PacedStop& pace) const override {
-    ViewClassifier::classify(surface, component, x_t0, x_t1, primitive, signs, counts, pace);
+                const detector::SteppedMesh& motion, const detector::ViewPrimitive& primitive,
+                std::vector<detector::ViewSign>& signs, detector::ViewCounts& counts,
+                detector::PacedStop& pace) const override {
+    ViewClassifier::classify(surface, component, motion, primitive, signs, counts, pace);
     for (const auto t : component.triangles) {
       auto& sign = signs[static_cast<std::size_t>(t)];
       if (sign == detector::ViewSign::zero) sign = detector::ViewSign::positive;

@@ -1,0 +1,189 @@
+#include "detector/step/step_run.h"
+
+#include <algorithm>
+
+#include "detector/parallel/for_all.h"
+#include "detector/search/stopwatch.h"
+#include "detector/step/step_end.h"
+
+namespace assay::detector {
+
+StepRun::StepRun(StepContext& context, const StepState* known, const SteppedMesh& motion,
+                 CullingPolicy& policy, const StopFunction& stop)
+    : context_(context),
+      mesh_(context.surface.mesh),
+      policy_(policy),
+      given_{.surface = context.surface,
+             .tree = context.tree,
+             .boundary = *context.stages.boundary,
+             .elementary = *context.stages.elementary,
+             .stop = stop,
+             .motion = motion,
+             .known = known},
+      cost_{.pace = PacedStop(stop, context.workers)} {
+  marks_.clean.assign(mesh_.triangles.size(), 0);
+  marks_.touched.assign(mesh_.triangles.size(), 0);
+  marks_.free.assign(mesh_.components.size(), 0);
+}
+
+bool StepRun::place_primitives(const SteppedMesh& mesh, std::span<const ViewPrimitive> given) {
+  if (!policy_.is_due()) return true;
+  auto& primitives = marks_.primitives;
+  if (given.empty()) {
+    constexpr std::uint64_t work_of_anchor = 10;
+    for (const auto& anchor :
+         policy_.anchors(context_.anchors, given_.motion.vertices_t0, cost_.pace)) {
+      if (cost_.pace.after(work_of_anchor)) return false;
+      primitives.push_back(place_view(anchor, mesh));
+    }
+  } else if (given.size() == 1) {
+    primitives.assign(mesh_.components.size(), given[0]);
+  } else {
+    primitives.assign(given.begin(), given.end());
+  }
+  return !cost_.pace.stopped();
+}
+
+bool StepRun::classify_components() {
+  if (!policy_.is_due() || !policy_.worth_classifying(given_, marks_)) return true;
+  Stopwatch watch(result_.times.view_test);
+  marks_.signs.assign(given_.surface.all().triangles.size(), ViewSign::zero);
+  for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
+    // The classifier counts the work of signs itself; this is what the component takes besides.
+    constexpr std::uint64_t work_beside_signs = 200;
+    const bool is_classified = context_.stages.classifier->classify(
+        given_.surface.all(), given_.component(c), given_.motion, marks_.primitives[c],
+        marks_.signs, cost_.counts.view, cost_.pace);
+    if (!is_classified || cost_.pace.after(work_beside_signs)) return false;
+    marks_.free[c] = context_.stages.release->is_free(given_, marks_, cost_, c);
+    if (cost_.pace.stopped()) return false;
+    cost_.counts.free_components += marks_.free[c];
+  }
+  return true;
+}
+
+bool StepRun::pays_to_sweep() {
+  return !policy_.may_use_views() || marks_.all_free() ||
+         (marks_.has_views() && policy_.worth_sweeping(given_, marks_, cost_.pace));
+}
+
+bool StepRun::pays_to_use() {
+  return !marks_.has_views() || marks_.all_free() ||
+         policy_.worth_using(given_, marks_, cost_.counts);
+}
+
+void StepRun::drop_views() {
+  take_clean_at_start(given_, marks_, context_.options.start);
+  marks_.signs.clear();
+  marks_.primitives.clear();
+  std::fill(marks_.free.begin(), marks_.free.end(), 0);
+  cost_.counts.free_components = 0;
+}
+
+bool StepRun::find_start() {
+  if (!marks_.has_views()) return true;
+  Stopwatch watch(result_.times.start);
+  return find_clean_at_start(given_, marks_, cost_, *context_.stages.release,
+                             context_.options.start, policy_.start_by());
+}
+
+bool StepRun::sweep_ghosts() {
+  if (!marks_.has_views() || marks_.all_free() || given_.surface.is_closed()) return true;
+  Stopwatch watch(result_.times.ghosts);
+  if (!given_.tree.refit(mesh_, given_.motion, cost_.pace)) return false;
+  GhostSweep sweep{given_.surface, given_.tree, given_.motion, given_.elementary, !given_.known};
+  marks_.near_ghosts.assign(mesh_.triangles.size(), 0);
+  sweep.near = &marks_.near_ghosts;
+  for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
+    if (marks_.free[c]) continue;
+    constexpr std::uint64_t work_of_sweep = 200;
+    if (cost_.pace.after(work_of_sweep)) return false;
+    if (!given_.boundary.sweep(sweep, given_.ghosts(c), given_.stop, marks_.touched,
+                               cost_.counts.ghosts)) {
+      return false;
+    }
+  }
+  const auto& near = marks_.near_ghosts;
+  cost_.counts.ghosts.near_triangles =
+      static_cast<std::uint64_t>(std::count(near.begin(), near.end(), 1));
+  return true;
+}
+
+bool StepRun::ends_free() {
+  if (!marks_.has_views()) return false;
+  count_sets(marks_, result_);
+  return marks_.all_free() && mesh_.components.size() == 1;
+}
+
+bool StepRun::fit_boxes() {
+  Stopwatch watch(result_.times.broad_phase);
+  return context_.pair_search->fit(given_.tree, mesh_, given_.motion, cost_.pace);
+}
+
+bool StepRun::mark_types() {
+  std::vector<TriangleType> types(mesh_.triangles.size());
+  constexpr std::uint64_t work_of_type = 1;
+  for_all_paced(types.size(), work_of_type, cost_.pace,
+                [&](std::size_t t) { types[t] = type_of(marks_, t); });
+  const Stages& stages = context_.stages;
+  search_.emplace(
+      SearchStages{*stages.pair_rule, *stages.marking, *context_.pair_search, *stages.elementary},
+      mesh_, given_.tree, context_.search, given_.motion, cost_.pace);
+  Stopwatch watch(result_.times.broad_phase);
+  return search_->mark(types);
+}
+
+bool StepRun::find_pairs() {
+  StepTimes& times = result_.times;
+  bool completed = true;
+  {
+    Stopwatch watch(times.broad_phase);
+    completed = search_->collect(policy_.worth_proving(marks_, *search_));
+  }
+  // Tests are made as candidates come up, so their time is part of the time measured above.
+  times.narrow_phase = search_->test_time();
+  times.broad_phase -= times.narrow_phase;
+  candidates_of_k_ = search_->search_counts().candidate_pairs;
+  return completed;
+}
+
+bool StepRun::close_pairs() {
+  if (!marks_.has_views() || context_.options.pairs != Pairs::all) return true;
+  Stopwatch watch(result_.times.closure);
+  return search_->close();
+}
+
+void StepRun::take_found() {
+  if (!search_) return;
+  result_.pairs = search_->take_contacts();
+  cost_.counts.search = search_->search_counts();
+  cost_.counts.marking = search_->marking_counts();
+  cost_.counts.narrow = search_->narrow_counts();
+  cost_.counts.closure_rounds = search_->closure_rounds();
+  if (marks_.has_views()) policy_.record_cost(cost_.counts, candidates_of_k_);
+  search_.reset();  // gives its memory back
+}
+
+StepResult StepRun::finish(bool completed, const SteppedMesh& mesh, bool has_own_primitives,
+                           std::optional<StepState>& next) {
+  take_found();
+  // A stop that some stage has heard ends the step, whatever that stage returned.
+  completed = completed && !cost_.pace.stopped();
+  result_.answer = !completed              ? Answer::undecided
+                   : result_.pairs.empty() ? Answer::free
+                                           : Answer::collision;
+  result_.first = least_time(result_.pairs);
+  if (completed) {
+    // Set whole or, if memory fails, not at all.
+    next = state_at_end(given_, marks_, cost_.pace, *context_.stages.release, result_.pairs,
+                        is_complete(), mesh.vertices_t1);
+    next->policy = policy_.next(cost_.counts, has_own_primitives);
+    result_.views = policy_.use();
+  }
+  result_.signs = std::move(marks_.signs);
+  result_.primitives = std::move(marks_.primitives);
+  result_.counts = cost_.counts;
+  return std::move(result_);
+}
+
+}  // namespace assay::detector

@@ -1,0 +1,76 @@
+// One step under way: what it was given, what it has marked and counted so far, and a function for
+// each line of the algorithm. step.cpp states the algorithm and calls them in its order.
+//
+// A function that does work returns false if the stop function asked for an end, or nothing if it
+// never asks. Those that serve views alone do nothing in a step without views.
+#pragma once
+
+#include <optional>
+
+#include "detector/step/culling_policy.h"
+#include "detector/step/step.h"
+
+namespace assay::detector {
+
+class StepRun {
+ public:
+  // `motion`: of the mesh, and of its apexes if the ghosts move in this step. The references must
+  // outlive this object.
+  StepRun(StepContext& context, const StepState* known, const SteppedMesh& motion,
+          CullingPolicy& policy, const StopFunction& stop);
+
+  // Places the primitives, if they are due. `mesh` is the motion of the mesh alone; `given` holds
+  // no primitive, one, or one for each component.
+  bool place_primitives(const SteppedMesh& mesh, std::span<const ViewPrimitive> given);
+  // Gives each triangle its sign, and shows which components are free (L5). Afterwards the step
+  // has views, if they are due and worth the view test.
+  bool classify_components();
+  // Whether the ghosts are worth a sweep. It is true also if all components are free, because they
+  // need none, and with a culling without views, because it has no views to drop.
+  bool pays_to_sweep();
+  // Finds out which triangles are clean at t=0 (L8, L9).
+  bool find_start();
+  // Whether the views still pay, now that it is known what is dirty.
+  bool pays_to_use();
+  // The rest of the step is that of culling bvh. What is clean is set back to what was known
+  // before the step, because the result of a step without views shows no view primitive, and
+  // whoever keeps account of the state from results could not follow a release from one.
+  void drop_views();
+  // Finds the triangles that ghosts touch (L11).
+  bool sweep_ghosts();
+  // Whether the one component of the mesh is free, so that nothing is left to search. Now that all
+  // sets are known, it counts them for the result.
+  bool ends_free();
+
+  // Fits the boxes of the tree to the step.
+  bool fit_boxes();
+  // Gives each triangle its type, and marks the tree.
+  bool mark_types();
+  // Finds the candidates, and tests them as they come up.
+  bool find_pairs();
+  // Closes the set of pairs (L7), if all pairs are asked for.
+  bool close_pairs();
+
+  // The result. If the step was completed, `next` is set to the state at its end (L8). The flag
+  // has_own_primitives says that the caller gave no primitives.
+  StepResult finish(bool completed, const SteppedMesh& mesh, bool has_own_primitives,
+                    std::optional<StepState>& next);
+
+ private:
+  // What the search found goes into the result, also if it was stopped.
+  void take_found();
+  // Whether the pairs found are all that are in contact in the step.
+  bool is_complete() const { return !marks_.has_views() || context_.options.pairs == Pairs::all; }
+
+  StepContext& context_;
+  const Topology& mesh_;
+  CullingPolicy& policy_;
+  const GivenStep given_;
+  StepMarks marks_;
+  StepCost cost_;
+  std::optional<CandidateSearch> search_;  // from mark_types() to finish()
+  std::uint64_t candidates_of_k_ = 0;      // before the closure
+  StepResult result_;
+};
+
+}  // namespace assay::detector
