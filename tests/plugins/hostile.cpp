@@ -310,6 +310,21 @@ const std::map<std::string, std::function<void()>>& deeds() {
          }
          raise(SIGUSR1);
        }},
+      // Whether there is a descriptor beside the standard ones and the channel: ended by a signal,
+      // or by itself.
+      {"descriptors-beside-the-channel",
+       [] {
+         int open = 0;
+         for (int d = STDERR_FILENO + 1; d < 1024; ++d) open += fcntl(d, F_GETFD) >= 0 ? 1 : 0;
+         if (open != 1) raise(SIGUSR1);
+         _exit(3);
+       }},
+      // Whether its session, and with it the terminal, is that of its host.
+      {"session-of-the-host",
+       [] {
+         if (getsid(0) != getpid()) raise(SIGUSR1);
+         _exit(3);
+       }},
       {"root-again",
        [] {
          if (setreuid(0, 0) == 0 || setresuid(0, 0, 0) == 0) raise(SIGUSR1);

@@ -161,6 +161,22 @@ TEST(Create, IsStoppedAtEachAsking) {
   }
 }
 
+// A search for a place takes as much for a component of one triangle as for one of some hundred.
+// So none is made for the components of a soup, because each triangle would take the work of
+// 20,000 box tests.
+TEST(Create, OfASoupSearchesNoPlaceForEachTriangle) {
+  for (const int n : {10, 20}) {
+    const Mesh triangles = soup(n);
+    for (const auto culling : {Culling::automatic, Culling::view_point, Culling::view_line}) {
+      std::uint64_t asked = 0;
+      ASSERT_TRUE(Detector::create(triangles.triangles, triangles.x, {culling},
+                                   [&] { return ++asked, false; }));
+      const auto count = static_cast<std::uint64_t>(triangles.triangles.rows());
+      EXPECT_LT(asked * PacedStop::usual_interval, 4'000 * count) << n;
+    }
+  }
+}
+
 // 24 s when each ghost was swept by itself; now some 20 ms.
 TEST(Create, OfAFanIsSoonDone) {
   const Mesh fan = open_fan(3000);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "detector/detector.h"
 #include "tests/detector/points.h"
 
 namespace assay::tests {
@@ -62,6 +63,41 @@ TEST(FeatureBoxes, L3_ApartAlongDiagonalsIsOrderedExactly) {
   }
   EXPECT_GT(told_apart, 5000u);
   EXPECT_GT(close, 100u);
+}
+
+// A vertex touches the middle of an edge of a face; all lie in one plane x + y + z = s. Doubles
+// round their sums to s or to a neighbour of s, and the middle of two floats lies between these.
+// So the vertex may be rounded to the float above and the face to the float below. The margin
+// keeps them together.
+TEST(FeatureBoxes, L3_WhatTouchesBetweenTwoFloatsIsFound) {
+  constexpr double s = 1 + 0x1p-24 + 0x1p-52;
+  std::mt19937_64 engine(4);
+  const auto between = [&](double lo, double hi) {
+    const auto steps = static_cast<std::uint64_t>((hi - lo) * 0x1p53);
+    return lo + static_cast<double>(engine() % steps) * 0x1p-53;
+  };
+  const auto in_plane = [](double y0, double y1) { return Point{y0, y1, s - y0 - y1}; };
+  // The first vertex touches the face 3, 4, 5. The others hold the middle of all positions at 0.
+  const Triangles mesh = triangles({{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}});
+  for (int round = 0; round < 2000; ++round) {
+    const double p0 = between(.6, .8), p1 = between(.6, .8), d0 = between(0, .1),
+                 d1 = between(0, .1);
+    const Point p = in_plane(p0, p1), c = in_plane(between(.8, 1), between(.8, 1));
+    const Positions x = positions({p,
+                                   {p[0] + .5, p[1] + .25, p[2] + .25},
+                                   {p[0] + .25, p[1] + .5, p[2] + .25},
+                                   in_plane(p0 + d0, p1 + d1),
+                                   in_plane(p0 - d0, p1 - d1),
+                                   c,
+                                   {-4, -4, -4},
+                                   {-4, -3.5, -4},
+                                   {-3.5, -4, -4},
+                                   {4, 4, 4},
+                                   {4, 3.5, 4},
+                                   {3.5, 4, 4}});
+    auto detector = std::move(Detector::create(mesh, x, {Culling::bvh}).value());
+    ASSERT_EQ(detector.evaluate(x, x).answer, Answer::collision) << round;
+  }
 }
 
 // Neither the axes nor a diagonal tells these apart; one of each alone does.

@@ -5,12 +5,16 @@
 #include "detector/state/state_fields.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"
+#include "tests/detector/view/revolved.h"
 
 namespace assay::detector {
 namespace {
 
 using tests::octahedron;
 using tests::octahedron_positions;
+using tests::revolved;
+using tests::sides;
+using tests::sphere_rings;
 
 // The octahedron without its triangle at +x +y +z.
 Triangles with_hole() { return octahedron().bottomRows(7); }
@@ -208,6 +212,29 @@ TEST(SavedState, RestoredGivesTheSameBits) {
 }
 
 // Apexes that this detector chose by itself have no part in a state from elsewhere.
+// After a step that looked for the first pairs alone not all contacts are known. What is read from
+// bytes must still say so, or triangles that pierce each other would be taken for clean.
+TEST(SavedState, L6L9_FirstPairsAreNotAllOnceReadFromBytesEither) {
+  const Positions in = tests::sphere(2);
+  Positions pierced = in;
+  pierced.row(sides * sphere_rings) << 0, 0, 4;
+  pierced.row(sides * (sphere_rings / 2)) << -2.25, 0, 0;  // elsewhere, and later
+  Options options = with_points();
+  options.pairs = Pairs::first;
+  const auto made = [&] {
+    return std::move(Detector::create(revolved(sphere_rings), in, options).value());
+  };
+  Detector detector = made(), other = made();
+  ASSERT_EQ(detector.step(in, pierced).answer, Answer::collision);
+  const auto read = SavedState::read(detector.state().bytes());
+  ASSERT_TRUE(read);
+  ASSERT_FALSE(other.restore(read.value()));
+  const auto expected = detector.evaluate(pierced, pierced);
+  const auto again = other.evaluate(pierced, pierced);
+  EXPECT_EQ(again.dirty, expected.dirty);
+  expect_same(again, expected);
+}
+
 TEST(SavedState, RestoredIsTheWholeState) {
   const Positions x = octahedron_positions(2);
   Detector detector = make();

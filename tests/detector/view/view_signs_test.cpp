@@ -53,6 +53,32 @@ TEST(ViewTest, TheFilterSettlesWhatIsFarFromZero) {
   }
 }
 
+// All triangles of a flat fan lie in one plane with the view point, which integers alone can tell.
+// One that they decide takes as long as some ten thousand box tests. So few of them are done
+// before the stop function is asked.
+TEST(ViewTest, AStopIsAskedByTheWorkOfIntegers) {
+  constexpr int count = 400;
+  Triangles fan(count, 3);
+  Positions x(count + 2, 3);
+  x.row(0) << 0, 0, 0;
+  for (int i = 0; i <= count; ++i) x.row(i + 1) << count, i, 0;
+  for (int i = 0; i < count; ++i) fan.row(i) << 0, i + 1, i + 2;
+  const Topology mesh = make_topology(fan, x.rows());
+  std::vector<ViewSign> signs(count);
+  const auto run = [&](const StopFunction& stop, ViewCounts& counts) {
+    PacedStop pace(stop);
+    return classify(mesh, mesh.components[0], x, x, point_at({.25, .5, 0}), signs, counts,
+                    best_instruction_set(), Arithmetic::exact, &pace);
+  };
+  std::uint64_t asked = 0;
+  ViewCounts whole, ended;
+  ASSERT_TRUE(run([&] { return ++asked, false; }, whole));
+  ASSERT_EQ(whole.exact, std::uint64_t{count});
+  EXPECT_GE(asked, whole.exact * 20'000 / PacedStop::usual_interval);
+  EXPECT_FALSE(run([] { return true; }, ended));
+  EXPECT_LT(ended.exact, 20u);
+}
+
 TEST(ViewTest, ZeroAreaTriangleHasNoSign) {
   EXPECT_EQ(sign({still({0, 0, 1}), still({1, 1, 1}), still({2, 2, 1})}, point_at({0, 0, 0})),
             ViewSign::zero);

@@ -162,6 +162,24 @@ TEST_F(Plans, AWrongFieldIsOneClearLine) {
       "nothing to do");
 }
 
+// A certificate names its campaign. So a file may bear the name of a built-in campaign only if it
+// is that campaign, apart from the time that it may take.
+TEST_F(Plans, TheNameOfABuiltInOneBelongsToItsPlanAlone) {
+  for (const auto& named : named_plans()) {
+    auto json = ordered_json::parse(plan_text(named));
+    json["seconds"] = 1;
+    const auto shorter = read(json.dump());
+    ASSERT_TRUE(shorter) << shorter.error().message;
+    EXPECT_EQ(shorter.value().name, named.name);
+    auto smaller = json;
+    smaller["strata"] = {{{"family", "broken"}, {"cases", 1}}};
+    auto other = json;
+    other["case_seconds"] = 12345;
+    for (const auto& another : {smaller, other})
+      expect_refused(another.dump(), "is another plan than the built-in campaign of its name");
+  }
+}
+
 TEST_F(Plans, NamedOnesListKnownFamiliesOnce) {
   std::set<std::string> names;
   for (const auto& plan : named_plans()) {

@@ -222,6 +222,16 @@ TEST_F(Hostile, ItStartsNoMoreProcessesThanItMay) {
   }
 }
 
+// What it could reach of its host: the host's own channel, files that the host has open, and its
+// terminal.
+TEST_F(Hostile, ItHasNothingOfItsHostButItsChannel) {
+  for (const char* mode : {"descriptors-beside-the-channel", "session-of-the-host"}) {
+    const auto run = this->run(mode);
+    EXPECT_EQ(run.end, RunEnd::crashed) << mode;
+    EXPECT_EQ(run.what, "exited with code 3") << mode;
+  }
+}
+
 TEST_F(Hostile, ItIsNotLoadedAgainWithLessIsolation) {
   setenv("ASSAY_HOSTILE", "", 1);
   const Isolation whole = {true, true, true};

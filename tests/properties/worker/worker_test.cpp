@@ -108,6 +108,25 @@ TEST(Worker, ACutMessageIsNoMessage) {
   EXPECT_FALSE(decode(whole + '\0', read));
 }
 
+// A stated number is believed only as far as items come: a message of a megabyte that states a
+// million results would take half a gigabyte before the first of them is looked at.
+TEST(Worker, AStatedNumberAloneTakesNoMemory) {
+  constexpr std::uint64_t million = 1'000'000;
+  const auto bytes_of = [](std::uint64_t number) {
+    std::string bytes;
+    for (int shift = 0; shift < 64; shift += 8)
+      bytes += static_cast<char>(static_cast<unsigned char>(number >> shift));
+    return bytes;
+  };
+  const std::string end(1, '\0'), no_text = bytes_of(0);
+  CaseRun read;
+  // 0x7f is no answer, so the reading ends at the first result.
+  EXPECT_FALSE(decode(end + no_text + bytes_of(million) + std::string(million, '\x7f'), read));
+  EXPECT_LE(read.steps.capacity(), 2u);
+  EXPECT_FALSE(decode(end + bytes_of(million * million) + "text", read));
+  EXPECT_TRUE(read.what.empty());
+}
+
 TEST(Worker, AMeshThatIsRefusedHasAReason) {
   auto c = small_case(31, 0);
   c.triangles(0, 1) = c.triangles(0, 0);

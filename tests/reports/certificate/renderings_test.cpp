@@ -91,6 +91,19 @@ TEST(Summary, NamesVerdictGatesAndFailures) {
   }
 }
 
+// A verdict says nothing of what was not judged, so the summary names both, and the contract.
+TEST(Summary, NamesClaimsContractAndCampaign) {
+  auto findings = good_findings();
+  auto& detector = findings.run.detector;
+  detector.built_in = false;
+  detector.configurations = {{"plug-in", {"no-spurious", "total"}}};
+  detector.contract.margin = 1e300;
+  const auto text = summary_text(judged(findings));
+  EXPECT_TRUE(contains(text, "built-in: claims total; not judged: no-spurious (")) << text;
+  EXPECT_TRUE(contains(text, "; contract margin 1e+300; ")) << text;
+  EXPECT_TRUE(contains(text, "; campaign tiny, seed 1")) << text;
+}
+
 TEST(Summary, SaysWhoseProofOfPowerItIs) {
   auto findings = good_findings();
   EXPECT_FALSE(contains(summary_text(judged(findings)), "proof is taken"));

@@ -1,5 +1,6 @@
 // `assay run` through the program, as its user runs it.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "tests/reports/run_fixture.h"
 
@@ -193,6 +194,35 @@ TEST_F(Run, WithoutItsWorkerItEndsWithALine) {
   EXPECT_EQ(WEXITSTATUS(status), 2);
   const auto text = read_text(scratch / "text");
   EXPECT_TRUE(contains(text, "assay: cannot start " + (scratch / "assay-worker"))) << text;
+}
+
+// If the system gives no more descriptors, some of the workers cannot be had. That says nothing of
+// the harness, and with more descriptors the run goes on.
+TEST_F(Run, FewDescriptorsEndItWithALine) {
+  const std::string words = "run --jobs 8 --campaign " + plan + " --out " + out;
+  for (const char* limit : {"10", "11", "12"}) {
+    const auto ended = run_assay(words, "prlimit --nofile=" + std::string(limit) + " ");
+    EXPECT_EQ(ended.exit_code, 2) << limit << ended.out << ended.err;
+    EXPECT_TRUE(ended.err.starts_with("assay: ")) << ended.err;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  }
+  const auto whole = run_assay(words);
+  EXPECT_EQ(whole.exit_code, 0) << whole.out << whole.err;
+}
+
+// A thread that the system does not give is done without; a worker cannot be. The system does not
+// count the threads of root.
+TEST_F(Run, FewThreadsEndItWithALine) {
+  std::filesystem::permissions(scratch / "", std::filesystem::perms::all);
+  const std::string not_root =
+      geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
+  for (const char* limit : {"3", "4", "6"}) {
+    const auto ended = run_assay("run --jobs 8 --campaign " + plan + " --out " + out,
+                                 not_root + "prlimit --nproc=" + limit + " ");
+    EXPECT_EQ(ended.exit_code, 2) << limit << ended.out << ended.err;
+    EXPECT_TRUE(ended.err.starts_with("assay: ")) << ended.err;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  }
 }
 
 TEST_F(Run, BadInputIsOneLine) {
