@@ -6,7 +6,7 @@
 namespace assay::properties {
 namespace {
 
-constexpr int kLeastExponent = -1074;
+constexpr int least_exponent = -1074;
 
 // change(point) on every vertex of every frame and on the view primitive.
 template <class Change>
@@ -29,7 +29,7 @@ void round_to_grid(Draft& draft, double scale, int bits) {
 }
 
 void place_ulp_neighbours(Random& random, Draft& draft) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int changes = random.between(1, 6); changes > 0; --changes) {
     Points& x = any_of(random, draft.frames);
     const Point other = any_of(random, x);
@@ -37,7 +37,7 @@ void place_ulp_neighbours(Random& random, Draft& draft) {
     const auto k = at(random.below(3));
     // Mostly its own value: another's moves the vertex far.
     double c = random.one_in(4) ? other[k] : p[k];
-    const double towards = random.one_in(2) ? kInfinity : -kInfinity;
+    const double towards = random.one_in(2) ? infinity : -infinity;
     for (int i = random.between(1, 3); i > 0; --i) {
       c = c == 0 ? std::copysign(std::numeric_limits<double>::epsilon(), towards)
                  : std::nextafter(c, towards);
@@ -93,12 +93,12 @@ void make_denormal(Random& random, Draft& draft) {
     const int least = draft.faces.size() > most_faces_among_others ? 12 : 1;
     round_to_grid(draft, std::ldexp(1, random.between(least, 20)), 0);
     for_each_point(draft, [](Point& p) {
-      for (double& c : p) c = std::ldexp(c, kLeastExponent);
+      for (double& c : p) c = std::ldexp(c, least_exponent);
     });
   } else {
     for (int changes = random.between(1, 8); changes > 0; --changes) {
       Point& p = any_of(random, any_of(random, draft.frames));
-      p[at(random.below(3))] = std::ldexp(random.between(-3, 3), kLeastExponent) + 0.0;
+      p[at(random.below(3))] = std::ldexp(random.between(-3, 3), least_exponent) + 0.0;
     }
   }
   draft.tag("menu:denormal");

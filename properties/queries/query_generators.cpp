@@ -93,7 +93,7 @@ GeneratedQuery small_int(std::uint64_t seed, std::uint64_t index) {
 GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
-  constexpr int kReach = 4, kFaster = 8;
+  constexpr int integer_reach = 4, fastest = 8;
   const double time = random.between(0, 8) / 8.0;
   auto weights = [&](std::size_t count) {
     std::array<double, 3> w = {1, 0, 0};
@@ -106,7 +106,7 @@ GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
   };
   const auto first_group = static_cast<std::size_t>(q.first_group);
   std::array<Point, 4> at;
-  for (Point& p : at) p = integer_point(random, kReach);
+  for (Point& p : at) p = integer_point(random, integer_reach);
   // Moves the first group as a whole until its weighted point is that of the second.
   const auto w1 = weights(first_group), w2 = weights(4 - first_group);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -117,7 +117,7 @@ GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
     for (std::size_t i = 0; i < first_group; ++i) at[i][k] += gap;
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    const Point velocity = integer_point(random, kFaster);
+    const Point velocity = integer_point(random, fastest);
     for (std::size_t k = 0; k < 3; ++k) {
       q.points[i].t0[k] = at[i][k] - time * velocity[k];
       q.points[i].t1[k] = at[i][k] + (1 - time) * velocity[k];
@@ -131,10 +131,10 @@ GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
 GeneratedQuery ulp_neighbours(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   Query q = random.below(2) == 0 ? constructed(seed, index).query : small_integers(random, index);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int changes = random.between(1, 3); changes > 0; --changes) {
     double& c = any_coordinate(random, q);
-    const double towards = random.below(2) == 0 ? kInfinity : -kInfinity;
+    const double towards = random.below(2) == 0 ? infinity : -infinity;
     c = c == 0 ? std::copysign(std::numeric_limits<double>::epsilon(), towards)
                : std::nextafter(c, towards);
   }
@@ -164,12 +164,12 @@ GeneratedQuery mixed_scales(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = small_integers(random, index);
   const bool by_point = random.below(2) == 0;
-  constexpr int kExponent = 30;
+  constexpr int exponent_reach = 30;
   for (MovingPoint& p : q.points) {
-    const int of_point = random.between(-kExponent, kExponent);
+    const int of_point = random.between(-exponent_reach, exponent_reach);
     for (Point* end : {&p.t0, &p.t1}) {
       for (double& c : *end) {
-        c = std::ldexp(c, by_point ? of_point : random.between(-kExponent, kExponent));
+        c = std::ldexp(c, by_point ? of_point : random.between(-exponent_reach, exponent_reach));
       }
     }
   }
@@ -190,14 +190,14 @@ GeneratedQuery dyadics(std::uint64_t seed, std::uint64_t index) {
 GeneratedQuery denormals(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = small_integers(random, index);
-  constexpr int kLeastExponent = -1074;
+  constexpr int subnormal_exponent = -1074;
   const int kind = random.below(3);
   if (kind == 0) {
-    for_each_coordinate(q, [](double& c) { c = std::ldexp(c, kLeastExponent); });
+    for_each_coordinate(q, [](double& c) { c = std::ldexp(c, subnormal_exponent); });
   } else {
     for (int changes = kind == 1 ? 1 : random.between(2, 8); changes > 0; --changes) {
       double& c = any_coordinate(random, q);
-      c = std::ldexp(random.between(-3, 3), kLeastExponent);
+      c = std::ldexp(random.between(-3, 3), subnormal_exponent);
     }
   }
   return {q, {}};

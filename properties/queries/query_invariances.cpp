@@ -140,9 +140,9 @@ Broken halves(const Query& query, const ContactAnswer& answer, std::uint64_t) {
   if (late.contact != answer.contact) return "the halves answer otherwise";
   if (!answer.contact) return "";
   if (early.contact) {
-    constexpr double kDoublingIsExact = 0x1p-1000;
+    constexpr double doubling_is_exact_from = 0x1p-1000;
     const TimeEnclosure& t = answer.first;
-    if (t.lo < kDoublingIsExact && t.lo != t.hi) return "";
+    if (t.lo < doubling_is_exact_from && t.lo != t.hi) return "";
     if (early.first.lo != 2 * t.lo || early.first.hi != 2 * t.hi) {
       return "another time in the first half";
     }

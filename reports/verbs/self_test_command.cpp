@@ -96,7 +96,7 @@ int run_self_test(const SelfTestRequest& request) {
   if (!request.replay.empty()) return replay(request);
   announce(request);
 
-  constexpr double kSecondsBetweenLines = 30;
+  constexpr double seconds_between_lines = 30;
   const bool on_terminal = isatty(STDERR_FILENO) == 1;
   const auto begin = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
@@ -114,7 +114,7 @@ int run_self_test(const SelfTestRequest& request) {
     const auto result = properties::run_family(*family, options, [&](std::uint64_t done) {
       const auto phase = fmt::format("{} {:.0f} %", family->name(), share_of(done, indices));
       progress.phase(phase);
-      if (on_terminal || elapsed() - last_line < kSecondsBetweenLines) return;
+      if (on_terminal || elapsed() - last_line < seconds_between_lines) return;
       last_line = elapsed();
       fmt::print(stderr, "self-test: {} {:.0f} s\n", phase, last_line);
     });
