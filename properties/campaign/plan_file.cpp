@@ -141,14 +141,14 @@ class PlanReader {
     if (!policy.has("speed_limits")) return boost::outcome_v2::success();
     BOOST_OUTCOME_TRY(limits, policy.at("speed_limits"));
     if (!limits.json().is_object()) return limits.problem("an object expected");
-    for (const auto& [what, value] : limits.json().items()) {
-      if (std::find(std::begin(speed_figures), std::end(speed_figures), what) ==
+    for (const auto& [figure, value] : limits.json().items()) {
+      if (std::find(std::begin(speed_figures), std::end(speed_figures), figure) ==
           std::end(speed_figures))
-        return limits.problem("no figure '" + what + "' is known");
-      BOOST_OUTCOME_TRY(field, limits.at(what));
+        return limits.problem("no figure '" + figure + "' is known");
+      BOOST_OUTCOME_TRY(field, limits.at(figure));
       BOOST_OUTCOME_TRY(limit, field.number());
       if (limit <= 0) return field.problem("a number above 0 expected");
-      plan_.policy.speed_limits.push_back({what, limit});
+      plan_.policy.speed_limits.push_back({figure, limit});
     }
     return boost::outcome_v2::success();
   }
@@ -237,7 +237,7 @@ std::string plan_text(const CampaignPlan& plan) {
     list.push_back({{"family", s.family}, {"cases", s.cases}, {"bound", s.wanted_bound}});
   }
   auto limits = nlohmann::ordered_json::object();
-  for (const auto& [what, limit] : plan.policy.speed_limits) limits[what] = limit;
+  for (const auto& [figure, limit] : plan.policy.speed_limits) limits[figure] = limit;
   return nlohmann::ordered_json{
       {"schema", schema},
       {"name", plan.name},

@@ -55,8 +55,8 @@ std::string fault_of(const Contract& contract) {
 
 std::vector<std::string> phrases_of(const Contract& contract) {
   std::vector<std::string> list;
-  const auto say = [&](const char* what, const std::string& value, const char* behind = "") {
-    list.push_back(std::string(what).append(value).append(behind));
+  const auto say = [&](const char* name, const std::string& value, const char* behind = "") {
+    list.push_back(std::string(name).append(value).append(behind));
   };
   if (contract.adjacency != Adjacency::all) say("neighbours ", name_of(contract.adjacency));
   if (contract.coordinates != Coordinates::float64)

@@ -136,9 +136,9 @@ void poke(Random& random, const Draft& draft, Points& x, double amount) {
                                          : 1.5 * draft.holes[static_cast<std::size_t>(random.below(
                                                      static_cast<int>(draft.holes.size())))];
   const Point by = amount * (goal - from);
-  const double near = random.one_in(2) ? 0 : 0.25;
+  const double squared_reach = random.one_in(2) ? 0 : 0.25;
   for (auto& p : x) {
-    if (dot(p - from, p - from) <= near) p = p + by;
+    if (dot(p - from, p - from) <= squared_reach) p = p + by;
   }
 }
 
@@ -181,9 +181,10 @@ constexpr Motion motion_table[] = {
 
 std::span<const Motion> motions() { return motion_table; }
 
-std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too, bool dear_too) {
+std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too,
+                                        bool for_a_small_mesh) {
   const auto weight = [=](const Motion& m) {
-    return (m.exact && !exact_too) || (m.dear && !dear_too) ? 0 : m.weight;
+    return (m.exact && !exact_too) || (m.small_meshes_only && !for_a_small_mesh) ? 0 : m.weight;
   };
   int total = 0;
   for (const auto& m : motion_table) total += weight(m);

@@ -136,7 +136,7 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   if (recipe.exact && positive) round_to_grid(draft, 1, 14);
   if (aimed) aim(random, draft, recipe.exact);
   if (!positive && draft.q0.empty()) choose_view(random, draft);
-  if (recipe.near) miss_nearly(random, draft);
+  if (recipe.nearly_degenerate) miss_nearly(random, draft);
   if (recipe.far) use_far_menus(random, draft);
   if (random.one_in(2)) shuffle_faces(random, draft);
   draft.tag(recipe.broken ? "broken" : recipe.closed ? "closed" : "unclosed");

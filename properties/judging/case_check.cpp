@@ -52,7 +52,7 @@ class CaseChecker {
   }
 
  private:
-  void fail(std::string what) { report_.failed.push_back(std::move(what)); }
+  void fail(std::string fact) { report_.failed.push_back(std::move(fact)); }
 
   CaseReport finish() {
     if (!report_.failed.empty() && report_.outcome == Outcome::holds)

@@ -23,11 +23,11 @@ bool is_left_out_by_signs(CaseFacts& facts, std::size_t s, const detector::Trian
 Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
   const auto& found = facts.result(s).pairs;
-  bool met = false;
+  bool premise_held = false;
   for (const auto& contact : facts.judgement(s).pairs) {
     if (facts.same_component(contact.pair)) continue;
     if (!is_left_out_by_signs(facts, s, contact.pair)) continue;
-    met = true;
+    premise_held = true;
     const auto same = [&](const PairContact& c) {
       return c.pair == contact.pair && c.time == contact.time;
     };
@@ -36,7 +36,7 @@ Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t 
                          contact.pair.a, contact.pair.b);
     }
   }
-  return met ? holds() : not_met();
+  return premise_held ? holds() : not_met();
 }
 
 bool boxes_meet(const CaseFacts& facts, std::size_t s) {

@@ -48,11 +48,11 @@ Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
     }
     if (!facts.candidates(s).holds(pair)) times_outside.insert(time);
   }
-  bool met = false;
+  bool premise_held = false;
   for (const auto& time : times_outside) {
     for (const auto& part : contact_parts(own, time)) {
       if (!all_outside(part, facts.candidates(s))) continue;
-      met = true;
+      premise_held = true;
       const bool earlier = std::any_of(part.begin(), part.end(), [&](const PairContact& contact) {
         return first_of[at(contact.pair.a)] < time || first_of[at(contact.pair.b)] < time;
       });
@@ -62,7 +62,7 @@ Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
       }
     }
   }
-  return met ? holds() : not_met();
+  return premise_held ? holds() : not_met();
 }
 
 constexpr Law first_contact_law_table[] = {

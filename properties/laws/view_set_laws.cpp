@@ -17,18 +17,18 @@ Observation compare_signs(CaseFacts& facts, std::size_t s, std::size_t begin, st
                           bool point) {
   if (!facts.has_views(s)) return not_met();
   const auto& result = facts.result(s);
-  bool met = false;
+  bool premise_held = false;
   for (std::size_t t = begin; t < end; ++t) {
     const auto c = facts.surface().all().component_of_triangle[t];
     if (result.primitives[at(c)].is_point() != point) continue;
-    met = true;
+    premise_held = true;
     const auto exact = facts.signs(s)[t];
     if (result.signs[t] != exact) {
       return fmt::format("triangle {}: detector {}, oracle {}", t,
                          static_cast<int>(result.signs[t]), static_cast<int>(exact));
     }
   }
-  return met ? holds() : not_met();
+  return premise_held ? holds() : not_met();
 }
 
 template <bool point>

@@ -17,11 +17,11 @@ const char* name_of(RunEnd end) {
   return word_of({"completed", "crashed", "hung", "refused", "out of memory", "not run"}, end);
 }
 
-void note_error(CaseRun& run, std::size_t s, const std::string& what) {
+void note_error(CaseRun& run, std::size_t s, const std::string& text) {
   run.errors.resize(std::max(run.errors.size(), s + 1));
   auto& error = run.errors[s];
-  error = (error.empty() ? "step " + std::to_string(s + 1) + ": " : error + "; ") + what;
-  if (run.what.empty()) run.what = error;
+  error = (error.empty() ? "step " + std::to_string(s + 1) + ": " : error + "; ") + text;
+  if (run.explanation.empty()) run.explanation = error;
 }
 
 std::string error_of(const CaseRun& run, std::size_t s) {
@@ -98,7 +98,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
 }
 
 bool same_answers(const CaseRun& a, const CaseRun& b) {
-  return a.end == b.end && a.what == b.what && a.has_answers == b.has_answers &&
+  return a.end == b.end && a.explanation == b.explanation && a.has_answers == b.has_answers &&
          a.errors == b.errors && a.candidates == b.candidates &&
          std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same_result);
 }

@@ -123,7 +123,7 @@ std::uint64_t longest_reply(const corpus::Case& c) {
 
 std::string broken_rule(const corpus::Case& c, const CaseRun& run,
                         const PluginDescription& description) {
-  if (!is_line(run.what)) return "a text that is no line";
+  if (!is_line(run.explanation)) return "a text that is no line";
   switch (run.end) {
     case RunEnd::completed:
       break;
@@ -163,7 +163,7 @@ std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& ans
   if (answers.size() != queries)
     return fmt::format("{} answers to {} queries", answers.size(), queries);
   for (const auto& answer : answers) {
-    if (!is_line(answer.what)) return "a text that is no line";
+    if (!is_line(answer.explanation)) return "a text that is no line";
     if (!is_interval(answer.first)) return "a first time that is no interval in [0, 1]";
   }
   return "";

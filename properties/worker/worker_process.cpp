@@ -233,12 +233,12 @@ struct WorkerProcess::Parts {
             reply.run.times.has_value() != rest[i].is_timed)
           rule = "times that nobody asked for, or none";
         if (!rule.empty()) {
-          meddled(watch, rule, runs);
+          end_rule_breaker(watch, rule, runs);
           return;
         }
       }
       if (transfer != Transfer::done) {
-        lost(watch, transfer == Transfer::timed_out && !watch.has_ended(), runs);
+        end_silent_worker(watch, transfer == Transfer::timed_out && !watch.has_ended(), runs);
         return;
       }
       CaseRun run = std::move(reply.run);
@@ -269,7 +269,7 @@ struct WorkerProcess::Parts {
     if (transfer == Transfer::done || transfer == Transfer::too_long) {
       const auto rule = broken_rule_of(transfer, message, queries.size(), number, reply);
       if (!rule.empty()) {
-        meddled(watch, rule, runs);
+        end_rule_breaker(watch, rule, runs);
         if (queries.size() == 1) return Asked::answered;
         runs.pop_back();
         return Asked::in_halves;
@@ -278,7 +278,7 @@ struct WorkerProcess::Parts {
     if (transfer != Transfer::done) {
       const bool is_hung = transfer == Transfer::timed_out && !watch.has_ended();
       const std::size_t before = runs.size();
-      lost(watch, is_hung, runs);
+      end_silent_worker(watch, is_hung, runs);
       if (queries.size() == 1) return Asked::answered;
       runs.resize(before);
       return is_hung ? Asked::one_by_one : Asked::in_halves;
@@ -315,10 +315,10 @@ struct WorkerProcess::Parts {
   }
 
   // The plug-in sent what is no reply: it is taken for one that crashed, and ended.
-  void meddled(WorkerWatch& watch, const std::string& rule, std::vector<CaseRun>& runs) {
+  void end_rule_breaker(WorkerWatch& watch, const std::string& rule, std::vector<CaseRun>& runs) {
     CaseRun run;
     run.end = RunEnd::crashed;
-    run.what = broken(rule);
+    run.explanation = broken(rule);
     run.processor_seconds = watch.next_case();
     live->child.finish(std::chrono::milliseconds(0));
     run.printed = live->take_printed();
@@ -328,7 +328,7 @@ struct WorkerProcess::Parts {
 
   // The worker fell silent: ends it. The run of the configuration that was under way, unless it is
   // to be repeated.
-  void lost(WorkerWatch& watch, bool is_hung, std::vector<CaseRun>& runs) {
+  void end_silent_worker(WorkerWatch& watch, bool is_hung, std::vector<CaseRun>& runs) {
     CaseRun run;
     run.end = is_hung ? RunEnd::hung : RunEnd::crashed;
     const std::string why_hung = watch.why();
@@ -337,15 +337,15 @@ struct WorkerProcess::Parts {
     run.printed = live->take_printed();
     live.reset();
     if (is_hung) {
-      run.what = why_hung;
+      run.explanation = why_hung;
     } else if (end.by_host) {
-      run.what = "closed its channel and went on";
+      run.explanation = "closed its channel and went on";
     } else if (!was_killed_from_outside(end)) {
-      run.what = end.text;
+      run.explanation = end.text;
     } else if (++killed_under_way < attempts) {
       return;
     } else {
-      run.what = every_time(end);
+      run.explanation = every_time(end);
       killed_under_way = 0;  // no disturbances after all
     }
     keep(std::move(run), runs);

@@ -104,9 +104,10 @@ class Check {
     return nullptr;
   }
 
-  TetrahedronFailure failure(std::size_t turned, const detector::Point& q, const char* what) const {
-    TetrahedronFailure failed{{}, what};
-    failed.c.about = std::string("does not hold: ") + what;
+  TetrahedronFailure failure(std::size_t turned, const detector::Point& q,
+                             const char* explanation) const {
+    TetrahedronFailure failed{{}, explanation};
+    failed.c.about = std::string("does not hold: ") + explanation;
     failed.c.source = "small world of tetrahedra";
     failed.c.triangles = faces_[turned];
     failed.c.frames = {x_t0_, x_t1_};

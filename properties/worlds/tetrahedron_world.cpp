@@ -72,7 +72,7 @@ class Run {
     if (block < failed_block_) {
       failed_block_ = block;
       result_.counterexample = std::move(failure->c);
-      result_.what = std::move(failure->what);
+      result_.explanation = std::move(failure->explanation);
     }
     return false;
   }

@@ -151,13 +151,13 @@ std::vector<FourPoints> random_exponents(std::size_t count, int least, int most)
     properties::Random random(20111, i);
     FourPoints q{};
     q.first_group = i % 2 == 0 ? 1 : 2;
-    constexpr int near = 2;
+    constexpr int spread = 2;
     const bool narrow = i % 4 >= 2;
-    const int centre = random.between(least + near, most - near);
+    const int centre = random.between(least + spread, most - spread);
     const auto coordinate = [&] {
       const double mantissa = std::ldexp(static_cast<double>(random.next() >> 11), -53);
       const int exponent =
-          narrow ? random.between(centre - near, centre + near) : random.between(least, most);
+          narrow ? random.between(centre - spread, centre + spread) : random.between(least, most);
       return std::ldexp(random.one_in(2) ? 1 + mantissa : -1 - mantissa, exponent);
     };
     for (auto& p : q.points) {

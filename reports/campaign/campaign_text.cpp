@@ -59,14 +59,15 @@ std::string disturbance_text(const RunFindings& findings) {
   if (tally.disturbances > 0)
     out += fmt::format("{} trials ran again: their worker was killed from outside ({} times)\n",
                        tally.disturbed(), tally.disturbances);
-  if (tally.near.empty()) return out;
-  out += fmt::format("{} trials took more than a third of the limit of {} s:", tally.near.size(),
-                     findings.run.plan.case_seconds);
+  if (tally.near_limit.empty()) return out;
+  out +=
+      fmt::format("{} trials took more than a third of the limit of {} s:", tally.near_limit.size(),
+                  findings.run.plan.case_seconds);
   constexpr std::size_t most = 5;
-  for (std::size_t i = 0; i < std::min(most, tally.near.size()); ++i)
-    out += fmt::format("{} {} ({:.1f} s)", i ? "," : "", tally.near[i].id,
-                       1e-6 * static_cast<double>(tally.near[i].slowest_us));
-  return out + (tally.near.size() > most ? ", ...\n" : "\n");
+  for (std::size_t i = 0; i < std::min(most, tally.near_limit.size()); ++i)
+    out += fmt::format("{} {} ({:.1f} s)", i ? "," : "", tally.near_limit[i].id,
+                       1e-6 * static_cast<double>(tally.near_limit[i].slowest_us));
+  return out + (tally.near_limit.size() > most ? ", ...\n" : "\n");
 }
 
 std::string range_text(int log2) {
@@ -177,14 +178,14 @@ std::string shrinking_text(const RunFindings& findings) {
     if (!proof.shrunk || proof.status != FaultStatus::planted) continue;
     any = true;
     const auto& [before, after, calls] = *proof.shrunk;
-    const bool near = after.vertices <= proof.known_vertices + 1;
+    const bool is_near = after.vertices <= proof.known_vertices + 1;
     tried += proof.known_vertices > 0 ? 1 : 0;
-    reached += proof.known_vertices > 0 && near ? 1 : 0;
+    reached += proof.known_vertices > 0 && is_near ? 1 : 0;
     out += fmt::format("{:44} {:>22} {:>14} {:>7} {:>8}{}\n", proof.fault,
                        fmt::format("{}, {}", before.triangles, before.steps),
                        fmt::format("{} vertices", after.vertices),
                        proof.known_vertices ? fmt::format("{}", proof.known_vertices) : "-", calls,
-                       near || proof.known_vertices == 0 ? "" : "  larger");
+                       is_near || proof.known_vertices == 0 ? "" : "  larger");
   }
   if (!any) return "";
   return out +

@@ -104,13 +104,13 @@ class JudgedRows {
       const auto& failure = verdict.failure;
       rows_[i].defects += failure ? 1 : 0;
       if (!failure) {
-        rows_[i].open.push_back({before_id_ + c.id, "", "no verdict: " + runs[i].what});
+        rows_[i].open.push_back({before_id_ + c.id, "", "no verdict: " + runs[i].explanation});
       } else {
-        rows_[i].failed.push_back({before_id_ + c.id, failure->signature(), failure->what});
+        rows_[i].failed.push_back({before_id_ + c.id, failure->signature(), failure->explanation});
         on_failure_({std::string(properties::corpus_in_id) + before_id_ + c.id,
                      configurations[i].name,
                      failure->signature(),
-                     failure->what,
+                     failure->explanation,
                      corpus::case_text(*seen),
                      {},
                      false,
@@ -227,8 +227,9 @@ std::string corpus_row_text(const CorpusRow& row) {
   std::string text =
       fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row.input, row.configuration,
                   row.cases, row.steps, row.collisions, row.pairs, row.defects);
-  for (const auto& open : row.open) text += fmt::format("  {}: {}\n", open.id, open.what);
-  for (const auto& failed : row.failed) text += fmt::format("  {}: {}\n", failed.id, failed.what);
+  for (const auto& open : row.open) text += fmt::format("  {}: {}\n", open.id, open.explanation);
+  for (const auto& failed : row.failed)
+    text += fmt::format("  {}: {}\n", failed.id, failed.explanation);
   return text;
 }
 

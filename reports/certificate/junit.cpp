@@ -59,14 +59,14 @@ Suite strata_suite(const Json& p) {
     const auto& wanted = stratum["wanted_bound"];
     for (const auto& bound : stratum["bounds"]) {
       const auto count = [&](const char* name) { return bound[name].get<std::uint64_t>(); };
-      const auto what = fmt::format("{} of {} trials hold, {} defects, {} undecided; bound {:.2e}",
-                                    count("holds"), count("n"), count("defects"),
-                                    count("undecided"), bound["bound"].get<double>());
+      const auto counts = fmt::format(
+          "{} of {} trials hold, {} defects, {} undecided; bound {:.2e}", count("holds"),
+          count("n"), count("defects"), count("undecided"), bound["bound"].get<double>());
       const bool is_short = wanted.is_null() ? count("undecided") + count("errors") > 0
                                              : !is_alone && bound["bound"] > wanted;
       TestCase test{text(stratum["family"]) + ", " + text(bound["configuration"]), {}, {}};
       if ((claims_fail && count("defects") > 0) || (bounds_fail && is_short)) {
-        test.failure = what;
+        test.failure = counts;
       } else if (count("n") == 0) {
         test.skipped = "no trial";
       }
@@ -135,14 +135,14 @@ Suite corpus_suite(const Json& p) {
 Suite failures_suite(const Json& p) {
   Suite suite{"failures", {}};
   for (const auto& failure : p["failures"]) {
-    const auto what =
+    const auto line =
         fmt::format("{} ({}), {}; {}\n", text(failure["what"]), text(failure["configuration"]),
                     met_text(failure), text(failure["case"]));
     TestCase test{text(failure["signature"]), {}, {}};
     if (failure["waived"].get<bool>()) {
-      test.skipped = "waived: " + what;
+      test.skipped = "waived: " + line;
     } else {
-      test.failure = what + "replay: " + text(failure["replay"]);
+      test.failure = line + "replay: " + text(failure["replay"]);
     }
     suite.cases.push_back(std::move(test));
   }

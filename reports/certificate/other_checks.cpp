@@ -17,7 +17,7 @@ using properties::SpeedFigure;
 constexpr int rounds = 9;
 
 // Of the first over the second, in turn.
-SpeedFigure figure_of(std::string_view what, const corpus::Sequence& step, const Options& measured,
+SpeedFigure figure_of(std::string_view name, const corpus::Sequence& step, const Options& measured,
                       const Options& beside) {
   BenchReport unused;
   TimedStep one("", step.triangles, step.frames, measured, unused);
@@ -25,7 +25,7 @@ SpeedFigure figure_of(std::string_view what, const corpus::Sequence& step, const
   const auto samples =
       interleave(rounds, {[&] { return one.time(); }, [&] { return other.time(); }});
   const Estimate ratio = ratio_of(samples[0], samples[1]);
-  return {std::string(what), ratio.value, ratio.lo, ratio.hi, ratio.samples};
+  return {std::string(name), ratio.value, ratio.lo, ratio.hi, ratio.samples};
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ Json times_json(const RunFindings& findings) {
   const auto& [issued, speed] = std::tie(findings.evidence.issued, findings.evidence.speed);
   Json figures = Json::array(), strata = Json::array(), worlds = Json::array(),
        files = Json::array();
-  for (const auto& figure : speed) figures.push_back(named("what", figure.what, figure));
+  for (const auto& figure : speed) figures.push_back(named("what", figure.name, figure));
   for (const auto& [family, tally] : findings.tally.strata)
     strata.push_back({{"family", family},
                       {"oracle_us", tally.oracle_us},
@@ -130,7 +130,7 @@ Json times_json(const RunFindings& findings) {
           {"seconds", issued ? Json(issued->seconds) : Json(nullptr)},
           {"speed", std::move(figures)},
           {"strata", std::move(strata)},
-          {"near_the_limit", findings.tally.near.size()},
+          {"near_the_limit", findings.tally.near_limit.size()},
           {"worlds", std::move(worlds)},
           {"files", std::move(files)}};
 }
@@ -138,8 +138,8 @@ Json times_json(const RunFindings& findings) {
 Json waivers_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto& waiver : findings.evidence.waivers) {
-    const auto met = findings.met.find(waiver.signature);
-    std::uint64_t count = met == findings.met.end() ? 0 : met->second;
+    const auto met = findings.times_met.find(waiver.signature);
+    std::uint64_t count = met == findings.times_met.end() ? 0 : met->second;
     for (const auto& row : findings.evidence.corpus) {
       for (const auto& failed : row.failed) count += failed.signature == waiver.signature ? 1 : 0;
     }

@@ -100,7 +100,7 @@ class CheckRun {
       say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n", *seconds,
                       step_count(), step_count() == 1 ? "" : "s"));
     if (judged.outcome == Outcome::holds) return true;
-    outcome_.ended = judged.what;
+    outcome_.ended = judged.explanation;
     for (const auto claim : judged.broken) {
       outcome_.ended +=
           fmt::format("{}{}", outcome_.ended.empty() ? "broken: " : "; broken: ", name_of(claim));

@@ -80,7 +80,7 @@ class Plugin : public Subject {
 
   StepError error_of(std::size_t s, const StepResult&) const override {
     const auto error = properties::error_of(runs_[0], s);
-    return {error.empty() ? runs_[0].what : error, false};
+    return {error.empty() ? runs_[0].explanation : error, false};
   }
 
   oracle::AskedFeatures asked() const override {

@@ -91,7 +91,7 @@ int replay_query(QueryDetector& detector, const QuerySelfTest& request) {
     const auto& step = one.run.steps[0];
     fmt::print("plug-in: {}{}{}\n", properties::name_of(step.answer),
                step.answer == detector::Answer::collision ? " at t = " + time_text(step.first) : "",
-               one.run.what.empty() ? "" : " (" + one.run.what + ")");
+               one.run.explanation.empty() ? "" : " (" + one.run.explanation + ")");
   }
   fmt::print("{}", detector.text());
   return detector.exit_code();

@@ -62,7 +62,7 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
     auto some = judge_->judge(std::span(queries).subspan(all.size(), count));
     for (auto& one : some) {
       const auto& name = names[all.size()];
-      if (one.run.end == properties::RunEnd::not_run) return Refusal(one.run.what);
+      if (one.run.end == properties::RunEnd::not_run) return Refusal(one.run.explanation);
       if (!one.is_within) {
         ++left_out_;
       } else {
@@ -75,7 +75,7 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
         ++broken_[properties::name_of(one.failure->claim)];
         const auto signature = one.failure->signature();
         if (met_[signature]++ == 0)
-          shown_.push_back({name, signature, properties::printable(one.failure->what)});
+          shown_.push_back({name, signature, properties::printable(one.failure->explanation)});
       }
       all.push_back(std::move(one));
     }
@@ -93,7 +93,7 @@ std::string QueryDetector::text() const {
   for (std::size_t i = 0; i < std::min(most_shown, shown_.size()); ++i) {
     const auto& one = shown_[i];
     out += fmt::format("DEFECT {}, met {} times\n  {}: {}\n", one.signature, met_.at(one.signature),
-                       one.name, one.what);
+                       one.name, one.explanation);
   }
   if (shown_.size() > most_shown)
     out += fmt::format("... {} signatures more\n", shown_.size() - most_shown);
@@ -115,7 +115,7 @@ nlohmann::ordered_json QueryDetector::to_json() const {
     failures.push_back({{"signature", one.signature},
                         {"met", met_.at(one.signature)},
                         {"query", one.name},
-                        {"what", one.what}});
+                        {"what", one.explanation}});
   return {{"judged", judged_},
           {"left_out", left_out_},
           {"undecided", undecided_},

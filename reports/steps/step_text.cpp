@@ -42,12 +42,12 @@ std::string diff_text(const properties::StepDiff& diff, bool has_stages) {
     out += "\n";
   }
   constexpr std::size_t most_listed = 10;
-  const auto list = [&](const char* what, const std::vector<detector::PairContact>& pairs,
+  const auto list = [&](const char* heading, const std::vector<detector::PairContact>& pairs,
                         bool has_features) {
     for (std::size_t i = 0; i < pairs.size() && i < most_listed; ++i) {
       const auto& [pair, time, feature] = pairs[i];
-      out +=
-          fmt::format("  {}: triangles {} and {} at t = {}", what, pair.a, pair.b, time_text(time));
+      out += fmt::format("  {}: triangles {} and {} at t = {}", heading, pair.a, pair.b,
+                         time_text(time));
       out += has_features ? fmt::format(" ({})\n", properties::name_of(feature.kind)) : "\n";
     }
     if (pairs.size() > most_listed)

@@ -243,7 +243,7 @@ class Certification {
     checks_.drop(DroppedKind::times);
     fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
     measure_speed([&](const properties::SpeedFigure& figure) {
-      fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.what, figure.median,
+      fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.name, figure.median,
                  fmt::format("[{:.4f}, {:.4f}]", figure.lo, figure.hi));
       std::fflush(stdout);
       keep(figure);

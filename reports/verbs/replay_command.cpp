@@ -124,7 +124,7 @@ std::string sets_text(const detector::StepResult& result) {
 void print_run(const properties::Configuration& configuration, const properties::CaseRun& run,
                const properties::JudgedTrial& verdict) {
   fmt::print("{}: {}{}\n", configuration.name, properties::name_of(verdict.outcome),
-             run.what.empty() ? "" : " (" + run.what + ")");
+             run.explanation.empty() ? "" : " (" + run.explanation + ")");
   for (std::size_t s = 0; s < run.steps.size(); ++s) {
     const auto& result = run.steps[s];
     if (s < run.candidates.size() && run.candidates[s])
@@ -140,7 +140,7 @@ void print_run(const properties::Configuration& configuration, const properties:
   }
   if (verdict.failure) {
     fmt::print("  DEFECT {} in step {}: {}\n", verdict.failure->signature(),
-               verdict.failure->step + 1, verdict.failure->what);
+               verdict.failure->step + 1, verdict.failure->explanation);
   }
   if (verdict.outcome != Outcome::holds) fmt::print("{}", printed_text(run.printed));
 }
@@ -151,7 +151,7 @@ bool print_broken_laws(const corpus::Case& c, const properties::DetectorUnderTes
                        const std::vector<oracle::StepJudgement>& truth) {
   const auto tally = properties::tally_case({c, {}}, detector.configurations, runs, truth, true);
   for (const auto& broken : tally.broken) {
-    fmt::print("BROKEN LAW {} ({}): {}\n", broken.law, broken.configuration, broken.what);
+    fmt::print("BROKEN LAW {} ({}): {}\n", broken.law, broken.configuration, broken.explanation);
   }
   return !tally.broken.empty();
 }
@@ -201,7 +201,7 @@ int run_replay(const ReplayRequest& request) {
                                    {.isolation = subject.isolation, .threads = subject.threads});
   const auto runs = worker.run(*seen, subject.detector.configurations);
   for (const auto& run : runs) {
-    if (run.end == properties::RunEnd::not_run) return refuse(run.what);
+    if (run.end == properties::RunEnd::not_run) return refuse(run.explanation);
   }
   if (!request.export_folder.empty()) {
     const auto written = export_case(request.export_folder, *seen, subject.detector, truth);

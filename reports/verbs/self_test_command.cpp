@@ -47,8 +47,8 @@ std::string replay_line(const SelfTestFamily& family, std::uint64_t seed, std::u
 
 void print_failures(const SelfTestFamily& family, std::uint64_t seed, const FamilyResult& result) {
   for (const auto& failure : result.failures) {
-    fmt::print("contradiction: {}\n{}replay: {}\n", failure.what, family.text(seed, failure.index),
-               replay_line(family, seed, failure.index));
+    fmt::print("contradiction: {}\n{}replay: {}\n", failure.contradiction,
+               family.text(seed, failure.index), replay_line(family, seed, failure.index));
   }
   if (result.tally.contradictions > result.failures.size()) {
     fmt::print("{} contradictions in {}, the first {} printed\n", result.tally.contradictions,

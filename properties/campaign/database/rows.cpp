@@ -164,10 +164,10 @@ void for_each_row(const Database& database, const StoreTable& table, const RowTa
     const auto hash = row_hash(table, row), name = row_name(table, row);
     // Told first: that it happened in this run says more than that it happened.
     if (known && !known->holds(name, hash)) {
-      const char* what = known->knows(name) ? "was changed while this run was at work"
-                                            : "was not stored by this run";
+      const char* change = known->knows(name) ? "was changed while this run was at work"
+                                              : "was not stored by this run";
       throw StoreProblem(ProblemKind::not_as_stored,
-                         fmt::format("{}: {} {}", database.file(), name, what));
+                         fmt::format("{}: {} {}", database.file(), name, change));
     }
     if (rows.text(count) != hash) {
       throw StoreProblem(

@@ -42,7 +42,7 @@ void check_tallies(const RunFindings& f, Lines& lines) {
   for (const auto& [family, stratum] : f.tally.strata) {
     for (const auto& outcomes : stratum.by_configuration) defects += outcomes.defects;
   }
-  for (const auto& [signature, count] : f.met)
+  for (const auto& [signature, count] : f.times_met)
     met += signature.starts_with(law_in_signature) ? 0 : count;
   if (defects != met)
     lines.push_back(fmt::format("{} defects in the trials, {} failures are stored", defects, met));
@@ -113,7 +113,7 @@ GateFindings check_harness(const RunFindings& f, const Asked& asked) {
   GateFindings found;
   auto& lines = found.against;
   for (const auto& problem : f.evidence.problems) {
-    if (!problem.what.empty()) lines.push_back(problem.what);
+    if (!problem.explanation.empty()) lines.push_back(problem.explanation);
   }
   check_power(f, lines);
   if (f.laws_are_judged()) {
@@ -135,7 +135,7 @@ GateFindings check_corpus(const RunFindings& f, const Asked& asked) {
     for (const auto& failed : row.failed) {
       if (!is_waived(f, asked, failed.signature))
         found.against.push_back(
-            fmt::format("{} ({}): {}", failed.id, row.configuration, failed.what));
+            fmt::format("{} ({}): {}", failed.id, row.configuration, failed.explanation));
     }
   }
   for (const auto& waiver : f.evidence.waivers) {
@@ -152,16 +152,16 @@ GateFindings check_claims(const RunFindings& f, const Asked& asked) {
   // What trials met counts, be a mesh of it stored or not; a stored failure of a trial counts, be
   // it counted or not. What the corpus alone shows is that gate's.
   std::set<std::string> signatures;
-  for (const auto& [signature, count] : f.met) signatures.insert(signature);
+  for (const auto& [signature, count] : f.times_met) signatures.insert(signature);
   for (const auto& failure : f.failures) {
     if (!failure.id.starts_with(corpus_in_id)) signatures.insert(failure.signature);
   }
   for (const auto& signature : signatures) {
     if (is_waived(f, asked, signature)) continue;
     const auto* shown = f.example_of(signature);
-    const auto met = f.met.find(signature);
+    const auto met = f.times_met.find(signature);
     found.against.push_back(
-        fmt::format("{}, met {} times; {}", signature, met == f.met.end() ? 0 : met->second,
+        fmt::format("{}, met {} times; {}", signature, met == f.times_met.end() ? 0 : met->second,
                     shown ? shown->id + " (" + shown->configuration + ")" : "no mesh is stored"));
   }
   for (const auto& world : f.evidence.worlds) {
@@ -185,7 +185,7 @@ GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   check_repetitions(f, lines);
   for (const auto& row : f.evidence.corpus) {
     for (const auto& open : row.open)
-      lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));
+      lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.explanation));
   }
   if (!asked.certificate) return found;
   if (f.evidence.corpus.empty()) lines.push_back("the corpus was not run");
@@ -232,14 +232,14 @@ GateFindings check_speed(const RunFindings& f, const Asked&) {
   } else if (limits.empty()) {
     found.not_judged = "the campaign sets no limit";
   } else {
-    for (const auto& [what, limit] : limits) {
+    for (const auto& [figure, limit] : limits) {
       const auto& figures = f.evidence.speed;
       const auto figure = std::find_if(figures.begin(), figures.end(),
-                                       [&](const SpeedFigure& one) { return one.what == what; });
+                                       [&](const SpeedFigure& one) { return one.name == figure; });
       if (figure == figures.end()) {
-        found.against.push_back(fmt::format("{} was not measured", what));
+        found.against.push_back(fmt::format("{} was not measured", figure));
       } else if (figure->median > limit) {
-        found.against.push_back(fmt::format("{} is above its limit of {}", what, limit));
+        found.against.push_back(fmt::format("{} is above its limit of {}", figure, limit));
       }
     }
   }

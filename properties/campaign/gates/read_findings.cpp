@@ -191,7 +191,7 @@ class Reader {
       rows_.add(lasting_columns(trial_table(), row_of(r)));
     });
     for (const auto& [signature, met] : store.signatures()) {
-      found_.met[signature] += met;
+      found_.times_met[signature] += met;
       rows_.add({signature, text_of_number(met)});
     }
     for (auto& failure : store.failures()) {

@@ -60,8 +60,8 @@ std::string difference_of_trials(const TrialRecord& stored, const TrialRecord& n
       return fmt::format("{} is {} now, {} is stored", detector.configurations[c].name, letter(now),
                          letter(stored));
   }
-  const auto of = [&](const char* what, std::uint64_t there, std::uint64_t here) {
-    return fmt::format("{} {} now, {} stored", here, what, there);
+  const auto of = [&](const char* counted, std::uint64_t there, std::uint64_t here) {
+    return fmt::format("{} {} now, {} stored", here, counted, there);
   };
   if (stored.triangles != now.triangles) return of("triangles", stored.triangles, now.triangles);
   if (stored.steps != now.steps) return of("steps", stored.steps, now.steps);

@@ -27,7 +27,7 @@ Finding finding_of(const Failure& failure) {
   Finding finding;
   finding.signature = failure.signature();
   finding.step = failure.step;
-  finding.what = failure.what;
+  finding.explanation = failure.explanation;
   if (failure.pair) finding.focus = {failure.pair->a, failure.pair->b};
   return finding;
 }

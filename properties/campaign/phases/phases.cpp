@@ -141,9 +141,10 @@ class CampaignRun {
       if (left <= 0) break;
       observer_.on_world(world.name);
       const auto result = prove(world, {request_.jobs, left, {}});
-      store_.set(to_row(World{world.name, text_of(request_.shard), result.classes, result.motions,
-                              result.all, result.collisions, result.complete,
-                              result.counterexample ? std::optional(result.what) : std::nullopt}));
+      store_.set(
+          to_row(World{world.name, text_of(request_.shard), result.classes, result.motions,
+                       result.all, result.collisions, result.complete,
+                       result.counterexample ? std::optional(result.explanation) : std::nullopt}));
     }
   }
 

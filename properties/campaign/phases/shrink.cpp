@@ -21,7 +21,8 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
     const bool vouched = configuration.options.start == detector::Start::clean;
     if (detector.built_in && vouched && !starts_clean(c)) return std::nullopt;
     const auto run = worker.run(*seen, {&configuration, 1});
-    if (run[0].end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, run[0].what);
+    if (run[0].end == RunEnd::not_run)
+      throw StoreProblem(ProblemKind::cannot_start, run[0].explanation);
     const auto verdict =
         judge_trial(*seen, judge_case(*seen, detector.contract), run[0], configuration, detector);
     if (!verdict.failure) return std::nullopt;
@@ -65,7 +66,7 @@ std::vector<Configuration> configurations_of(const corpus::Case& failing,
 
 // Numbers of triangles and times that a case speaks of are its own.
 void tell_of_itself(corpus::Case& c, const Judge& judge) {
-  if (const auto finding = judge(c)) c.about = about_text(finding->signature, finding->what);
+  if (const auto finding = judge(c)) c.about = about_text(finding->signature, finding->explanation);
 }
 
 // A failure that was shrunk in part goes before the others of its signature.

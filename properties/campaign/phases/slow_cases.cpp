@@ -107,7 +107,7 @@ Judge judge_of_slowness(const DetectorUnderTest& detector, const Configuration& 
     int slow = 0, quick = 0;
     while (slow < 2 && quick < 2) {
       const auto run = worker.run(*seen, {&configuration, 1}).front();
-      if (run.end == RunEnd::not_run) throw std::runtime_error(run.what);
+      if (run.end == RunEnd::not_run) throw std::runtime_error(run.explanation);
       const bool is_slow = run.end == RunEnd::hung && run.processor_seconds >= seconds;
       ++(is_slow ? slow : quick);
     }

@@ -21,7 +21,7 @@ namespace {
 // changes no row.
 struct JoinedTable {
   const StoreTable& table;
-  const char* what;  // of one row, for messages
+  const char* row_name;  // what a message calls one row
   const char* on_conflict;
 };
 
@@ -62,9 +62,9 @@ void join(const Database& from, const Database& into, const JoinedTable& joined)
     if (put_row(into, table, row, joined.on_conflict)) return;
     std::string key = row[0];
     for (std::size_t c = 1; c < table.key_columns; ++c) key += ", " + row[c];
-    throw StoreProblem(
-        ProblemKind::contradiction,
-        fmt::format("{}: {} {} differs from that of another store", from.file(), joined.what, key));
+    throw StoreProblem(ProblemKind::contradiction,
+                       fmt::format("{}: {} {} differs from that of another store", from.file(),
+                                   joined.row_name, key));
   });
 }
 

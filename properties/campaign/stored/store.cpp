@@ -11,16 +11,16 @@
 
 namespace assay::properties {
 
-std::string about_text(const std::string& signature, const std::string& what) {
-  return signature + "; " + what;
+std::string about_text(const std::string& signature, const std::string& explanation) {
+  return signature + "; " + explanation;
 }
 
-std::string shown_what(const StoredFailure& failure) {
-  if (failure.smallest.empty()) return failure.what;
+std::string shown_explanation(const StoredFailure& failure) {
+  if (failure.smallest.empty()) return failure.explanation;
   const auto smallest = corpus::parse_case(failure.smallest, "stored failure");
   const auto head = about_text(failure.signature, "");
   const bool tells = smallest && smallest.value().about.starts_with(head);
-  return tells ? smallest.value().about.substr(head.size()) : failure.what;
+  return tells ? smallest.value().about.substr(head.size()) : failure.explanation;
 }
 namespace {
 

@@ -65,7 +65,8 @@ void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
 void name_features(Failure& failure, const detector::FourPoints& query) {
   if (failure.feature.empty()) failure.feature = query_word(query);
   constexpr std::string_view pair = "triangles 0 and 1 ";
-  if (failure.what.starts_with(pair)) failure.what.replace(0, pair.size(), "the two features ");
+  if (failure.explanation.starts_with(pair))
+    failure.explanation.replace(0, pair.size(), "the two features ");
 }
 
 }  // namespace
@@ -91,7 +92,7 @@ JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudge
       judged.failure = failure_of(diff, run.steps[s]);
       if (judged.failure->kind == "error") {
         const auto error = error_of(run, s);
-        judged.failure->what = error.empty() ? whole.what : error;
+        judged.failure->explanation = error.empty() ? whole.explanation : error;
       }
       if (detector.built_in) {
         find_stage(*judged.failure, c, steps[s], diff);
@@ -108,7 +109,8 @@ JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudge
     judged.failure->claim = whole.broken.front();
     judged.failure->kind =
         whole.broken.front() == Claim::deterministic ? "two runs differ" : name_of(run.end);
-    judged.failure->what = whole.what.empty() ? judged.failure->kind : whole.what;
+    judged.failure->explanation =
+        whole.explanation.empty() ? judged.failure->kind : whole.explanation;
   }
   if (judged.failure) {
     auto& failure = *judged.failure;

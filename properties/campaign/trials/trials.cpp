@@ -22,7 +22,7 @@ namespace assay::properties {
 corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
                           const DetectorUnderTest& detector, const Failure& failure) {
   corpus::Case out = c;
-  out.about = about_text(failure.signature(), failure.what);
+  out.about = about_text(failure.signature(), failure.explanation);
   out.source =
       fmt::format("campaign case {}, detector {}, {}", c.id, detector.name, configuration.name);
   std::replace(out.id.begin(), out.id.end(), ':', '-');
@@ -189,7 +189,8 @@ class Trials {
                            WorkerProcess& worker) const {
     auto runs = worker.run(trial.seen, configurations);
     for (const auto& one : runs) {
-      if (one.end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, one.what);
+      if (one.end == RunEnd::not_run)
+        throw StoreProblem(ProblemKind::cannot_start, one.explanation);
       trial.record.disturbed += one.disturbances;
       trial.record.slowest_us = std::max(trial.record.slowest_us,
                                          static_cast<std::uint64_t>(1e6 * one.processor_seconds));
@@ -214,7 +215,7 @@ class Trials {
         failing_case(trial.seen, configuration, request_.detector, *judged.failure);
     trial.failures.push_back({trial.record.id, configuration.name,
                               judged.failure->signature() + (flaky ? " (flaky)" : ""),
-                              judged.failure->what, corpus::case_text(failing), "", flaky,
+                              judged.failure->explanation, corpus::case_text(failing), "", flaky,
                               printed_of(trial.runs[i], again)});
   }
 
@@ -244,7 +245,7 @@ class Trials {
   static StoredFailure broken_law(const corpus::Case& c, const BrokenLaw& broken,
                                   std::span<const Configuration> configurations) {
     corpus::Case failing = c;
-    failing.about = fmt::format("breaks {}; {}", broken.law, broken.what);
+    failing.about = fmt::format("breaks {}; {}", broken.law, broken.explanation);
     failing.source = fmt::format("campaign case {}, {}", c.id, broken.configuration);
     for (const auto& configuration : configurations) {
       if (configuration.name == broken.configuration)
@@ -255,7 +256,7 @@ class Trials {
     return {c.id,
             fmt::format("{}{}{}", broken.configuration, law_in_configuration, broken.law),
             fmt::format("{}{}", law_in_signature, broken.law),
-            broken.what,
+            broken.explanation,
             corpus::case_text(failing),
             "",
             false};

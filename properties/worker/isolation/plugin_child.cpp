@@ -20,8 +20,8 @@
 namespace assay::properties {
 namespace {
 
-void report(int socket, const ChildReport& what) {
-  ::send(socket, &what, sizeof what, MSG_NOSIGNAL);
+void report(int socket, const ChildReport& child_report) {
+  ::send(socket, &child_report, sizeof child_report, MSG_NOSIGNAL);
 }
 
 // Closes every descriptor but the standard ones and the two of `ends`.

@@ -81,9 +81,9 @@ class PluginRun {
 
 Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std::uint32_t threads,
                                       const std::string& called) {
-  const auto problem = [&](ProblemKind kind, const std::string& what) {
+  const auto problem = [&](ProblemKind kind, const std::string& explanation) {
     return Problem{kind, line_of(called.empty() ? library.c_str() : called.c_str()) + ": " +
-                             line_of(what.c_str())};
+                             line_of(explanation.c_str())};
   };
   std::error_code ignored;
   if (!std::filesystem::exists(library, ignored))
@@ -128,10 +128,11 @@ std::vector<QueryAnswer> PluginHost::ask(std::span<const detector::FourPoints> q
         table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
                      x_t0.data(), x_t1.data(), &raw);
     answers.push_back(query_answer(code, raw));
-    auto& what = answers.back().what;
-    if (code != ASSAY_OK && code != ASSAY_OUT_OF_MEMORY) what = text_of_code(table_, "query", code);
+    auto& explanation = answers.back().explanation;
+    if (code != ASSAY_OK && code != ASSAY_OUT_OF_MEMORY)
+      explanation = text_of_code(table_, "query", code);
     if (code == ASSAY_OK && raw.answer == ASSAY_ERROR) {
-      if (auto text = text_of_error(table_); !text.empty()) what = std::move(text);
+      if (auto text = text_of_error(table_); !text.empty()) explanation = std::move(text);
     }
   }
   return answers;
@@ -157,9 +158,9 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   clock.created();
   if (code == ASSAY_OUT_OF_MEMORY) return out_of_memory();
   if (code != ASSAY_OK || !handle) {
-    std::string what = line_of(message);
-    if (what.empty()) what = text_of_code(table_, "create", code);
-    return {RunEnd::refused, std::move(what), {}};
+    std::string explanation = line_of(message);
+    if (explanation.empty()) explanation = text_of_code(table_, "create", code);
+    return {RunEnd::refused, std::move(explanation), {}};
   }
   PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
                    description_.contract.reports_pairs);

@@ -100,8 +100,8 @@ QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw) {
 
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
                                                               std::int32_t triangle_count) {
-  const auto broken = [](std::string what) {
-    return Problem{ProblemKind::broken_result, std::move(what)};
+  const auto broken = [](std::string explanation) {
+    return Problem{ProblemKind::broken_result, std::move(explanation)};
   };
   if (raw.pair_count > 0 && !raw.pairs) return broken("candidates are counted but not given");
   std::vector<detector::TrianglePair> pairs;

@@ -37,8 +37,8 @@ std::vector<std::filesystem::path> places_beside(const std::filesystem::path& pr
   return places;
 }
 
-Problem not_here(std::string_view word, const std::string& what) {
-  return {ProblemKind::not_found, std::string(word) + ": " + what};
+Problem not_here(std::string_view word, const std::string& reason) {
+  return {ProblemKind::not_found, std::string(word) + ": " + reason};
 }
 
 constexpr const char* no_word = "not a detector in Python: python:MODULE:CLASS is wanted";

@@ -94,7 +94,7 @@ std::string unconfirmed_text(std::span<const UnsafeAnswer> answers) {
   for (const auto& one : answers) {
     if (!one.is_confirmed)
       text += fmt::format("by the oracle alone: {}, case {}, step {}: {}\n", one.detector,
-                          one.case_id, one.step + 1, one.what);
+                          one.case_id, one.step + 1, one.defect);
   }
   return text;
 }
@@ -105,7 +105,7 @@ Json to_json(std::span<const UnsafeAnswer> answers) {
     list.push_back({{"detector", one.detector},
                     {"case", one.case_id},
                     {"step", one.step + 1},
-                    {"what", one.what},
+                    {"what", one.defect},
                     {"confirmed", one.is_confirmed}});
   }
   return list;

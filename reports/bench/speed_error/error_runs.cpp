@@ -112,12 +112,12 @@ class CaseRun {
     }
   }
 
-  void complain(std::size_t index, std::size_t v, const char* what) {
-    complain(index, variants_[v], what);
+  void complain(std::size_t index, std::size_t v, const char* complaint) {
+    complain(index, variants_[v], complaint);
   }
-  void complain(std::size_t index, const Variant& variant, const char* what) {
+  void complain(std::size_t index, const Variant& variant, const char* complaint) {
     wrong_.push_back(fmt::format("{}, case {}, step {}, {}: {}", family_.name, timed_.c.id,
-                                 index + 1, name_of(variant), what));
+                                 index + 1, name_of(variant), complaint));
   }
 
   const ErrorFamily& family_;

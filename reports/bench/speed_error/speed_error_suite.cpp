@@ -34,8 +34,8 @@ void add_errors(std::span<const VariantSummary> variants, BenchReport& report) {
     }
     const bool exact = arithmetic == Arithmetic::exact,
                proved = exact || arithmetic == Arithmetic::bounded;
-    const auto add = [&](const char* what, std::size_t count, bool claimed, std::string note) {
-      report.add(fmt::format("{}, {}", what, properties::name_of(arithmetic)), "",
+    const auto add = [&](const char* label, std::size_t count, bool claimed, std::string note) {
+      report.add(fmt::format("{}, {}", label, properties::name_of(arithmetic)), "",
                  exactly(static_cast<double>(count)), wanted_if(claimed, at_most(0)),
                  std::move(note));
     };

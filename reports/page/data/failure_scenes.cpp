@@ -45,7 +45,7 @@ class FailureList {
   Json other(const properties::StoredFailure& failure) const {
     return {{"id", failure.id},
             {"configuration", failure.configuration},
-            {"what", shown_what(failure)},
+            {"what", shown_explanation(failure)},
             {"replay", replay_of(failure)}};
   }
 
@@ -73,7 +73,7 @@ class FailureList {
     }
     if (scene->failure) {
       json["stage"] = scene->failure->stage.empty() ? Json() : Json(scene->failure->stage);
-      json["now"] = scene->failure->what;
+      json["now"] = scene->failure->explanation;
     }
     json["scene"] = scene_json(*scene);
     json["svg"] = mesh_svg(*scene, failure.signature);
