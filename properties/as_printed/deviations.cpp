@@ -41,7 +41,7 @@ struct PrintedRelease : ReleaseRule {
   bool released_at_start(const StepWork& work, std::size_t component) const override {
     return by_view->released_at_start(work, component);
   }
-  // Nothing but a free step empties Vv.
+  // The thesis as printed releases nothing here: only a free step empties Vv.
   bool release(StepWork&, const std::vector<std::int32_t>&) const override { return true; }
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
               StepState& state) const override {

@@ -23,7 +23,8 @@ const char* name_of(TestedFeatures features) {
 
 namespace {
 
-// The shortest decimal that reads back to the same double. The worker does without libfmt.
+// The shortest decimal that reads back to the same double. It is made without libfmt, because the
+// worker does not use that.
 std::string number_text(double x) {
   char text[32];
   const auto end = std::to_chars(std::begin(text), std::end(text), x).ptr;

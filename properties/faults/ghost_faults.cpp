@@ -41,7 +41,7 @@ struct OverlapAtEnds : BoundaryHandler {
   }
 };
 
-// GhostIndices stand where they are at t=0 while the mesh goes past them.
+// The ghosts stand where they are at t=0, while the mesh goes past them.
 struct GhostsNotMoved : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction&, Flags& touched,
              GhostCounts&) const override {

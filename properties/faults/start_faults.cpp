@@ -16,7 +16,7 @@ using detector::ViewSign;
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
 
-// Triangles that meet another one of their component at t=0.
+// Adds the triangles that meet another one of their component at t=0.
 void add_own_contacts(const StepWork& work, std::size_t c, Flags& touched) {
   detector::FeatureContacts contacts(work.surface.mesh, work.x_t0, work.x_t0, work.elementary,
                                      detector::Want::yes_no);
@@ -30,7 +30,7 @@ void add_own_contacts(const StepWork& work, std::size_t c, Flags& touched) {
 
 enum class StartLayers { by_piece, of_component, not_looked_at };
 
-// The check of a new start, put together again with parts of it missing or changed.
+// The check of a new start, composed anew with parts of it missing or changed.
 template <bool contacts, bool ghosts, StartLayers layers>
 struct StartHalfChecked : ReleaseRule {
   bool verify_start(StepWork& work, const Components& components) const override {
@@ -57,7 +57,8 @@ struct StartHalfChecked : ReleaseRule {
   }
 };
 
-// Of all layers that of the lowest untouched triangle, however few have it.
+// Takes the layer of the lowest untouched triangle for the common one, however few triangles have
+// it.
 struct LowestLayerIsCommon : ReleaseRule {
   bool verify_start(StepWork& work, const Components& components) const override {
     if (!ReleaseRule::verify_start(work, components)) return false;
@@ -96,7 +97,7 @@ bool all_positive(const StepWork& work, std::span<const std::int32_t> triangles)
                      [&](std::int32_t t) { return work.signs[at(t)] == ViewSign::positive; });
 }
 
-// `surface`: that of the step, or its mesh without ghosts.
+// `surface` is the surface of the step, or its mesh without ghosts.
 bool all_positive_at_start(const StepWork& work, std::size_t c, const detector::Topology& surface) {
   const auto& primitive = work.primitives[c];
   return detector::all_positive_at(surface, surface.components[c], work.x_t0, primitive.q0.t0,
@@ -112,7 +113,7 @@ struct WindingNotChecked : ReleaseRule {
   }
 };
 
-// Ghosts count for the winding number, but may be seen from behind.
+// Counts ghosts for the winding number, but does not ask whether they are seen from behind.
 struct GhostSignsNotAsked : ReleaseRule {
   bool is_free(StepWork& work, std::size_t c) const override {
     return all_positive(work, work.own_triangles(c)) && is_inside(work, c);

@@ -11,8 +11,8 @@ using detector::ReleaseRule;
 using detector::StepState;
 using detector::StepWork;
 
-// What the step leaves behind, from a start at which more is believed clean, or from a step that
-// has seen less.
+// What the step leaves behind is computed from a start at which too much is believed clean, or
+// from a step that is made to have seen too little.
 struct DirtyNotCarried : ReleaseRule {
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,
               StepState& state) const override {
@@ -64,7 +64,7 @@ struct FirstPairsAreAll : ReleaseRule {
   }
 };
 
-// After a step without views an open component is dirty only where that found a contact.
+// After a step without views, an open component becomes dirty only if the step found a contact.
 struct LostByContactAlone : ReleaseRule {
   bool knows_clean(const StepWork& work, const std::vector<PairContact>& pairs,
                    std::size_t c) const override {
@@ -72,14 +72,15 @@ struct LostByContactAlone : ReleaseRule {
   }
 };
 
-// Clean bits are carried through a step without views as through any other, ghosts or not.
+// Carries clean bits through a step without views as through any other step, whether or not there
+// are ghosts.
 struct CarriedPastGhosts : ReleaseRule {
   bool knows_clean(const StepWork&, const std::vector<PairContact>&, std::size_t) const override {
     return true;
   }
 };
 
-// What the step before did not find in contact is not held against the ghosts either.
+// A triangle that the step before did not find in contact is not tested against the ghosts either.
 struct OnlyMetAgainstGhosts : ReleaseRule {
   std::vector<std::int32_t> may_touch_ghosts(
       const StepWork& work, const std::vector<std::int32_t>& in_doubt) const override {
@@ -100,8 +101,8 @@ struct KeptElsewhere : ReleaseRule {
   }
 };
 
-// What an evaluation found that was not committed is used by the next one from the same place: "it
-// was seen to be free there, so nothing there is dirty".
+// Uses what an evaluation found, although it was not committed, in the next evaluation from the
+// same place: if that place was seen to be free, nothing there is taken for dirty.
 class EvaluationKept : public ReleaseRule {
  public:
   void settle(const StepWork& work, const std::vector<PairContact>& pairs, bool complete,

@@ -10,7 +10,7 @@ namespace assay::properties {
 
 namespace {
 
-// The worse of two.
+// The worse of two outcomes.
 Outcome worse(Outcome a, Outcome b) {
   constexpr Outcome ascending[] = {Outcome::holds, Outcome::undecided, Outcome::error,
                                    Outcome::defect};

@@ -1,4 +1,4 @@
-// L5: all of S positive and winding number 1, without history.
+// L5: all of S is positive and the winding number is 1, whatever was before.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// L10: components have views of their own; pairs of two are always candidates.
+// L10: components have views of their own, and a pair of two components is always a candidate.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 using detector::PairContact;
 using detector::ViewSign;
 
-// Whether signs and doubts would leave the pair out of K inside a component.
+// Whether signs and doubts would leave the pair out of K if it were inside one component.
 bool is_left_out_by_signs(CaseFacts& facts, std::size_t s, const detector::TrianglePair& pair) {
   const auto sign = [&](std::int32_t t) { return facts.signs(s)[at(t)]; };
   return !facts.in_doubt(s, pair.a) && !facts.in_doubt(s, pair.b) &&
@@ -58,7 +58,7 @@ bool boxes_meet(const CaseFacts& facts, std::size_t s) {
   return false;
 }
 
-// The oracle's layers of one component with everything else taken away.
+// The oracle's layers of one component if everything else is taken away.
 oracle::LayerState layers_alone(CaseFacts& facts, std::size_t s, std::size_t component) {
   const auto& surface = facts.surface();
   detector::Triangles own(0, 3), ghosts(0, 3);

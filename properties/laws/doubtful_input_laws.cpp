@@ -1,4 +1,4 @@
-// L12: never free on a guess.
+// L12: the answer is never free on a guess.
 #include <fmt/format.h>
 
 #include "properties/laws/facts/bad_input.h"

@@ -31,7 +31,8 @@ Observation first_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// Only contacts inside a component: pairs of two are all in K, and make nothing dirty (L10).
+// Looks only at contacts inside a component, because pairs of two components are all in K and make
+// nothing dirty (L10).
 Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
   std::vector<PairContact> own;

@@ -1,4 +1,4 @@
-// L4: all triangles of one sign and none in doubt: no contact.
+// L4: if all triangles have one sign and none is in doubt, there is no contact.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// L8, L9 and L15: what is clean from step to step, and at a new start.
+// L8, L9 and L15: what is clean from step to step and at a new start.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// L2: signs over the step. The view sets: disjoint, and together all triangles.
+// L2: the signs over a step. Also that the view sets are disjoint, and together are all triangles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace {
 
 using detector::ViewSign;
 
-// Signs of triangles from `begin` to `end` of the surface, of components whose primitive is a
-// point, or is not.
+// Compares the signs of the triangles from `begin` to `end` of the surface. It looks only at
+// components whose primitive is a point, or only at those whose primitive is not.
 Observation compare_signs(CaseFacts& facts, std::size_t s, std::size_t begin, std::size_t end,
                           bool point) {
   if (!facts.has_views(s)) return not_met();

@@ -18,7 +18,7 @@ Query empty_query(std::uint64_t index) {
   return q;
 }
 
-// Calls change(coordinate) on all 24, in a fixed order.
+// Calls change(coordinate) for all 24 coordinates, in a fixed order.
 template <class Change>
 void for_each_coordinate(Query& q, const Change& change) {
   for (MovingPoint& p : q.points) {
@@ -33,7 +33,7 @@ double& any_coordinate(Random& random, Query& q) {
   return end[static_cast<std::size_t>(random.below(3))];
 }
 
-// In [-1, 1), multiples of 2^-52.
+// A multiple of 2^-52 in [-1, 1).
 double unit(Random& random) {
   return std::ldexp(static_cast<double>(random.next() >> 11), -52) - 1;
 }
@@ -44,7 +44,7 @@ Point integer_point(Random& random, int reach) {
   return p;
 }
 
-// Planar and collinear worlds in any direction: p becomes its shadow in one.
+// Makes planar and collinear worlds in any direction: it replaces p by its shadow in one.
 Point flattened(const Point& p, int dimensions, const std::array<Point, 2>& directions) {
   if (dimensions == 3) return p;
   Point shadow = {0, 0, 0};
@@ -54,8 +54,8 @@ Point flattened(const Point& p, int dimensions, const std::array<Point, 2>& dire
   return shadow;
 }
 
-// Integers within 1..4; a fifth of the queries planar, a tenth on one line; all motions from none
-// to every point on its own.
+// Small integers, within a reach of 1 to 4. A fifth of the queries is planar and a tenth lies on
+// one line. The motions range from none to every point moving on its own.
 Query small_integers(Random& random, std::uint64_t index) {
   Query q = empty_query(index);
   const int reach = random.between(1, 4);
@@ -88,8 +88,8 @@ GeneratedQuery small_int(std::uint64_t seed, std::uint64_t index) {
   return {small_integers(random, index), {}};
 }
 
-// Meets at a dyadic time: hulls drawn through one point there, velocities free. Everything is a
-// small dyadic, so the contact is exact.
+// Constructs a contact at a dyadic time: the two hulls are drawn through one point there, and the
+// velocities are free. All numbers are small dyadics, so the contact is exact.
 GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
@@ -107,7 +107,7 @@ GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
   const auto first_group = static_cast<std::size_t>(q.first_group);
   std::array<Point, 4> at;
   for (Point& p : at) p = integer_point(random, integer_reach);
-  // Moves the first group as a whole until its weighted point is that of the second.
+  // Moves the first group as a whole until its weighted point is that of the second group.
   const auto w1 = weights(first_group), w2 = weights(4 - first_group);
   for (std::size_t k = 0; k < 3; ++k) {
     double gap = 0;
@@ -126,8 +126,8 @@ GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
   return {q, time};
 }
 
-// One to three coordinates of an exact contact or a small-integer query go to a neighbouring
-// double; beside 0 one unit of the last place of 1.
+// Changes one to three coordinates of an exact contact or a small-integer query to a neighbouring
+// double. A coordinate 0 is changed by one unit of the last place of 1.
 GeneratedQuery ulp_neighbours(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   Query q = random.below(2) == 0 ? constructed(seed, index).query : small_integers(random, index);
@@ -145,7 +145,8 @@ GeneratedQuery far_from_origin(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   GeneratedQuery made = random.below(2) == 0 ? constructed(seed, index)
                                              : GeneratedQuery{small_integers(random, index), {}};
-  // Up to 2^50 integers stay exact; the eighths and less of a constructed contact may be rounded.
+  // Up to 2^50 integers stay exact. The eighths and smaller parts of a constructed contact may be
+  // rounded.
   std::array<double, 3> offset;
   for (double& c : offset) {
     c = std::ldexp(random.below(2) == 0 ? 1 : -1, random.between(30, 50)) + random.below(1000);
@@ -186,7 +187,7 @@ GeneratedQuery dyadics(std::uint64_t seed, std::uint64_t index) {
   return {q, {}};
 }
 
-// The smallest numbers: alone, or among small integers.
+// Makes the smallest numbers, alone or among small integers.
 GeneratedQuery denormals(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = small_integers(random, index);

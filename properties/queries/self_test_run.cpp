@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t indices_at_once = 64;  // indices that a thread takes at once
 constexpr std::size_t failures_kept = 5;
 
-// What the threads of one family share.
+// The state that the threads of one family share.
 class Run {
  public:
   Run(const SelfTestFamily& family, const SelfTestOptions& options,

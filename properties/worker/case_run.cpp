@@ -46,7 +46,7 @@ StepResult run_step(CasePlayer& player, std::size_t s) try {
   return undecided;
 }
 
-// Counters are plain numbers without gaps between them.
+// The counters are plain numbers without gaps between them, so they can be compared byte by byte.
 static_assert(std::has_unique_object_representations_v<detector::StepCounts>);
 
 bool same_primitive(const detector::ViewPrimitive& a, const detector::ViewPrimitive& b) {
@@ -88,7 +88,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
     clock.answered();
     const auto& result = run.steps.back();
     if (result.problem) note_error(run, s, result.problem->message);
-    // Nothing but the want of memory ends a step here without an answer.
+    // Only lack of memory ends a step here without an answer.
     if (result.answer == detector::Answer::undecided) note_error(run, s, "out of memory");
   }
   run.times = clock.take();

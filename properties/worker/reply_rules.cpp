@@ -17,7 +17,7 @@ using detector::PairContact;
 using detector::StepResult;
 using detector::TimeEnclosure;
 
-// Of the fields of a result that are not lists, and of the numbers that begin lists.
+// The bytes of those fields of a result that are not lists, and of the numbers that begin lists.
 constexpr std::uint64_t bytes_of_a_result = 4096;
 
 bool is_line(const std::string& text) {
@@ -25,10 +25,10 @@ bool is_line(const std::string& text) {
 }
 
 bool is_interval(const TimeEnclosure& time) {
-  return 0 <= time.lo && time.lo <= time.hi && time.hi <= 1;  // no NaN passes
+  return 0 <= time.lo && time.lo <= time.hi && time.hi <= 1;  // false for a NaN
 }
 
-// Of a feature a plug-in says nothing.
+// A plug-in says nothing of features.
 bool is_unstated(const detector::Feature& feature) {
   const detector::Feature unstated;
   return feature.kind == unstated.kind && feature.vertices == unstated.vertices;
@@ -89,7 +89,8 @@ std::string broken_rule(const CandidatePairs& candidates, const StepResult& resu
   return ascend ? "" : "candidates that do not ascend";
 }
 
-// Of the parts that the description names, in a run with a result for each step.
+// Says which rule is broken about the parts that the description names. The run has a result for
+// each step.
 std::string broken_rule_of_parts(const CaseRun& run, const PluginDescription& description,
                                  Eigen::Index triangles) {
   if (run.has_answers != description.parts.steps) return "answers of another kind of detector";

@@ -14,7 +14,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-// A waiver belongs to a certificate; nothing else leaves a failure aside.
+// Only a certificate takes waivers into account. Without one no failure is left aside.
 bool is_waived(const RunFindings& f, const Asked& asked, const std::string& signature) {
   return asked.certificate && f.is_waived(signature);
 }
@@ -36,7 +36,7 @@ void check_power(const RunFindings& f, Lines& lines) {
     lines.insert(lines.end(), hidden.begin(), hidden.end());
 }
 
-// Every defect of a trial was stored as a failure.
+// Checks that every defect of a trial was stored as a failure.
 void check_tallies(const RunFindings& f, Lines& lines) {
   std::uint64_t defects = 0, met = 0;
   for (const auto& [family, stratum] : f.tally.strata) {
@@ -79,15 +79,16 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
     }
   }
   if (asked.certificate && f.planned() == 0) lines.push_back("the campaign plans no trial");
-  // Of all shards together: one of them may have stood on a machine that was short of memory.
-  constexpr std::uint64_t most_disturbed = 100;  // one trial in so many
+  // This is asked of all shards together, because a single shard may have run on a machine that
+  // was short of memory.
+  constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
   if (!f.alone && most_disturbed * disturbed > trials)
     lines.push_back(
         fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
 }
 
-// Every scene was put to a plug-in that is to be put to them again and again.
+// Checks that a plug-in that has to repeat every scene was given every scene.
 void check_repetitions(const RunFindings& f, Lines& lines) {
   const auto& detector = f.run.detector;
   if (f.alone || detector.configurations.empty()) return;
@@ -149,8 +150,9 @@ GateFindings check_corpus(const RunFindings& f, const Asked& asked) {
 
 GateFindings check_claims(const RunFindings& f, const Asked& asked) {
   GateFindings found;
-  // What trials met counts, be a mesh of it stored or not; a stored failure of a trial counts, be
-  // it counted or not. What the corpus alone shows is that gate's.
+  // A signature counts if trials met it, even if no mesh of it is stored, and it counts if a
+  // failure of a trial is stored, even if no trial counted it. Failures that only the corpus shows
+  // belong to the gate corpus.
   std::set<std::string> signatures;
   for (const auto& [signature, count] : f.times_met) signatures.insert(signature);
   for (const auto& failure : f.failures) {
@@ -223,7 +225,8 @@ GateFindings check_bounds(const RunFindings& f, const Asked&) {
   return found;
 }
 
-// The figures themselves stand among the times: these lines are the same from run to run.
+// The lines leave out the figures themselves, which stand among the times, so that the lines are
+// the same from run to run.
 GateFindings check_speed(const RunFindings& f, const Asked&) {
   GateFindings found;
   const auto& limits = f.run.plan.policy.speed_limits;

@@ -12,7 +12,8 @@ std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
   corpus::Case out = c;
   out.view.emplace();
   bool is_line = options.culling == detector::Culling::view_line;
-  // A primitive is a function of one frame's positions: a step that stays there shows it.
+  // A primitive depends on the positions of one frame alone, so a step that stays in that frame
+  // shows it.
   for (const auto& frame : c.frames) {
     const auto result = made.value().evaluate(frame, frame);
     if (result.primitives.empty()) return std::nullopt;

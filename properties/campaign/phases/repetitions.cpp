@@ -44,7 +44,8 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
   return one;
 }
 
-// The first step in which they differ; nothing where that is not in a step.
+// The first step in which the two runs differ. Nothing if they differ in something else than a
+// step.
 std::optional<std::size_t> differing_step(const CaseRun& a, const CaseRun& b) {
   for (std::size_t s = 0; s < std::min(a.steps.size(), b.steps.size()); ++s) {
     if (!same_answers(step_alone(a, s), step_alone(b, s))) return s;
@@ -117,7 +118,7 @@ class Repetitions {
     }
   }
 
-  // A run that differs from the first, or that ended in a way that breaks a claim.
+  // Tells of a run that differs from the first one, or that ended in a way that breaks a claim.
   void tell(const corpus::Case& c, const CaseRun& first, const CaseRun& run,
             const JudgedRun& judged, Repetition& row) {
     row.broken = judged.outcome == Outcome::defect;

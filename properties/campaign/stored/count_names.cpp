@@ -19,7 +19,7 @@ LawTally tally_of(const Counts& counts, std::string_view law) {
   return tally;
 }
 
-// Names without the prefix, with their counts.
+// The names that begin with the prefix, without it, and their counts.
 std::vector<std::pair<std::string, std::uint64_t>> behind(const Counts& counts,
                                                           std::string_view prefix) {
   std::vector<std::pair<std::string, std::uint64_t>> list;

@@ -10,9 +10,9 @@
 
 namespace assay::properties {
 
-// The keys of the facts, once for both directions. They are the names of the members, except for
-// the key "what", which stored rows have for a line of text. What a row's name or shard says is no
-// fact.
+// The keys of the facts are stated once for both directions, reading and writing. They are the
+// names of the members. The exception is the key "what", under which rows store a line of text.
+// What a row's name or shard says is no fact.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Canary, found_after)
 void to_json(nlohmann::json& j, const HarnessProblem& x) { j = {{"what", x.explanation}}; }
 void from_json(const nlohmann::json& j, HarnessProblem& x) { j.at("what").get_to(x.explanation); }
@@ -75,14 +75,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The kinds of rows.
+// These are the kinds of rows.
 constexpr char canary_kind[] = "canary", problem_kind[] = "problem", fault_kind[] = "fault",
                power_kind[] = "power", world_kind[] = "world", slow_kind[] = "slow",
                repeated_kind[] = "repeated", asked_kind[] = "asked", subject_kind[] = "subject",
                digest_kind[] = "digest", waiver_kind[] = "waiver", corpus_kind[] = "corpus",
                self_test_kind[] = "self-test", times_kind[] = "times";
 
-// The names of rows whose kind has few of them.
+// If a kind has few rows, these are their names.
 constexpr char trials_name[] = "trials", versions_name[] = "versions", paths_name[] = "paths",
                isolation_name[] = "isolation", inputs_name[] = "inputs", issued_name[] = "issued";
 
@@ -92,7 +92,7 @@ Evidence row(const char* kind, const std::string& name, const std::string& shard
   return {kind, name, shard, progress, corpus::json_text(Json(facts))};
 }
 
-// `facts` with what the row's facts say.
+// Returns `facts` after reading into it what the facts of the row say.
 template <class T>
 T told(const Evidence& row, T facts = {}) {
   const auto read = corpus::parse_sorted_json(row.facts, row.name);
@@ -125,12 +125,13 @@ std::optional<std::uint64_t> FaultProof::median() const {
 
 Evidence to_row(const Canary& x) { return row(canary_kind, x.fault, x.shard, x); }
 Evidence to_row(const HarnessProblem& x) {
-  // A later word goes before an earlier one, and of two at one time that of a problem: it is over
-  // when a further trial is stored without one.
+  // A later row replaces an earlier one. If both stand at the same number of trials, the one that
+  // tells of a problem counts as later, because a problem is over when a further trial is stored
+  // without one.
   return row(problem_kind, trials_name, x.shard, x, 2 * x.trials + (x.explanation.empty() ? 0 : 1));
 }
 Evidence to_row(const FaultProof& x) {
-  // A hunt that had its time is farther than any that was ended by it.
+  // A hunt that was not ended by the time counts as farther than any that was.
   const auto all = static_cast<std::uint64_t>(x.needed.size()) + 1;
   const auto found = static_cast<std::uint64_t>(
       std::count_if(x.needed.begin(), x.needed.end(), [](const auto& n) { return n.has_value(); }));
@@ -138,12 +139,13 @@ Evidence to_row(const FaultProof& x) {
 }
 Evidence to_row(const PowerSource& x) { return row(power_kind, x.campaign, power_shard, x); }
 Evidence to_row(const World& x) {
-  // A counterexample is farther than any number of classes that hold.
+  // A counterexample counts as farther than any number of classes that hold.
   constexpr std::uint64_t farthest = std::numeric_limits<std::int64_t>::max();
   return row(world_kind, x.world, x.shard, x, x.counterexample ? farthest : x.classes);
 }
 Evidence to_row(const SlowCase& x) {
-  // A shrunk mesh is farther than none, and of two shrunk ones the shorter.
+  // A shrunk mesh counts as farther than none, and of two shrunk meshes the shorter counts as
+  // farther.
   constexpr std::uint64_t longest = 1'000'000'000;
   const std::uint64_t progress =
       x.smallest.empty() ? 1 : longest - std::min<std::uint64_t>(x.smallest.size(), longest - 2);

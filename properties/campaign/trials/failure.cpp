@@ -21,7 +21,7 @@ std::string time_text(const detector::TimeEnclosure& t) {
   return t.lo == t.hi ? fmt::format("{}", t.lo) : fmt::format("[{}, {}]", t.lo, t.hi);
 }
 
-// "collision at 0.5", "free"
+// Gives "collision at 0.5" or "free", for example.
 std::string answer_text(detector::Answer answer, const detector::TimeEnclosure& first) {
   return answer == detector::Answer::collision ? fmt::format("collision at {}", time_text(first))
                                                : name_of(answer);
@@ -32,7 +32,7 @@ std::string contact_text(const detector::PairContact& contact) {
                      time_text(contact.time), name_of(contact.feature.kind));
 }
 
-// A kind that fits the claim, and where.
+// Makes a failure of a step: it finds the kind that fits the broken claim, and the pair.
 class FailureOfStep {
  public:
   explicit FailureOfStep(const StepDiff& diff) : diff_(diff) {
@@ -82,7 +82,7 @@ class FailureOfStep {
 
   void off_first_time() {
     at(diff_.late_first ? "late" : "early", *diff_.first_contact);
-    if (!diff_.first) return;  // of a stopped oracle
+    if (!diff_.first) return;  // the oracle was stopped
     failure_.explanation += diff_.late_first
                                 ? fmt::format(", late by {:.3g}", diff_.first->late_by)
                                 : fmt::format(", early by {:.3g}", diff_.first->early_by);

@@ -1,4 +1,4 @@
-// Changes of the mesh that leave its self-collisions as they are.
+// The changes of a mesh that leave its self-collisions as they are.
 #include <algorithm>
 #include <cmath>
 
@@ -31,7 +31,7 @@ Numbers backwards(Numbers numbers) {
 
 Change unchanged(const PinnedRun& run) { return {run, triangles_of(run), false}; }
 
-// Vertex v becomes new_number[v].
+// Gives vertex v the number new_number[v].
 void renumber_vertices(PinnedRun& run, const Numbers& new_number) {
   const auto of = [&](std::int32_t v) { return new_number[at(v)]; };
   run.triangles = run.triangles.unaryExpr(of).eval();
@@ -90,13 +90,14 @@ std::optional<Change> scaled_by_a_power_of_two(const CaseFacts& facts, const Pin
   return change;
 }
 
-// REQUIRES coordinates on a grid: sums with multiples of it are exact.
+// REQUIRES coordinates on a grid, so that adding multiples of its unit is exact.
 std::optional<Change> translated(const CaseFacts& facts, const PinnedRun& run) {
   Random random = random_of(facts, "translation");
   const int exponent = exponent_above(run);
   Point by;
   for (double& c : by) {
-    // A multiple of 2^-20 of all that there is, up to 2^20 times that.
+    // Let u be a power of two above all coordinates. The shift is a multiple of 2^-20 u and at
+    // most 2^20 u.
     c = std::ldexp(random.between(-(1 << 20), 1 << 20), exponent - random.between(0, 20));
   }
   Change change = unchanged(run);

@@ -1,4 +1,4 @@
-// The same step asked for in another way.
+// The same step, asked for in another way.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ void check_evaluate_changes_nothing(CaseFacts& facts, LawTally& tally) {
   }
 }
 
-// The first step again, after the last one.
+// Plays the first step again, after the last one.
 void check_reset(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);
   auto player = run ? PinnedPlayer::make(*run, facts.options(), facts.stages_of()) : std::nullopt;
@@ -56,8 +56,9 @@ void check_reset(CaseFacts& facts, LawTally& tally) {
   note(facts, 0, differing.empty() ? holds() : differing + " differs", tally);
 }
 
-// Another detector, made from the positions that the case ends with, so that it has chosen other
-// apexes and primitives, and in the middle of something else: a step evaluated and not committed.
+// Makes another detector from the positions with which the case ends, so that it has chosen other
+// apexes and primitives. It is in the middle of something else: a step is evaluated and not
+// committed.
 std::optional<detector::Detector> busy_detector(const CaseFacts& facts) {
   const auto& frames = facts.source().frames;
   auto made = detector::assemble(facts.source().triangles, frames.back(), facts.options(),
@@ -67,7 +68,8 @@ std::optional<detector::Detector> busy_detector(const CaseFacts& facts) {
   return std::move(made.value());
 }
 
-// The same with a primitive too few among those that view-auto has chosen since.
+// Restores the same state with one primitive too few among those that view-auto has chosen since.
+// This has to be refused.
 bool is_taken_with_one_too_few(const detector::SavedState& saved, detector::Detector& detector) {
   detector::StateFields fields = saved.fields();
   if (!fields.committed || fields.anchors.empty()) return false;
@@ -89,7 +91,7 @@ std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::Saved
   if (busy->state().bytes() != saved.bytes()) return "the restored state";
   other.detector() = std::move(*busy);
   StepResult result = other.play(s);
-  // The trees are shaped by other positions.
+  // The counts may differ, because the trees are shaped by other positions.
   result.counts = facts.result(s).counts;
   return difference(facts.result(s), result);
 }
@@ -110,7 +112,7 @@ void check_restored_state(CaseFacts& facts, LawTally& tally) {
   }
 }
 
-// Positions as they may stand among other numbers of the caller.
+// Positions that stand among other numbers of the caller.
 struct WideRows {
   Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor> rows;
   explicit WideRows(const detector::Positions& x)

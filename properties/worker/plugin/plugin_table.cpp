@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t first_version = 1;
 
-// What every version has: up to destroy, and up to margin.
+// The members that every version has: the table up to destroy, the description up to margin.
 constexpr std::size_t first_table_bytes = offsetof(assay_detector_api, use_threads);
 constexpr std::size_t first_description_bytes = offsetof(assay_description, start);
 
@@ -44,7 +44,7 @@ bool read_word(std::int32_t raw, Enum last, Enum& value) {
   return true;
 }
 
-// What the description does not say sensibly; empty: nothing.
+// Says what in the description makes no sense; empty if all of it does.
 std::string read_contract(const assay_description& raw, Contract& contract) {
   const auto unknown = [](const char* field, std::int32_t value) {
     return std::string("unknown ") + field + " " + std::to_string(value);

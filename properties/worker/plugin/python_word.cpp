@@ -26,7 +26,8 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
   return parts;
 }
 
-// Where the package may be: built; around the programs, as pip has it; installed by CMake.
+// The places where the package may be: in the build folder, around the programs (as pip puts it),
+// or where CMake installs it.
 std::vector<std::filesystem::path> places_beside(const std::filesystem::path& programs) {
   std::vector<std::filesystem::path> places = {programs / "python" / "assay", programs / ".."};
   std::error_code none;
