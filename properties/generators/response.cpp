@@ -76,7 +76,8 @@ class Responder {
     made_.script.push_back({now_, whole, false});
     constexpr double shares[] = {1, 0.75, 0.25};
     const double s = below_half(judgement.first.lo) * shares[k % 3];
-    // the mesh is in contact from the start: nothing is free, the step is reverted
+    // If the mesh is in contact from the start, no part of the step is free, and the step is
+    // reverted.
     if (s == 0) return;
     const std::int32_t part = add_frame(k, s);
     // This is judged again, because rounded positions can touch although the exact ones do not.

@@ -249,7 +249,7 @@ struct WorkerProcess::Parts {
       run.printed = live->take_printed();
       keep(std::move(run), runs);
       if (runs.back().end == RunEnd::out_of_memory) {
-        // the worker ends itself, because what it has left of its memory is in pieces
+        // The worker ends itself, because what it has left of its memory is in pieces.
         live.reset();
         return;
       }

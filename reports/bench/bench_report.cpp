@@ -132,7 +132,7 @@ Json to_json(const BenchReport& report) {
 
 namespace {
 
-// A field of CSV: in quotes, for words hold commas.
+// A field of CSV. It stands in quotes, because the words may hold commas.
 std::string quoted(const std::string& words) {
   std::string text(1, '"');
   for (const char c : words) text.append(c == '"' ? 2 : 1, c);

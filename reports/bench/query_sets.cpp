@@ -15,7 +15,7 @@ namespace {
 using namespace detector;
 using properties::at;
 
-// The feature pairs of two triangles, as keys.
+// Enumerates the feature pairs of two triangles, as keys.
 class Enumeration {
  public:
   Enumeration(const Topology& mesh, const RoundedPositions& points)
@@ -52,7 +52,8 @@ class Enumeration {
   const RoundedPositions& points_;
 };
 
-// Mixes all bits, one to one: keys in this order are as good as shuffled (SplitMix64's end).
+// Mixes all bits, one to one, so that keys in this order are as good as shuffled. This is the last
+// part of SplitMix64.
 FeatureKey mixed(FeatureKey key) {
   key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
   key = (key ^ (key >> 27)) * 0x94d049bb133111ebu;
@@ -70,7 +71,7 @@ FourPoints query_of(FeatureKey key, const Topology& mesh, const PositionsView& x
   return {{point(a[0]), point(a[1]), point(b[0]), point(b[1])}, 2};
 }
 
-// False when a file is not there.
+// Returns false if a file is not there.
 bool append_file(const std::string& csv, const std::string& truth, LabelledSet& set) {
   namespace fs = std::filesystem;
   std::error_code ignored;

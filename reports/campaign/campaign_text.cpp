@@ -32,7 +32,7 @@ std::string stratum_row(const RunFindings& findings, const properties::StratumPl
                          : "");
 }
 
-// A row for each family and configuration, one where all configurations agree.
+// A row for each family and configuration. If all configurations agree, they share one row.
 std::string strata_text(const RunFindings& findings) {
   const auto& configurations = findings.run.detector.configurations;
   std::string out = fmt::format("{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n",
@@ -52,7 +52,7 @@ std::string strata_text(const RunFindings& findings) {
   return out;
 }
 
-// Trials that were killed from outside and ran again, and those that came near their limit.
+// The trials that were killed from outside and ran again, and those that came near their limit.
 std::string disturbance_text(const RunFindings& findings) {
   const auto& tally = findings.tally;
   std::string out;
@@ -168,7 +168,7 @@ std::string faults_text(const RunFindings& findings) {
   return out + count + "\n";
 }
 
-// How small what the planted faults show became; empty where nothing was shrunk.
+// Tells how small the meshes became that show the planted faults. Empty if nothing was shrunk.
 std::string shrinking_text(const RunFindings& findings) {
   std::string out = fmt::format("{:44} {:>22} {:>14} {:>7} {:>8}\n", "fault",
                                 "triangles, steps from", "to", "known", "calls");
@@ -241,7 +241,7 @@ std::string gates_text(const properties::Judgement& judgement) {
 
 std::string verdict_text(const RunFindings& findings, const properties::Judgement& judgement) {
   std::string word = judgement.verdict;
-  // What has to be looked at stands out.
+  // A verdict that somebody has to look at stands out.
   if (judgement.exit_code == exit_defect || judgement.exit_code == exit_unsound)
     std::transform(word.begin(), word.end(), word.begin(),
                    [](char c) { return c == '-' ? ' ' : static_cast<char>(std::toupper(c)); });

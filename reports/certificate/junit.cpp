@@ -49,8 +49,9 @@ bool gate_fails(const Json& p, std::string_view name) {
   return false;
 }
 
-// A stratum fails for what makes a gate fail: its defects where the claims do not hold, its bound,
-// or what has no verdict, where the bounds are not met. Of one shard by itself no bound is wanted.
+// A stratum fails for what makes a gate fail. If the claims do not hold, that is its defects. If
+// the bounds are not met, that is its bound, or its cases without a verdict. A shard by itself is
+// not asked for a bound.
 Suite strata_suite(const Json& p) {
   Suite suite{"strata", {}};
   const bool claims_fail = gate_fails(p, "claims"), bounds_fail = gate_fails(p, "bounds");
@@ -92,7 +93,7 @@ Suite laws_suite(const Json& p) {
   return suite;
 }
 
-// Planted ones have to be found, equivalent ones must not.
+// Planted faults have to be found, and equivalent ones must not be.
 Suite faults_suite(const Json& p) {
   Suite suite{"faults", {}};
   for (const auto& fault : p["power"]["faults"]) {
@@ -101,7 +102,8 @@ Suite faults_suite(const Json& p) {
     if (fault["status"] == "planted" && !found) {
       const auto why =
           fmt::format("not found within {} cases", fault["cases"].get<std::uint64_t>());
-      // The plan's policy may ask for less than all of them.
+      // The policy of the plan may ask for less than all of them, so this fault fails only if the
+      // gate fails.
       (gate_fails(p, "harness") && !fault["time_over"].get<bool>() ? test.failure : test.skipped) =
           why;
     } else if (fault["status"] == "equivalent" && found) {

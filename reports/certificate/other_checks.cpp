@@ -16,7 +16,7 @@ using properties::SpeedFigure;
 
 constexpr int rounds = 9;
 
-// Of the first over the second, in turn.
+// The time of the first options over that of the second, measured in turn.
 SpeedFigure figure_of(std::string_view name, const corpus::Sequence& step, const Options& measured,
                       const Options& beside) {
   BenchReport unused;
@@ -48,7 +48,7 @@ void measure_speed(const OnSpeedFigure& on_figure) {
   const auto exact = bench_options(Culling::automatic), bvh = bench_options(Culling::bvh);
   const auto sphere = bench_scene("breathing-sphere", free_triangles, frames);
   on_figure(figure_of(properties::speed_figures[0], sphere, exact, bvh));
-  // The scene most like the step for which that limit is stated (rod-twist).
+  // This scene is most like rod-twist, for whose step the limit is stated.
   const auto twist = bench_scene("twist", search_triangles, frames);
   on_figure(figure_of(properties::speed_figures[2], twist, exact,
                       bench_options(Culling::automatic, Arithmetic::double_precision)));

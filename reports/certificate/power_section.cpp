@@ -7,7 +7,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using properties::RunFindings;
 
-// What the row says of it, under the keys of properties/campaign/stored/evidence.cpp.
+// What the row of a piece of evidence says of it, under the keys of
+// properties/campaign/stored/evidence.cpp.
 template <class T>
 Json facts_of(const T& evidence) {
   return Json::parse(to_row(evidence).facts);
@@ -49,7 +50,7 @@ Json faults_json(const RunFindings& findings) {
 Json worlds_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto& world : findings.evidence.worlds) {
-    // Of one that the time ended only the times tell how far it came.
+    // If the time ended a world, the numbers of classes and motions stand among the times only.
     const bool is_settled = world.complete || world.counterexample;
     list.push_back(
         {{"world", world.world},
@@ -123,7 +124,8 @@ Json times_json(const RunFindings& findings) {
                       {"classes", world.classes},
                       {"all", world.all},
                       {"motions", world.motions}});
-  // Stores hold times, so the bytes of their files differ from run to run.
+  // The digests of the stores stand here, because stores hold times, and so their bytes differ
+  // from run to run.
   for (const auto& file : findings.files)
     files.push_back({{"name", file.name}, {"sha256", file.sha256}});
   return {{"issued", issued ? Json(issued->at) : Json(nullptr)},

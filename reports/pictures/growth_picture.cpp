@@ -10,11 +10,11 @@ namespace {
 
 struct Look {
   const char* colour;
-  int point_type;  // of gnuplot
+  int point_type;  // a number of gnuplot
 };
 constexpr Look looks[] = {{colour::blue, 7}, {colour::green, 5}, {colour::vermilion, 9}};
 
-// n log n through the last point of a line.
+// The curve n log n through the last point of a line.
 std::string guide(const std::vector<GrowthPoint>& points) {
   std::string text;
   const auto& last = points.back();

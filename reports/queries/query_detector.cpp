@@ -18,9 +18,10 @@ using properties::Outcome;
 
 namespace {
 
-// So many that a library that crashes at each of a million queries is known in a minute.
+// The number is chosen so that a library that crashes at each of a million queries is known in a
+// minute.
 constexpr std::uint64_t most_crashes = 100;
-constexpr double query_seconds = 10;  // of processor time, of the queries of a message
+constexpr double query_seconds = 10;  // of processor time, for all queries of a message
 
 }  // namespace
 

@@ -1,4 +1,5 @@
-// `assay list`: scenes, laws, planted faults, campaigns; the failures and the slow cases of a run.
+// `assay list` lists scenes, laws, planted faults and campaigns, and the failures and slow cases
+// of a run.
 #include <fmt/format.h>
 
 #include "corpus/scenes/scenes.h"
@@ -16,7 +17,7 @@ namespace {
 
 struct ListRequest {
   std::string list = "scenes";  // scenes, laws, faults, campaigns, failures, slow
-  std::string folder;           // of a run, for the last two
+  std::string folder;           // the folder of a run, for the last two
 };
 
 int list_scenes() {

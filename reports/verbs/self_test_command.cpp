@@ -1,4 +1,5 @@
-// assay self-test: the oracle's own check, a line a family; or a plug-in's query on these families.
+// `assay self-test` checks the oracle and prints a line for each family. Or it asks the query of a
+// plug-in on these families.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -17,10 +18,10 @@ namespace {
 
 struct SelfTestRequest {
   std::uint64_t seed = 1;
-  std::uint64_t queries = 20'000;    // random small-integer queries
+  std::uint64_t queries = 20'000;    // this many random small-integer queries
   std::optional<double> time_limit;  // seconds
   int jobs = 1;
-  DetectorWords detector;  // whose query answers; none: the oracle and its referees
+  DetectorWords detector;  // its query answers; if there is none, the oracle and its referees do
   std::string replay;      // "family:seed:index"; empty: the whole self-test
 };
 

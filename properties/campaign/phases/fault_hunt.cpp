@@ -67,7 +67,7 @@ class Hunt {
   }
 
  private:
-  // this many cases are judged between two looks at what is found
+  // This many cases are judged between two looks at what is found.
   static constexpr std::uint64_t chunk = 64;
 
   bool over() const { return std::chrono::steady_clock::now() >= deadline_; }

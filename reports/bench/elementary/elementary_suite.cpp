@@ -1,4 +1,5 @@
-// Suite `elementary`: the elementary test, its answers against labels and its times.
+// Suite `elementary` compares the answers of the elementary test with labels, and measures its
+// times.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +26,8 @@ std::string rungs_of(const std::vector<FourPoints>& queries) {
                      rungs.filter, rungs.fixed, rungs.unbounded);
 }
 
-// Mean us a query of each arithmetic, in turn. Bounds are asked of exact.
+// The mean time of a query in each arithmetic, in microseconds, measured in turn. Only exact
+// arithmetic is held against the bound.
 void time_means(const std::string& label, const std::vector<FourPoints>& queries, Want want,
                 Wanted bound, int rounds, const std::string& note, BenchReport& report) {
   std::vector<Measurement> measurements;
@@ -45,7 +47,8 @@ void time_means(const std::string& label, const std::vector<FourPoints>& queries
   }
 }
 
-// Answers against labels. Exact arithmetic claims no wrong answer, bounded no miss.
+// Compares answers with labels. Exact arithmetic claims that no answer is wrong, bounded
+// arithmetic that it misses nothing.
 void score(const std::string& label, const LabelledSet& set, BenchReport& report) {
   for (const auto arithmetic : every_arithmetic) {
     std::size_t alarms = 0, misses = 0;
@@ -92,11 +95,12 @@ void time_hits(const std::string& label, const std::vector<FourPoints>& queries,
              rounds, fmt::format("{} hits", hits.size()), report);
 }
 
-// ms of one query: the least of three times where it is short. In processor time, whose clock takes
-// 0.2 us to read: of use from some microseconds on.
+// The milliseconds that one query takes. If it is short, it is measured three times and the least
+// counts. This is processor time, whose clock takes 0.2 us to read, so it is of use from some
+// microseconds on.
 double ms_of_one(const FourPoints& query, Arithmetic arithmetic) {
   constexpr int repetitions = 3;
-  constexpr double long_enough_ns = 1e6;  // what takes longer is measured well enough by one run
+  constexpr double long_enough_ns = 1e6;  // a longer query is measured well enough by one run
   double least = 1e300;
   for (int i = 0; i < repetitions && (i == 0 || least < long_enough_ns); ++i) {
     const double begin = processor_ns();

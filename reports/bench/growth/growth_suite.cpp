@@ -1,4 +1,4 @@
-// Suite `growth`: time and memory from a thousand to a million triangles.
+// Suite `growth` measures time and memory from a thousand to a million triangles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace detector;
 
 constexpr int full_sizes[] = {1'000, 5'000, 25'000, 100'000, 400'000, 1'000'000};
 
-// Times of one kind of work by mesh size.
+// The times of one kind of work, by the size of the mesh.
 struct Growth {
   std::string label;
   std::vector<double> sizes = {}, ms = {};
@@ -38,7 +38,7 @@ struct Growth {
     }
   }
 
-  // Wanted: an exponent no larger than that of n log n over the same sizes.
+  // What is wanted is an exponent no larger than that of n log n over the same sizes.
   void judge(BenchReport& report) const {
     if (sizes.size() < 2) return;
     std::vector<double> n_log_n;
@@ -64,7 +64,7 @@ int repetitions(int triangles) {
   return std::clamp(work / triangles, 3, 15);
 }
 
-// Below this many triangles pages are too coarse a measure.
+// With fewer triangles than this, pages are too coarse a measure of memory.
 constexpr int least_for_memory = 20'000;
 
 void measure_memory(const std::string& label, const corpus::Sequence& step, BenchReport& report) {

@@ -17,7 +17,8 @@ namespace {
 
 using namespace detector;
 
-// What takes so many times what another variant takes is no choice: a few rounds tell how far off.
+// A variant that takes this many times as long as another one is no choice, and a few rounds
+// suffice to tell how far off it is.
 constexpr double far_off = 3;
 constexpr int rounds_of_far_off = 2;
 

@@ -1,4 +1,5 @@
-// Suite `stability`: where each arithmetic breaks, family by family of the corpus's hard cases.
+// Suite `stability` finds where each arithmetic breaks, in each family of hard cases of the
+// corpus.
 #include "reports/bench/stability/stability_suite.h"
 
 #include <fmt/format.h>
@@ -37,7 +38,7 @@ std::string break_text(const corpus::HardFamily& family, const FamilyStability& 
                      knob_text(family, std::prev(before)->strength));
 }
 
-// Largest and median of the late and of the early first times.
+// Gives the largest and the median error of the late and of the early first times.
 std::string time_text(const StabilityCell& all) {
   std::string text;
   for (const int side : {1, -1}) {
@@ -86,7 +87,7 @@ void add_family_rows(const corpus::HardFamily& family, std::span<const Stability
   }
 }
 
-// Which rung settled the elementary tests and the view tests of one family.
+// Adds which rung settled the elementary tests and the view tests of one family.
 void add_rung_rows(const std::string& label, const FamilyStability& found, BenchReport& report) {
   const auto& r = found.rungs;
   const auto tests = static_cast<double>(r.total());
@@ -135,7 +136,7 @@ void add_survival_rows(std::span<const StabilitySubject> subjects, const Surviva
   }
 }
 
-// What is said of all families together.
+// Collects what is said of all families together.
 class AllFamilies {
  public:
   explicit AllFamilies(std::span<const StabilitySubject> subjects)

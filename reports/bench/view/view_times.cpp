@@ -16,7 +16,7 @@ using namespace detector;
 struct ViewStep {
   Topology mesh;
   Positions x_t0, x_t1;
-  std::vector<ViewPrimitive> primitives;  // by component: the detector's own
+  std::vector<ViewPrimitive> primitives;  // by component, as the detector placed them
 };
 
 ViewStep view_step(const corpus::Sequence& sequence, std::size_t step, Culling culling,
@@ -27,7 +27,8 @@ ViewStep view_step(const corpus::Sequence& sequence, std::size_t step, Culling c
           detector.result().primitives};
 }
 
-// The same mesh with its vertices in random order: each triangle then reads three places far apart.
+// The same mesh with its vertices in random order, so that each triangle reads three places that
+// are far apart.
 corpus::Sequence shuffled(const corpus::Sequence& in) {
   properties::Random random(20111, 0);
   const auto to = properties::shuffled(
@@ -46,7 +47,7 @@ const char* name_of(InstructionSet set) {
   return properties::word_of({"baseline", "avx2", "avx512"}, set);
 }
 
-// bound: asked of the instruction set that this machine chooses.
+// `bound` is asked of the instruction set that this machine chooses.
 void compare(const std::string& label, const ViewStep& step, Wanted bound, int rounds,
              BenchReport& report) {
   std::vector<SweptBox> boxes(step.mesh.triangles.size());

@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// As SceneMaker takes it.
+// The detector in the form that SceneMaker takes. Nothing if the library of a plug-in is not
+// known.
 std::optional<DetectorWords> detector_at_hand(const properties::RunFindings& findings) {
   if (!findings.run.detector.built_in && findings.library.empty()) return std::nullopt;
   return detector_of(findings);
