@@ -161,7 +161,7 @@ class Certification {
     std::set<std::string> signatures;
     for (const auto& failure : corpus_failures_) signatures.insert(failure.signature);
     checks_.keep_failures(signatures);
-    if (const auto& lost = checks_.problem()) return Refusal(*lost);
+    if (const auto& problem = checks_.problem()) return Refusal(*problem);
     return outcome::success();
   }
 
@@ -259,7 +259,7 @@ class Certification {
     keep(properties::Issued{fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
                             seconds});
     checks_.seal();
-    if (const auto& lost = checks_.problem()) return refuse(Refusal(*lost));
+    if (const auto& problem = checks_.problem()) return refuse(Refusal(*problem));
     // The code of a plug-in may have reached the files. So there is a verdict on what was stored,
     // or none.
     const auto findings = properties::read_findings(out_, known_rows());

@@ -79,8 +79,7 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
     }
   }
   if (asked.certificate && f.planned() == 0) lines.push_back("the campaign plans no trial");
-  // This is asked of all shards together, because a single shard may have run on a machine that
-  // was short of memory.
+  // Asked of all shards together: a single one may have run on a machine short of memory.
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
   if (!f.alone && most_disturbed * disturbed > trials)
@@ -150,9 +149,8 @@ GateFindings check_corpus(const RunFindings& f, const Asked& asked) {
 
 GateFindings check_claims(const RunFindings& f, const Asked& asked) {
   GateFindings found;
-  // A signature counts if trials met it, even if no mesh of it is stored, and it counts if a
-  // failure of a trial is stored, even if no trial counted it. Failures that only the corpus shows
-  // belong to the gate corpus.
+  // A signature counts if trials met it, even without a stored mesh, and if a failure of a trial
+  // is stored, even if no trial counted it. What only the corpus shows belongs to the gate corpus.
   std::set<std::string> signatures;
   for (const auto& [signature, count] : f.times_met) signatures.insert(signature);
   for (const auto& failure : f.failures) {

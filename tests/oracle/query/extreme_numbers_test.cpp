@@ -48,7 +48,8 @@ TEST(ExtremeNumbers, GreatestDoubles) {
 }
 
 TEST(ExtremeNumbers, DenormalBesideGreatest) {
-  // The crossing is at least_double / (least_double + greatest_double), far below the least double: between 0 and it.
+  // The crossing is at least_double / (least_double + greatest_double). That is far below the
+  // least double, so the time is between 0 and it.
   const ContactAnswer hit =
       vertex_face_contact(through_face(1, least_double, -greatest_double), Want::first_time);
   EXPECT_TRUE(hit.contact);
