@@ -83,7 +83,7 @@ struct CaseRun {
 // is undecided.
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
 
-// Adds the text to the errors of step s, and makes it `what` if that is still empty.
+// Adds the text to the errors of step s, and makes it `explanation` if that is still empty.
 void note_error(CaseRun& run, std::size_t s, const std::string& text);
 // Why step s has no answer; empty if nothing is said about it.
 std::string error_of(const CaseRun& run, std::size_t s);

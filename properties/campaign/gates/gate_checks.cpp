@@ -234,12 +234,12 @@ GateFindings check_speed(const RunFindings& f, const Asked&) {
     found.not_judged = "the campaign sets no limit";
   } else {
     for (const auto& [figure, limit] : limits) {
-      const auto& figures = f.evidence.speed;
-      const auto figure = std::find_if(figures.begin(), figures.end(),
-                                       [&](const SpeedFigure& one) { return one.name == figure; });
-      if (figure == figures.end()) {
+      const auto& measured = f.evidence.speed;
+      const auto one = std::find_if(measured.begin(), measured.end(),
+                                    [&](const SpeedFigure& m) { return m.name == figure; });
+      if (one == measured.end()) {
         found.against.push_back(fmt::format("{} was not measured", figure));
-      } else if (figure->median > limit) {
+      } else if (one->median > limit) {
         found.against.push_back(fmt::format("{} is above its limit of {}", figure, limit));
       }
     }
