@@ -38,9 +38,9 @@ std::string repeated_text(const std::vector<properties::Repetition>& repeated) {
     most = std::max(most, one.triangles);
     steps += one.steps;
     differing += one.broken ? 1 : 0;
-    if (!one.explanation.empty())
+    if (!one.difference.empty())
       lines += fmt::format("  {} {}: {}\n", one.broken ? "DIFFERS" : "not compared", one.input,
-                           one.explanation);
+                           one.difference);
   }
   return fmt::format(
       "repeated on larger meshes: {} sequences of up to {} triangles, {} steps; {} "
