@@ -27,10 +27,10 @@ Problem too_large(const std::filesystem::path& path, std::size_t limit) {
 }
 
 Problem open_problem(const std::filesystem::path& path, int error) {
-  const FileProblem what = error == EACCES || error == EPERM ? FileProblem::permission_denied
+  const FileProblem kind = error == EACCES || error == EPERM ? FileProblem::permission_denied
                            : error == EISDIR                 ? FileProblem::is_directory
                                                              : FileProblem::cannot_open;
-  return problem_in(what, path, fmt::format("cannot be read: {}", std::strerror(error)));
+  return problem_in(kind, path, fmt::format("cannot be read: {}", std::strerror(error)));
 }
 
 Expected<std::string> read_raw(const std::filesystem::path& path, std::size_t limit) {

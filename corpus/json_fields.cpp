@@ -54,8 +54,8 @@ Expected<std::int32_t> JsonField::integer(std::int64_t least, std::int64_t end) 
   return static_cast<std::int32_t>(value);
 }
 
-Problem JsonField::problem(std::string_view detail, FileProblem what) const {
-  return problem_in(what, *file_,
+Problem JsonField::problem(std::string_view detail, FileProblem kind) const {
+  return problem_in(kind, *file_,
                     fmt::format("{}: {}", place_.empty() ? "top level" : place_, detail));
 }
 

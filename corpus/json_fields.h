@@ -32,7 +32,7 @@ class JsonField {
   Expected<std::int32_t> integer(std::int64_t least, std::int64_t end) const;  // in [least, end)
 
   // A problem whose message names this field.
-  Problem problem(std::string_view detail, FileProblem what = FileProblem::wrong_type) const;
+  Problem problem(std::string_view detail, FileProblem kind = FileProblem::wrong_type) const;
 
   const Json& json() const { return *value_; }
 

@@ -4,8 +4,8 @@
 
 namespace assay::corpus {
 
-std::string_view name_of(FileProblem what) {
-  switch (what) {
+std::string_view name_of(FileProblem kind) {
+  switch (kind) {
     case FileProblem::cannot_open:
       return "cannot_open";
     case FileProblem::is_directory:
@@ -68,14 +68,14 @@ std::string_view name_of(FileProblem what) {
   return "unnamed";
 }
 
-Problem problem_in(FileProblem what, const std::filesystem::path& file, std::string_view detail) {
+Problem problem_in(FileProblem kind, const std::filesystem::path& file, std::string_view detail) {
   std::string message = file.string();
   if (!message.empty()) message += ": ";
   message += detail;
   for (char& c : message) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }
-  return {what, std::move(message)};
+  return {kind, std::move(message)};
 }
 
 }  // namespace assay::corpus

@@ -43,18 +43,18 @@ enum class FileProblem {
 };
 
 // The enumerator's name, for reports.
-std::string_view name_of(FileProblem what);
+std::string_view name_of(FileProblem kind);
 
 // `message` is one line without a line break; it names the file, and the line or byte where that
 // helps.
 struct Problem {
-  FileProblem what;
+  FileProblem kind;
   std::string message;
 };
 
 // A problem whose message is `file: detail` (only `detail` when the file is empty), with control
 // characters, which a path or a quoted word may hold, replaced.
-Problem problem_in(FileProblem what, const std::filesystem::path& file, std::string_view detail);
+Problem problem_in(FileProblem kind, const std::filesystem::path& file, std::string_view detail);
 
 // A value or a Problem. Asking for the side that is not there ends the program.
 template <class T>

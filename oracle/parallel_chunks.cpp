@@ -10,7 +10,7 @@ namespace assay::oracle {
 
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenQuestions{2};
+constexpr std::chrono::milliseconds time_between_questions{2};
 
 }  // namespace
 
@@ -25,7 +25,7 @@ bool StopGate::stopped() {
   const std::unique_lock lock(asking_, std::try_to_lock);
   if (!lock) return was_stopped();
   if (stop_()) stopped_.store(true, std::memory_order_relaxed);
-  next_.store((Clock::now() + kBetweenQuestions).time_since_epoch().count(),
+  next_.store((Clock::now() + time_between_questions).time_since_epoch().count(),
               std::memory_order_relaxed);
   return was_stopped();
 }

@@ -14,8 +14,8 @@ namespace assay::oracle {
 bool processor_state_is_exact() {
 #if defined(__SSE2__)
   // MXCSR: bits 13-14 rounding, bit 15 flush-to-zero, bit 6 denormals-are-zero.
-  constexpr unsigned kMustBeClear = (3U << 13) | (1U << 15) | (1U << 6);
-  return (_mm_getcsr() & kMustBeClear) == 0;
+  constexpr unsigned must_be_clear = (3U << 13) | (1U << 15) | (1U << 6);
+  return (_mm_getcsr() & must_be_clear) == 0;
 #else
   volatile double smallest_normal = std::numeric_limits<double>::min();
   volatile double half = smallest_normal * 0.5;

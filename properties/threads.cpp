@@ -24,7 +24,7 @@ void in_threads(int jobs, const std::function<void()>& work) {
     try {
       for (int j = 1; j < jobs; ++j) others.emplace_back(guarded);
     } catch (const std::system_error&) {
-      // No more threads than these.
+      // The system gives no more threads than these, so the work is done by them.
     }
     guarded();
   }

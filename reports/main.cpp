@@ -1,4 +1,4 @@
-// The command line: finds the verb, and turns what goes wrong into one line and an exit code.
+// The command line. It finds the verb, and turns what goes wrong into one line and an exit code.
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@ namespace {
 
 using namespace assay;
 
-// In the order of `assay --help`.
+// The verbs, in the order of `assay --help`.
 constexpr reports::Action (*verbs[])(CLI::App&) = {
     reports::add_check,  reports::add_check_queries, reports::add_scene,  reports::add_self_test,
     reports::add_run,    reports::add_replay,        reports::add_shrink, reports::add_bench,
@@ -60,16 +60,18 @@ int run(int argc, char** argv) {
   return actions[static_cast<std::size_t>(chosen - all.begin())]();
 }
 
-// What is stored is whole at any moment.
+// The program may end at once, because a store is whole at any moment.
 constexpr const char* no_memory = "not enough memory for this input";
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file that is too large for the user's limit is an error of the call that writes it.
+  // If a file exceeds a limit of the user, the call that writes it fails, and the program is not
+  // ended by a signal.
   ::signal(SIGXFSZ, SIG_IGN);
   oracle::end_without_memory([] { ::_exit(reports::refuse(no_memory)); });
-  // CGAL's modular gcd remarks on unlucky primes there; this program prints through stdio.
+  // The modular gcd of CGAL prints remarks on unlucky primes to std::cout, so that is closed. This
+  // program prints through stdio.
   std::cout.setstate(std::ios_base::badbit);
   try {
     const int code = run(argc, argv);

@@ -90,12 +90,12 @@ class CaseParser {
     const auto frames = static_cast<std::int64_t>(case_.frames.size());
     BOOST_OUTCOME_TRY(from, field.item(0).integer(0, frames));
     BOOST_OUTCOME_TRY(to, field.item(1).integer(0, frames));
-    BOOST_OUTCOME_TRY(what, field.item(2).text());
-    if (what != "commit" && what != "evaluate") {
+    BOOST_OUTCOME_TRY(action, field.item(2).text());
+    if (action != "commit" && action != "evaluate") {
       return field.item(2).problem("commit or evaluate expected");
     }
     return CaseStep{static_cast<std::int32_t>(from), static_cast<std::int32_t>(to),
-                    what == "commit"};
+                    action == "commit"};
   }
 
   Expected<void> read_view() {

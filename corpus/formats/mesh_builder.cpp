@@ -16,8 +16,8 @@ constexpr std::int64_t most_vertices = std::numeric_limits<std::int32_t>::max();
 
 std::string shown(const Place& place) { return fmt::format("{} {}", place.unit, place.number); }
 
-Problem MeshBuilder::problem(FileProblem what, const Place& place, std::string_view detail) const {
-  return problem_in(what, file_, fmt::format("{}: {}", shown(place), detail));
+Problem MeshBuilder::problem(FileProblem kind, const Place& place, std::string_view detail) const {
+  return problem_in(kind, file_, fmt::format("{}: {}", shown(place), detail));
 }
 
 Expected<void> MeshBuilder::add_vertex(double x, double y, double z, const Place& place) {

@@ -35,7 +35,7 @@ class MeshBuilder {
 
   std::size_t vertex_count() const { return coordinates_.size() / 3; }
 
-  Problem problem(FileProblem what, const Place& place, std::string_view detail) const;
+  Problem problem(FileProblem kind, const Place& place, std::string_view detail) const;
 
   // The mesh. Problems: no_triangles, index_out_of_range.
   Expected<Mesh> finish() const;

@@ -43,26 +43,26 @@ class OffReader {
   }
 
  private:
-  Problem wrong(std::string_view detail, FileProblem what = FileProblem::malformed) const {
-    return builder_.problem(what, {"line", lines_.number()}, detail);
+  Problem wrong(std::string_view detail, FileProblem kind = FileProblem::malformed) const {
+    return builder_.problem(kind, {"line", lines_.number()}, detail);
   }
 
-  // The words of the next line; `what` names what was expected there.
-  Expected<void> next_line(std::string_view what) {
+  // The words of the next line; `expected` is named in the message if the line is missing.
+  Expected<void> next_line(std::string_view expected) {
     const auto line = lines_.next();
     if (!line) {
-      return wrong(fmt::format("the file ends where {} should follow", what),
+      return wrong(fmt::format("the file ends where {} should follow", expected),
                    FileProblem::truncated);
     }
     split_words(*line, words_);
     return boost::outcome_v2::success();
   }
 
-  Expected<std::int64_t> integer(std::size_t i, std::string_view what) const {
+  Expected<std::int64_t> integer(std::size_t i, std::string_view name) const {
     const auto value = i < words_.size() ? parse_integer(words_[i]) : std::nullopt;
     if (value) return *value;
     return wrong(
-        fmt::format("{} expected{}", what, i < words_.size() ? ", not " + excerpt(words_[i]) : ""));
+        fmt::format("{} expected{}", name, i < words_.size() ? ", not " + excerpt(words_[i]) : ""));
   }
 
   Expected<void> read_header() {

@@ -48,8 +48,8 @@ class HeaderReader {
   }
 
  private:
-  Problem wrong(std::string_view detail, FileProblem what = FileProblem::malformed) const {
-    return problem_in(what, file_, fmt::format("line {}: {}", header_.lines, detail));
+  Problem wrong(std::string_view detail, FileProblem kind = FileProblem::malformed) const {
+    return problem_in(kind, file_, fmt::format("line {}: {}", header_.lines, detail));
   }
 
   Expected<void> statement() {

@@ -28,23 +28,25 @@ Case near_coplanar(Variation& vary, int exponent, int kind) {
 // is at most gap in the one and at least twice that in the other.
 Case near_parallel(Variation& vary, int exponent, int kind) {
   const std::int64_t gap = two_to(exponent);
-  const auto some = [&](std::int64_t n) { return vary.between(n / 2, n); };
+  const auto half_or_more_of = [&](std::int64_t n) { return vary.between(n / 2, n); };
   GridMesh mesh;
-  const std::int64_t reach = some(usual_size);
-  mesh.add_tetrahedron(
-      {at_rest({-reach, -gap, 0}), at_rest({reach, gap, 0}),
-       at_rest({-some(usual_size), -some(usual_size / 2), -some(usual_size)}),
-       at_rest({some(usual_size), gap - some(usual_size / 2), -some(usual_size)})});
+  const std::int64_t reach = half_or_more_of(usual_size);
+  mesh.add_tetrahedron({at_rest({-reach, -gap, 0}), at_rest({reach, gap, 0}),
+                        at_rest({-half_or_more_of(usual_size), -half_or_more_of(usual_size / 2),
+                                 -half_or_more_of(usual_size)}),
+                        at_rest({half_or_more_of(usual_size), gap - half_or_more_of(usual_size / 2),
+                                 -half_or_more_of(usual_size)})});
   const bool beside = kind == 2;
   const std::int64_t y = beside ? 2 * gap : 0;
   const std::int64_t end[] = {-drop, gap, -drop, 0};
   const GridVertex left =
-      falling({-some(usual_size / 2), y, 0}, kind == 1 ? 2 * gap : drop, end[kind]);
+      falling({-half_or_more_of(usual_size / 2), y, 0}, kind == 1 ? 2 * gap : drop, end[kind]);
   mesh.add_tetrahedron(
-      {left, carried(left, {some(usual_size / 2) + usual_size / 2, 0, 0}),
-       carried(left, {0, some(usual_size / 2), some(usual_size)}),
-       carried(left, {some(usual_size), beside ? some(usual_size) : -some(usual_size),
-                      some(usual_size)})});
+      {left, carried(left, {half_or_more_of(usual_size / 2) + usual_size / 2, 0, 0}),
+       carried(left, {0, half_or_more_of(usual_size / 2), half_or_more_of(usual_size)}),
+       carried(left, {half_or_more_of(usual_size),
+                      beside ? half_or_more_of(usual_size) : -half_or_more_of(usual_size),
+                      half_or_more_of(usual_size)})});
   constexpr double first[] = {0.5, 0, 0, 1};
   return sheared_case(mesh, vary, kind % 3 == 0 ? known_collision(first[kind]) : known_free());
 }

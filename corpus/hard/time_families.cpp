@@ -82,9 +82,10 @@ Case triple_root(Variation& vary, int exponent, int kind) {
   }
   GridMesh mesh;
   mesh.add_triangle(face);
-  const auto near = [&] { return vary.between(0, one / 64); };
-  mesh.add_triangle({at_rest({0, 0, 0}), at_rest({one / 2 + near(), near(), -one / 2}),
-                     at_rest({one / 2, near() - one / 16, -one / 2 - near()})});
+  const auto small_offset = [&] { return vary.between(0, one / 64); };
+  mesh.add_triangle({at_rest({0, 0, 0}),
+                     at_rest({one / 2 + small_offset(), small_offset(), -one / 2}),
+                     at_rest({one / 2, small_offset() - one / 16, -one / 2 - small_offset()})});
   const double first = kind == 0 ? 0.5 - std::ldexp(1, exponent) : 0.5;
   return sheared_case(mesh, vary, kind == 2 ? known_free() : known_collision(first));
 }

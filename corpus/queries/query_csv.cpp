@@ -72,8 +72,8 @@ class CsvReader {
   }
 
  private:
-  Problem wrong(FileProblem what, std::string_view detail) const {
-    return problem_in(what, file_, fmt::format("line {}: {}", line_, detail));
+  Problem wrong(FileProblem kind, std::string_view detail) const {
+    return problem_in(kind, file_, fmt::format("line {}: {}", line_, detail));
   }
 
   std::string_view next_line() {

@@ -147,10 +147,4 @@ bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunctio
   return HoleSweep(sweep, hole, stop, touched, counts).run();
 }
 
-void sweep_ghost(const GhostSweep& sweep, std::int32_t ghost, std::vector<std::uint8_t>& touched,
-                 GhostCounts& counts) {
-  const HoleTree alone(sweep.surface.all(), {&ghost, 1}, sweep.tree.grid(), sweep.motion);
-  sweep_hole(sweep, alone, {}, touched, counts);
-}
-
 }  // namespace assay::detector

@@ -44,8 +44,4 @@ struct GhostSweep {
 bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
                 std::vector<std::uint8_t>& touched, GhostCounts& counts);
 
-// The same for one ghost, an index into surface.all().
-void sweep_ghost(const GhostSweep& sweep, std::int32_t ghost, std::vector<std::uint8_t>& touched,
-                 GhostCounts& counts);
-
 }  // namespace assay::detector

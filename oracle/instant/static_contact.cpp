@@ -18,16 +18,16 @@ int sign_for(const Rest& q, int i, const Integer& lam) {
 // strictly ordered along an axis along which the points differ.
 bool meet_on_a_line(const Rest& q) {
   for (int k = 0; k < 3; ++k) {
-    bool some = false, before = true, after = true;
+    bool differ = false, before = true, after = true;
     for (int i = 0; i < q.first_group; ++i) {
       for (int j = q.first_group; j < 4; ++j) {
         const int order = cmp((*q.x[i])[k], (*q.x[j])[k]);
-        some |= order != 0;
+        differ |= order != 0;
         before &= order < 0;
         after &= order > 0;
       }
     }
-    if (some) return !before && !after;
+    if (differ) return !before && !after;
   }
   return true;  // all four coincide
 }

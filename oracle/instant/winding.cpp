@@ -13,9 +13,11 @@ using detector::Point;
 
 // Directions of rays are (2^20, k, k^2), k = 1, 2, ... No plane through the origin holds three of
 // them, so each edge of the cycle spoils at most two, and some direction meets no edge.
-constexpr int kRun = 20;
+constexpr int run_exponent = 20;
 
-IntegerPoint direction_vector(int k) { return {Integer(1) << kRun, Integer(k), Integer(k) * k}; }
+IntegerPoint direction_vector(int k) {
+  return {Integer(1) << run_exponent, Integer(k), Integer(k) * k};
+}
 
 Integer determinant(const IntegerPoint& a, const IntegerPoint& b, const IntegerPoint& c) {
   return dot(a, cross(b, c));
@@ -25,8 +27,9 @@ double up(double x) { return std::nextafter(x, std::numeric_limits<double>::infi
 
 // The farthest that a ray in direction (2^20, s) rises over `run`, rounded up.
 double rise(double run, double s) {
-  constexpr double kSlack = 1 + 0x1p-10;  // for the roundings of three operations: far below 2^-50
-  return up(run * std::ldexp(s, -kRun) * kSlack);
+  constexpr double rounding_slack =
+      1 + 0x1p-10;  // for the roundings of three operations: far below 2^-50
+  return up(run * std::ldexp(s, -run_exponent) * rounding_slack);
 }
 
 }  // namespace

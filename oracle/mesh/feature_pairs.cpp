@@ -6,7 +6,7 @@ namespace assay::oracle {
 
 namespace {
 
-constexpr std::size_t kChunk = 128;  // features a thread takes at once
+constexpr std::size_t features_at_once = 128;  // features a thread takes at once
 
 template <class BoxOf, class Accept>
 void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tree,
@@ -14,7 +14,7 @@ void for_each_meeting(std::size_t items, const BoxOf& box_of, const BoxTree& tre
   StopGate never({});
   StopGate& gate = workers.gate ? *workers.gate : never;
   std::vector<std::vector<std::int32_t>> met(std::max(workers.jobs, 1));
-  for_each_chunk(items, kChunk, workers.jobs, gate,
+  for_each_chunk(items, features_at_once, workers.jobs, gate,
                  [&](std::size_t begin, std::size_t end, int worker) {
                    for (std::size_t item = begin; item < end; ++item) {
                      tree.meeting(box_of(item), met[worker]);

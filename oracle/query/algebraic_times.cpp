@@ -69,8 +69,8 @@ AlgebraicTimes::AlgebraicTimes(std::span<const IntegerPolynomial> polynomials)
   for (const IntegerPolynomial& p : polynomials) {
     assert(!p.is_zero());
     if (surely_no_zero_in_unit(p)) continue;
-    constexpr bool kKnownToBeSquareFree = false;
-    solve(kernel_polynomial(p), kKnownToBeSquareFree, Bound(0), Bound(1),
+    constexpr bool known_to_be_square_free = false;
+    solve(kernel_polynomial(p), known_to_be_square_free, Bound(0), Bound(1),
           std::back_inserter(times));
   }
   std::sort(times.begin(), times.end(),

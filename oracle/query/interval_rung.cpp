@@ -13,14 +13,14 @@ using Interval = CGAL::Interval_nt<false>;
 using Linear = LinearVector<Interval>;
 
 // Differences stay below 2^301 and F, the largest expression, below 2^910: no overflow.
-constexpr double kLargest = 0x1p300;
+constexpr double largest_coordinate = 0x1p300;
 // Pieces are split beside the middle, because contacts at 1/2, 1/4, ... are frequent in made-up
 // input and a zero of F at the end of a piece can never be settled. Each split adds 5 bits to the
 // ends, so at the greatest depth they and 1 minus them are still exact doubles.
-constexpr double kSplit = 15.0 / 32.0;
-constexpr int kMaxDepth = 9;
+constexpr double split_at = 15.0 / 32.0;
+constexpr int most_depth = 9;
 // If a query needs more pieces, the algebraic rung is the cheaper one.
-constexpr int kMaxPieces = 40;
+constexpr int most_pieces = 40;
 
 struct Piece {
   double s, e;
@@ -108,13 +108,13 @@ PieceDecision judge_piece(const std::array<Linear, 3>& u, int first_group) {
 // Not inlined, because nothing of it may move out of the region that rounds upward.
 [[gnu::noinline]] IntervalAnswer judge_pieces(const FourPoints& q, detector::Want want) {
   const Differences differences(q);
-  std::array<Piece, kMaxDepth + 2> stack;  // later pieces below earlier ones
+  std::array<Piece, most_depth + 2> stack;  // later pieces below earlier ones
   int size = 0, judged = 0;
   stack[size++] = {0, 1, 0};
   bool all_free = true;
   while (size > 0) {
     const Piece piece = stack[--size];
-    if (++judged > kMaxPieces) return {};
+    if (++judged > most_pieces) return {};
     std::array<Linear, 3> u;
     for (int j = 0; j < 3; ++j) u[j] = {differences.at(j, piece.s), differences.at(j, piece.e)};
     const PieceDecision inside = judge_piece(u, q.first_group);
@@ -123,12 +123,12 @@ PieceDecision judge_piece(const std::array<Linear, 3>& u, int first_group) {
       if (want == detector::Want::yes_no) return {detector::Decision::yes};
       if (inside.one_zero) return {detector::Decision::yes, piece.s, piece.e};
     }
-    if (piece.depth == kMaxDepth) {
+    if (piece.depth == most_depth) {
       if (want == detector::Want::first_time) return {};
       all_free = false;
       continue;
     }
-    const double middle = piece.s + (piece.e - piece.s) * kSplit;
+    const double middle = piece.s + (piece.e - piece.s) * split_at;
     stack[size++] = {middle, piece.e, piece.depth + 1};
     stack[size++] = {piece.s, middle, piece.depth + 1};
   }
@@ -138,7 +138,7 @@ PieceDecision judge_piece(const std::array<Linear, 3>& u, int first_group) {
 }  // namespace
 
 IntervalAnswer interval_answer(const FourPoints& q, detector::Want want) {
-  if (!all_coordinates_below(q.x, kLargest)) return {};
+  if (!all_coordinates_below(q.x, largest_coordinate)) return {};
   const Interval::Protector round_upward;
   return judge_pieces(q, want);
 }

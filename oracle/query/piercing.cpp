@@ -32,16 +32,16 @@ Number determinant(const Vector3<Number>& a, const Vector3<Number>& b, const Vec
 // 0 no, -1 when an orientation of the given precision is not certain. A sign is 2 when uncertain.
 template <class Orientation>
 int pierces(const Orientation& sign) {
-  constexpr int kUncertain = 2;
+  constexpr int uncertain = 2;
   constexpr int e0 = 0, e1 = 1, f0 = 2, f1 = 3, f2 = 4;
   const int side_0 = sign(f0, f1, f2, e0), side_1 = sign(f0, f1, f2, e1);
-  if (side_0 == kUncertain || side_1 == kUncertain) return -1;
+  if (side_0 == uncertain || side_1 == uncertain) return -1;
   if (side_0 * side_1 >= 0) return 0;
   const int s01 = sign(e0, e1, f0, f1), s12 = sign(e0, e1, f1, f2);
-  if (s01 == kUncertain || s12 == kUncertain) return -1;
+  if (s01 == uncertain || s12 == uncertain) return -1;
   if (s01 == 0 || s01 != s12) return 0;
   const int s20 = sign(e0, e1, f2, f0);
-  if (s20 == kUncertain) return -1;
+  if (s20 == uncertain) return -1;
   return s20 == s01 ? 1 : 0;
 }
 
@@ -79,8 +79,8 @@ bool segment_pierces_triangle(const Point& e0, const Point& e1, const std::array
   require_exact_processor_state();
   const Configuration c = {
       {{{e0, e0}, {e1, e1}, {face[0], face[0]}, {face[1], face[1]}, {face[2], face[2]}}}};
-  constexpr double kLargest = 0x1p300;  // products of three differences stay below 2^910
-  const int quick = all_coordinates_below(c.x, kLargest) ? pierces_by_intervals(c) : -1;
+  constexpr double safe_from_overflow = 0x1p300;  // products of three differences stay below 2^910
+  const int quick = all_coordinates_below(c.x, safe_from_overflow) ? pierces_by_intervals(c) : -1;
   return (quick >= 0 ? quick : pierces_by_integers(c)) == 1;
 }
 

@@ -24,12 +24,13 @@ double guess_zero(const IntegerPolynomial& f, double s, double e, int sign_at_s)
   for (std::size_t i = 0; i < f.c.size(); ++i) {
     long exponent = 0;
     const double fraction = mpz_get_d_2exp(&exponent, f.c[i].get_mpz_t());
-    constexpr long kVanishes = -2000;
-    c[i] = std::ldexp(fraction, static_cast<int>(std::max(exponent - greatest, kVanishes)));
+    constexpr long vanishing_exponent = -2000;
+    c[i] =
+        std::ldexp(fraction, static_cast<int>(std::max(exponent - greatest, vanishing_exponent)));
   }
   double lo = s, hi = e, t = 0.5 * (s + e);
-  constexpr int kMostSteps = 100;
-  for (int step = 0; step < kMostSteps; ++step) {
+  constexpr int most_steps = 100;
+  for (int step = 0; step < most_steps; ++step) {
     const double value = ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
     if (value == 0) break;
     ((value > 0) == (sign_at_s > 0) ? lo : hi) = t;

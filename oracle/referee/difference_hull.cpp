@@ -63,11 +63,11 @@ struct Parts {
 
 Parts parts_of(double x) {
   if (x == 0) return {};
-  constexpr int kDigits = std::numeric_limits<double>::digits;
+  constexpr int digits = std::numeric_limits<double>::digits;
   int exponent = 0;
-  const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), kDigits));
+  const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), digits));
   const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
-  return {mantissa / (std::int64_t{1} << zeros), exponent - kDigits + zeros};
+  return {mantissa / (std::int64_t{1} << zeros), exponent - digits + zeros};
 }
 
 mpz_class scaled(double x, int unit) {

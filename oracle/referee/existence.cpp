@@ -40,8 +40,8 @@ struct Frame {
   }
 };
 
-constexpr int kParameterBits = 58;  // parameters of boxes are multiples of 2^-58
-constexpr std::int64_t kOne = std::int64_t{1} << kParameterBits;
+constexpr int parameter_bits = 58;  // parameters of boxes are multiples of 2^-58
+constexpr std::int64_t parameter_one = std::int64_t{1} << parameter_bits;
 
 struct Range {
   std::int64_t lo, hi;
@@ -50,9 +50,9 @@ struct Range {
 // The part of [x - r, x + r] in [0,1], r = 2^-bits.
 Range range_about(double x, int bits) {
   const auto centre =
-      static_cast<std::int64_t>(std::ldexp(std::clamp(x, 0.0, 1.0), kParameterBits));
-  const std::int64_t r = kOne >> bits;
-  return {std::max<std::int64_t>(centre - r, 0), std::min(centre + r, kOne)};
+      static_cast<std::int64_t>(std::ldexp(std::clamp(x, 0.0, 1.0), parameter_bits));
+  const std::int64_t r = parameter_one >> bits;
+  return {std::max<std::int64_t>(centre - r, 0), std::min(centre + r, parameter_one)};
 }
 
 // f and the columns of its Jacobian, in integers. The parameters run over [0,1]^3 in units of
@@ -63,7 +63,7 @@ class IntegerMap {
 
   // f times a positive constant.
   Vector<mpz_class> value(std::int64_t t, std::int64_t u, std::int64_t v) const {
-    return plus(times(blend(&Frame<mpz_class>::p, t), number(kOne)),
+    return plus(times(blend(&Frame<mpz_class>::p, t), number(parameter_one)),
                 plus(times(blend(&Frame<mpz_class>::u, t), number(u)),
                      times(blend(&Frame<mpz_class>::v, t), number(v))));
   }
@@ -72,7 +72,7 @@ class IntegerMap {
   std::optional<std::array<Vector<mpz_class>, 3>> adjugate(std::int64_t t, std::int64_t u,
                                                            std::int64_t v) const {
     const auto column_u = blend(&Frame<mpz_class>::u, t), column_v = blend(&Frame<mpz_class>::v, t);
-    const auto column_t = plus(times(minus(at_t1_.p, at_t0_.p), number(kOne)),
+    const auto column_t = plus(times(minus(at_t1_.p, at_t0_.p), number(parameter_one)),
                                plus(times(minus(at_t1_.u, at_t0_.u), number(u)),
                                     times(minus(at_t1_.v, at_t0_.v), number(v))));
     const auto row_t = outer(column_u, column_v);
@@ -83,7 +83,7 @@ class IntegerMap {
  private:
   static mpz_class number(std::int64_t x) { return static_cast<long>(x); }
   Vector<mpz_class> blend(Vector<mpz_class> Frame<mpz_class>::*part, std::int64_t t) const {
-    return plus(times(at_t0_.*part, number(kOne - t)), times(at_t1_.*part, number(t)));
+    return plus(times(at_t0_.*part, number(parameter_one - t)), times(at_t1_.*part, number(t)));
   }
 
   Frame<mpz_class> at_t0_, at_t1_;
@@ -149,9 +149,9 @@ std::optional<Crossing> guess_crossing(const DoubleHull& hull, double s, double 
   const double opposite = hull.t0.corners == 4 ? nearest.weight[3] : 0;
   double u = nearest.weight[r[1]] + opposite, v = nearest.weight[r[2]] + opposite;
   const Frame<double> at_t0(hull.t0, guess.base), at_t1(hull.t1, guess.base);
-  constexpr int kMostSteps = 24;
-  constexpr double kSmallStep = 0x1p-46, kFarOutside = 4;
-  for (int step = 0; step < kMostSteps; ++step) {
+  constexpr int most_steps = 24;
+  constexpr double small_step = 0x1p-46, far_outside = 4;
+  for (int step = 0; step < most_steps; ++step) {
     const Frame<double> now(hull.at(t), guess.base);
     const auto f = plus(now.p, plus(times(now.u, u), times(now.v, v)));
     const auto f_t = plus(minus(at_t1.p, at_t0.p), plus(times(minus(at_t1.u, at_t0.u), u),
@@ -164,12 +164,12 @@ std::optional<Crossing> guess_crossing(const DoubleHull& hull, double s, double 
     u += du;
     v += dv;
     const double change = std::fabs(dt) + std::fabs(du) + std::fabs(dv);
-    if (!(std::fabs(t) + std::fabs(u) + std::fabs(v) < kFarOutside)) return std::nullopt;
-    if (change > kSmallStep) continue;
-    constexpr double kSlack = 0x1p-30;
+    if (!(std::fabs(t) + std::fabs(u) + std::fabs(v) < far_outside)) return std::nullopt;
+    if (change > small_step) continue;
+    constexpr double slack = 0x1p-30;
     const double most = hull.t0.corners == 4 ? 2 : 1;
-    if (t < -kSlack || t > 1 + kSlack || u < -kSlack || v < -kSlack || u > 1 + kSlack ||
-        v > 1 + kSlack || u + v > most + kSlack) {
+    if (t < -slack || t > 1 + slack || u < -slack || v < -slack || u > 1 + slack || v > 1 + slack ||
+        u + v > most + slack) {
       return std::nullopt;
     }
     guess.t = t;
@@ -182,15 +182,15 @@ std::optional<Crossing> guess_crossing(const DoubleHull& hull, double s, double 
 
 bool crossing_in_a_box(const IntegerHull& hull, const Crossing& guess, double until) {
   const IntegerMap map(hull, guess.base);
-  const auto middle = [](double x) { return range_about(x, kParameterBits).lo; };
+  const auto middle = [](double x) { return range_about(x, parameter_bits).lo; };
   const auto rows = map.adjugate(middle(guess.t), middle(guess.u), middle(guess.v));
   if (!rows) return false;
   // Large boxes forgive a poor guess, small ones a strongly curved map.
   for (const int bits : {6, 12, 20, 27, 34, 42}) {
     const std::array<Range, 3> box = {range_about(guess.t, bits), range_about(guess.u, bits),
                                       range_about(guess.v, bits)};
-    if (std::ldexp(static_cast<double>(box[0].hi), -kParameterBits) > until) continue;
-    if (hull.t0.corners == 3 && box[1].hi + box[2].hi > kOne) continue;
+    if (std::ldexp(static_cast<double>(box[0].hi), -parameter_bits) > until) continue;
+    if (hull.t0.corners == 3 && box[1].hi + box[2].hi > parameter_one) continue;
     if (signs_differ_on_opposite_sides(map, *rows, box)) return true;
   }
   return false;

@@ -20,7 +20,7 @@ class Referee {
       : query_(query), options_(options), hull_(double_hull(query)) {}
 
   detector::Decision run() {
-    const int deepest = std::clamp(options_.depth, 0, kMostDepth);
+    const int deepest = std::clamp(options_.depth, 0, most_depth);
     std::vector<std::int64_t> pieces = {0};  // piece k of depth d is [k/2^d, (k+1)/2^d]
     std::uint64_t looked_at = 0;
     // Goes breadth first, so that a contact is found while few pieces are left, whatever its time.
@@ -42,9 +42,9 @@ class Referee {
   }
 
  private:
-  static constexpr int kMostDepth = 61;
-  static constexpr int kMostDepthOfDoubles = 53;  // the ends, and 1 minus them, are doubles
-  static constexpr std::size_t kWitnessesALevel = 4;
+  static constexpr int most_depth = 61;
+  static constexpr int most_depth_of_doubles = 53;  // the ends, and 1 minus them, are doubles
+  static constexpr std::size_t witnesses_a_level = 4;
 
   // Made when doubles do not suffice.
   const IntegerHull& exact() {
@@ -58,11 +58,11 @@ class Referee {
 
   // False: the piece is sure to begin at `until` or later, so it is not asked about.
   bool begins_in_time(std::int64_t k, int depth) const {
-    return depth > kMostDepthOfDoubles || time(k, depth) < options_.until;
+    return depth > most_depth_of_doubles || time(k, depth) < options_.until;
   }
 
   bool separated(std::int64_t k, int depth) {
-    if (depth <= kMostDepthOfDoubles) {
+    if (depth <= most_depth_of_doubles) {
       const Separation quick = separated_in_double(hull_, time(k, depth), time(k + 1, depth));
       if (quick != Separation::near) return quick == Separation::separated;
     }
@@ -71,7 +71,7 @@ class Referee {
 
   bool contact_in_some(const std::vector<std::int64_t>& left, int depth) {
     if (depth == 0 && options_.until >= 1 && contact_at({1, 1})) return true;
-    const std::size_t tries = std::min(left.size(), kWitnessesALevel);
+    const std::size_t tries = std::min(left.size(), witnesses_a_level);
     for (std::size_t i = 0; i < tries; ++i) {
       const std::int64_t k = left[i * left.size() / tries];
       if (contact_at(simplest_fraction(k, depth))) return true;
@@ -90,10 +90,10 @@ class Referee {
   bool crossing(const std::optional<Crossing>& guess) {
     if (!guess) return false;
     // Many pieces lead to the same place, which is to be tried once.
-    constexpr double kSame = 0x1p-40;
+    constexpr double same_place = 0x1p-40;
     for (const Crossing& c : refused_) {
-      if (c.base == guess->base && std::fabs(c.t - guess->t) < kSame &&
-          std::fabs(c.u - guess->u) < kSame && std::fabs(c.v - guess->v) < kSame) {
+      if (c.base == guess->base && std::fabs(c.t - guess->t) < same_place &&
+          std::fabs(c.u - guess->u) < same_place && std::fabs(c.v - guess->v) < same_place) {
         return false;
       }
     }

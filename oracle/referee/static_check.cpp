@@ -92,12 +92,12 @@ class QuickPositions {
 
  private:
   std::pair<double, double> range(const Vertices& vertices, int k) const {
-    constexpr double kTooLarge = 0x1p1000;  // sums might overflow
+    constexpr double too_large = 0x1p1000;  // sums might overflow
     double least = HUGE_VAL, greatest = -HUGE_VAL;
     for (const std::int32_t v : vertices) {
       const double begin = motion_.vertices_t0(v, k), end = motion_.vertices_t1(v, k);
       const double size = std::max(std::fabs(begin), std::fabs(end));
-      if (size > kTooLarge) return {-HUGE_VAL, HUGE_VAL};
+      if (size > too_large) return {-HUGE_VAL, HUGE_VAL};
       const double middle = begin * (1 - t_) + end * t_;
       const double error = 16 * 0x1p-53 * size + 0x1p-1060;
       least = std::min(least, middle - 2 * error);  // twice, for the rounding of the difference

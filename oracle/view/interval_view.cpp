@@ -15,10 +15,10 @@ using Interval = CGAL::Interval_nt<false>;
 using Linear = LinearVector<Interval>;
 
 // hm is of fifth degree in differences below 2^151, with fewer than 2^10 terms: no overflow.
-constexpr double kLargest = 0x1p150;
-constexpr double kSplit = 15.0 / 32.0;  // as in the interval rung of contacts
-constexpr int kMaxDepth = 8;
-constexpr int kMaxPieces = 48;
+constexpr double largest_coordinate = 0x1p150;
+constexpr double split_at = 15.0 / 32.0;  // as in the interval rung of contacts
+constexpr int most_depth = 8;
+constexpr int most_pieces = 48;
 
 struct Piece {
   double s, e;
@@ -133,13 +133,13 @@ class ViewFunctions {
 [[gnu::noinline]] std::optional<ViewSign> judge_pieces(const MovingTriangle& triangle,
                                                        const detector::ViewPrimitive& primitive) {
   const ViewFunctions functions(triangle, primitive);
-  std::array<Piece, kMaxDepth + 2> stack;
+  std::array<Piece, most_depth + 2> stack;
   int size = 0, judged = 0;
   stack[size++] = {0, 1, 0};
   bool positive = false, negative = false, settled = true;
   while (size > 0) {
     const Piece piece = stack[--size];
-    if (++judged > kMaxPieces) return {};
+    if (++judged > most_pieces) return {};
     const PieceSigns signs = functions.on(piece);
     positive = positive || signs.some_positive;
     negative = negative || signs.some_negative;
@@ -147,11 +147,11 @@ class ViewFunctions {
     // vertex, which is continuous, passes zero.
     if (signs.some_zero || (positive && negative)) return ViewSign::zero;
     if (signs.all_positive || signs.all_negative) continue;
-    if (piece.depth == kMaxDepth) {
+    if (piece.depth == most_depth) {
       settled = false;
       continue;
     }
-    const double middle = piece.s + (piece.e - piece.s) * kSplit;
+    const double middle = piece.s + (piece.e - piece.s) * split_at;
     stack[size++] = {middle, piece.e, piece.depth + 1};
     stack[size++] = {piece.s, middle, piece.depth + 1};
   }
@@ -164,7 +164,8 @@ class ViewFunctions {
 std::optional<ViewSign> interval_view_sign(const MovingTriangle& triangle,
                                            const detector::ViewPrimitive& primitive) {
   const std::array<MovingPoint, 2> ends = {primitive.q0, primitive.q1};
-  if (!all_coordinates_below(triangle, kLargest) || !all_coordinates_below(ends, kLargest)) {
+  if (!all_coordinates_below(triangle, largest_coordinate) ||
+      !all_coordinates_below(ends, largest_coordinate)) {
     return {};
   }
   const Interval::Protector round_upward;

@@ -24,15 +24,18 @@ std::vector<detector::ViewSign> view_signs(const detector::SteppedMesh& motion,
   assert(motion.vertices_t0.rows() == motion.vertices_t1.rows());
   assert(primitives.size() == 1 || primitives.size() == count);
   std::vector<detector::ViewSign> signs(count);
-  constexpr std::size_t kChunk = 256;
+  constexpr std::size_t triangles_at_once = 256;
   StopGate never({});
-  for_each_chunk(count, kChunk, jobs, never, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t t = begin; t < end; ++t) {
-      auto corner = [&](int i) { return motion.path(triangles(static_cast<Eigen::Index>(t), i)); };
-      signs[t] =
-          view_sign({corner(0), corner(1), corner(2)}, primitives[primitives.size() == 1 ? 0 : t]);
-    }
-  });
+  for_each_chunk(count, triangles_at_once, jobs, never,
+                 [&](std::size_t begin, std::size_t end, int) {
+                   for (std::size_t t = begin; t < end; ++t) {
+                     auto corner = [&](int i) {
+                       return motion.path(triangles(static_cast<Eigen::Index>(t), i));
+                     };
+                     signs[t] = view_sign({corner(0), corner(1), corner(2)},
+                                          primitives[primitives.size() == 1 ? 0 : t]);
+                   }
+                 });
   return signs;
 }
 

@@ -45,7 +45,7 @@ struct PrintedRelease : ReleaseRule {
                          std::size_t component) const override {
     return by_view->released_at_start(step, marks, cost, component);
   }
-  // Nothing but a free step empties Vv.
+  // The thesis as printed releases nothing here: only a free step empties Vv.
   bool release(const GivenStep&, StepMarks&, StepCost&,
                const std::vector<std::int32_t>&) const override {
     return true;

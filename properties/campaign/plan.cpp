@@ -5,7 +5,7 @@
 namespace assay::properties {
 namespace {
 
-// The same number of cases for generic families, and for the others.
+// Every generic family gets the first number of cases, every other family the second.
 std::vector<StratumPlan> strata(std::uint64_t generic, std::uint64_t others, double generic_bound,
                                 double other_bound) {
   std::vector<StratumPlan> list;

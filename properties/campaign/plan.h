@@ -21,8 +21,8 @@ struct StratumPlan {
 
 // An upper limit on a figure of certify's speed table. The figures are ratios of interleaved runs.
 struct SpeedLimit {
-  std::string what;  // one of speed_figures
-  double limit = 0;  // above 0
+  std::string figure;  // one of speed_figures
+  double limit = 0;    // above 0
 };
 inline constexpr std::string_view speed_figures[] = {"free-step-over-bvh", "search-step-over-bvh",
                                                      "exact-over-double"};

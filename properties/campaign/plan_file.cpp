@@ -26,14 +26,15 @@ class PlanReader {
                                   corpus::FileProblem::wrong_schema);
     }
     for (const auto& [key, value] : top_.json().items()) {
-      // A misspelt limit must not pass for one that was not stated.
+      // An unknown key is refused, because a misspelt limit must not pass for a limit that was not
+      // stated.
       if (std::find(std::begin(keys), std::end(keys), key) == std::end(keys))
         return top_.problem("no field '" + key + "' is known");
     }
     BOOST_OUTCOME_TRY(name_field, top_.at("name"));
     BOOST_OUTCOME_TRY(name, name_field.text());
     plan_.name = name;
-    // It becomes part of ids and of file names.
+    // The name becomes part of ids and of file names.
     if (name.empty() || name.find_first_not_of(name_letters) != std::string::npos) {
       return name_field.problem("a name of letters, digits, '-', '_' and '.' expected");
     }
@@ -72,7 +73,8 @@ class PlanReader {
     return boost::outcome_v2::success();
   }
 
-  // Stated by null that there is no limit, so that nobody leaves it out by mistake.
+  // The value null says that there is no limit. It has to be stated, so that nobody leaves the
+  // limit out by mistake.
   corpus::Expected<void> read_seconds() {
     const bool has_none = top_.has("seconds") && top_.json()["seconds"].is_null();
     if (has_none) return boost::outcome_v2::success();
@@ -141,14 +143,14 @@ class PlanReader {
     if (!policy.has("speed_limits")) return boost::outcome_v2::success();
     BOOST_OUTCOME_TRY(limits, policy.at("speed_limits"));
     if (!limits.json().is_object()) return limits.problem("an object expected");
-    for (const auto& [what, value] : limits.json().items()) {
-      if (std::find(std::begin(speed_figures), std::end(speed_figures), what) ==
+    for (const auto& [figure, value] : limits.json().items()) {
+      if (std::find(std::begin(speed_figures), std::end(speed_figures), figure) ==
           std::end(speed_figures))
-        return limits.problem("no figure '" + what + "' is known");
-      BOOST_OUTCOME_TRY(field, limits.at(what));
+        return limits.problem("no figure '" + figure + "' is known");
+      BOOST_OUTCOME_TRY(field, limits.at(figure));
       BOOST_OUTCOME_TRY(limit, field.number());
       if (limit <= 0) return field.problem("a number above 0 expected");
-      plan_.policy.speed_limits.push_back({what, limit});
+      plan_.policy.speed_limits.push_back({figure, limit});
     }
     return boost::outcome_v2::success();
   }
@@ -170,7 +172,7 @@ class PlanReader {
     return boost::outcome_v2::success();
   }
 
-  // As much as --memory takes.
+  // Takes the same numbers as the option --memory.
   corpus::Expected<void> read_bytes(const char* key, std::uint64_t& value) {
     if (!top_.has(key)) return boost::outcome_v2::success();
     BOOST_OUTCOME_TRY(field, top_.at(key));
@@ -211,7 +213,8 @@ corpus::Expected<CampaignPlan> parse_plan(const std::string& text,
   return PlanReader(corpus::JsonField(json, name)).read();
 }
 
-// A campaign that was stopped by --time keeps its name.
+// Whether two plans differ in their time alone. A campaign that was stopped by --time keeps its
+// name.
 static bool is_the_same_but_for_time(CampaignPlan a, CampaignPlan b) {
   a.seconds = b.seconds = 0;
   return plan_text(a) == plan_text(b);
@@ -237,7 +240,7 @@ std::string plan_text(const CampaignPlan& plan) {
     list.push_back({{"family", s.family}, {"cases", s.cases}, {"bound", s.wanted_bound}});
   }
   auto limits = nlohmann::ordered_json::object();
-  for (const auto& [what, limit] : plan.policy.speed_limits) limits[what] = limit;
+  for (const auto& [figure, limit] : plan.policy.speed_limits) limits[figure] = limit;
   return nlohmann::ordered_json{
       {"schema", schema},
       {"name", plan.name},

@@ -23,7 +23,8 @@ const char* name_of(TestedFeatures features) {
 
 namespace {
 
-// The shortest decimal that reads back to the same double. The worker does without libfmt.
+// The shortest decimal that reads back to the same double. It is made without libfmt, because the
+// worker does not use that.
 std::string number_text(double x) {
   char text[32];
   const auto end = std::to_chars(std::begin(text), std::end(text), x).ptr;
@@ -55,8 +56,8 @@ std::string fault_of(const Contract& contract) {
 
 std::vector<std::string> phrases_of(const Contract& contract) {
   std::vector<std::string> list;
-  const auto say = [&](const char* what, const std::string& value, const char* behind = "") {
-    list.push_back(std::string(what).append(value).append(behind));
+  const auto say = [&](const char* name, const std::string& value, const char* behind = "") {
+    list.push_back(std::string(name).append(value).append(behind));
   };
   if (contract.adjacency != Adjacency::all) say("neighbours ", name_of(contract.adjacency));
   if (contract.coordinates != Coordinates::float64)

@@ -12,7 +12,7 @@ using detector::PositionsView;
 using detector::SteppedMesh;
 using detector::Surface;
 
-// No loops where `is_closed` says so of the number of triangles at each edge.
+// Finds no loops if `is_closed` says so. It is given the number of triangles at each edge.
 template <bool (*is_closed)(const std::vector<std::size_t>&)>
 struct TakenAsClosed : BoundaryHandler {
   Surface close_up(const detector::TrianglesView& triangles, Eigen::Index vertex_count,
@@ -54,7 +54,8 @@ struct ApexAhead : BoundaryHandler {
   }
 };
 
-// Each step takes the rule that suits its start best, so an apex may jump between two steps.
+// Each step chooses anew the rule that suits its start best, so an apex may jump between two
+// steps.
 struct ApexChosenAnew : BoundaryHandler {
   std::vector<MovingPoint> place_apexes(const Surface& surface,
                                         const std::vector<detector::ApexRule>&,

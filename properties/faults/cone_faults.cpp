@@ -1,5 +1,5 @@
 // Wrong normal cones and contours (L13): what the classical form of the traditional scheme gets
-// wrong, see detector/traditional/traditional.cpp.
+// wrong. See detector/traditional/traditional.cpp.
 #include <algorithm>
 
 #include "detector/traditional/traditional.h"
@@ -35,7 +35,7 @@ struct NormalsAtBothEnds : NormalConeSearch {
   }
 };
 
-// N.d >= 0 for N.d > 0.
+// Tests N.d >= 0 in place of N.d > 0.
 struct EdgeOnFaced : NormalConeSearch {
   DirectionSet faced(const Triangle& triangle) const override {
     const auto n = detector::cross(detector::difference(triangle[1], triangle[0]),
@@ -62,8 +62,8 @@ struct ContourAtEnd : NormalConeSearch {
   }
 };
 
-// Triangles that hang together at a vertex are taken for a patch, and the first walk around some of
-// them for its contour.
+// Triangles that are connected at a vertex only are taken for one patch, and the first walk around
+// some of them is taken for its contour.
 struct FirstWalk : ContourMaker {
   using ContourMaker::ContourMaker;
   void append(std::span<const DirectedEdge> boundary, std::vector<std::int32_t>& out) override {
@@ -88,7 +88,7 @@ struct JoinedAtVertex : NormalConeSearch {
   }
 };
 
-// Two patches that are free, each by itself, and face one way: held to be free together.
+// Two patches that are each free by itself, and face one direction, are taken to be free together.
 struct PatchesOneByOne : NormalConeSearch {
   Contour joined(detector::ContourUnion&, Contour a, Contour b) const override {
     return a.size() < b.size() ? b : a;

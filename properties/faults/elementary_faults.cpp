@@ -15,7 +15,7 @@ using detector::FourPoints;
 using detector::Point;
 using detector::Want;
 
-// Right answers, some of which are then suppressed.
+// Gives right answers, but suppresses some contacts.
 class ContactDropped : public detector::ElementaryTest {
  public:
   ContactResult test(const FourPoints& query, Want) const override {
@@ -119,8 +119,9 @@ double determinant(const Point& a, const Point& b, const Point& c) {
          a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-// The filter of coplanarity, with an error bound from the result: that of sums without
-// cancellation. The right one is from the coordinates that they are made of.
+// The filter of coplanarity with a wrong error bound. This bound is a share of the result, which
+// would be right for sums without cancellation. The right bound is made of the coordinates from
+// which the sums are made.
 bool beyond_bound_of_result(const FourPoints& query, const ContactResult&) {
   std::array<std::array<Point, 2>, 3> edges;  // from point 0, at t=0 and t=1
   for (std::size_t i = 0; i < 3; ++i) {
@@ -130,7 +131,8 @@ bool beyond_bound_of_result(const FourPoints& query, const ContactResult&) {
       edges[i][1][k] = p.t1[k] - o.t1[k];
     }
   }
-  // Bernstein coefficients: of each, the mean over the choices of so many edges at t=1.
+  // The Bernstein coefficients. Coefficient k is the mean over all choices of k edges at t=1 and
+  // the others at t=0.
   std::array<double, 4> sum = {};
   for (unsigned ends = 0; ends < 8; ++ends) {
     const unsigned a = ends & 1, b = ends >> 1 & 1, c = ends >> 2;
@@ -142,7 +144,8 @@ bool beyond_bound_of_result(const FourPoints& query, const ContactResult&) {
   return *least > bound || *greatest < -bound;
 }
 
-// "Each feature pair once" by where it is: two seams in one place are two features.
+// Tests each feature pair once, but tells feature pairs apart by their places. If two seams lie in
+// one place, they are two features all the same.
 class TakenForDuplicate : public ContactDropped {
  public:
   bool drops(const FourPoints& query, const ContactResult&) const override {
@@ -155,7 +158,7 @@ class TakenForDuplicate : public ContactDropped {
   }
 
  private:
-  mutable std::set<std::vector<double>> seen_;  // in contact so far
+  mutable std::set<std::vector<double>> seen_;  // found in contact so far
 };
 
 }  // namespace
@@ -204,7 +207,8 @@ std::vector<Fault> elementary_faults() {
       planted<Dropped<beyond_bound_of_result>>("elementary/bound-of-result",
                                                "the filter's error bound is a share of its result",
                                                "free-sound", "F_bound_of_result", 4),
-      // Without views: the tests of a verified start ask for still features first.
+      // This fault is planted in a configuration without views, because the tests of a verified
+      // start ask for still features first.
       planted<TakenForDuplicate>(
           "elementary/taken-for-duplicate",
           "a feature pair in the place of another is dropped as a duplicate", "all-pairs (L7)",

@@ -42,7 +42,7 @@ struct OverlapAtEnds : BoundaryHandler {
   }
 };
 
-// GhostIndices stand where they are at t=0 while the mesh goes past them.
+// The ghosts stand where they are at t=0, while the mesh goes past them.
 struct GhostsNotMoved : BoundaryHandler {
   bool sweep(const GhostSweep& s, GhostIndices ghosts, const StopFunction&, Flags& touched,
              GhostCounts&) const override {
@@ -117,7 +117,8 @@ struct LoopNeighboursSkipped : BoundaryHandler {
              GhostCounts& counts) const override {
     for (const auto ghost : ghosts) {
       Flags by_this(touched.size(), 0);
-      detector::sweep_ghost(s, ghost, by_this, counts);
+      const detector::HoleTree alone(s.surface.all(), {&ghost, 1}, s.tree.grid(), s.motion);
+      detector::sweep_hole(s, alone, {}, by_this, counts);
       for (std::size_t t = 0; t < touched.size(); ++t) {
         touched[t] |= by_this[t] && common_vertices(s.surface.all().triangles[at(ghost)],
                                                     s.surface.mesh.triangles[t]) < common;

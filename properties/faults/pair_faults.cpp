@@ -55,7 +55,7 @@ struct ClosureFromOneSide : detector::PairRule {
   }
 };
 
-// What joined the closure is tested against V+ alone.
+// Tests the triangles that joined the closure against V+ alone.
 struct ClosureLeavesNegative : detector::PairRule {
   PairTables closure() const override {
     PairTables tables;
@@ -64,7 +64,7 @@ struct ClosureLeavesNegative : detector::PairRule {
   }
 };
 
-// The standard search with some of its pairs kept from the sink.
+// The standard search, which withholds some of its pairs from the sink.
 class FilteredSearch : public detector::TreeSearch {
  public:
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
@@ -86,7 +86,7 @@ struct NeighboursSkipped : FilteredSearch {
   }
 };
 
-// "Nothing can be hit where there is no area", at t=0 or t=1.
+// Leaves out a triangle that has no area at t=0 or t=1, as if nothing could be hit there.
 class ZeroAreaDropped : public FilteredSearch {
  public:
   bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
@@ -126,7 +126,7 @@ Box swept_box(const std::array<std::int32_t, 3>& triangle, const SteppedMesh& mo
   return box;
 }
 
-// Boxes that only touch do not meet: lost are contacts in their common face.
+// Takes boxes that only touch for apart. So contacts in their common face are lost.
 class OpenBoxes : public FilteredSearch {
  public:
   bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
@@ -159,7 +159,7 @@ struct StillBoxes : detector::TreeSearch {
   }
 };
 
-// K and one round of the closure; what that finds starts no other.
+// Searches K and one round of the closure. What that round finds starts no further one.
 class SinglePassClosure : public detector::TreeSearch {
  public:
   bool fit(detector::BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,

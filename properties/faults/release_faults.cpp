@@ -22,7 +22,7 @@ enum class Contacts { tested, ignored };
 enum class Ghosts { tested, ignored };
 enum class ReleasedLayers { of_pieces, by_connection, across_touched, not_looked_at };
 
-// The release, put together again with parts of it missing or changed.
+// The release, composed anew with parts of it missing or changed.
 template <Contacts contacts, Ghosts ghosts, ReleasedLayers layers>
 struct ReleaseHalfChecked : ReleaseRule {
   bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
@@ -57,7 +57,8 @@ struct ReleaseHalfChecked : ReleaseRule {
   }
 
  private:
-  // Pieces go on through what is touched, and that alone stays dirty.
+  // Lets pieces continue through triangles that are touched. Only the touched triangles themselves
+  // stay dirty.
   void release_across_touched(const GivenStep& step, StepMarks& marks, std::size_t c,
                               const Triangles& in_doubt, const Flags& touched) const {
     const Flags nothing(touched.size(), 0);
@@ -67,7 +68,8 @@ struct ReleaseHalfChecked : ReleaseRule {
     for (const auto t : in_doubt) marks.clean[at(t)] &= !touched[at(t)];
   }
 
-  // A clean neighbour at any edge will do, however many triangles meet there.
+  // Releases a triangle if it has a clean neighbour at any edge, however many triangles meet at
+  // that edge.
   static void release_connected(const GivenStep& step, StepMarks& marks, const Triangles& in_doubt,
                                 const Flags& touched) {
     const auto& mesh = step.surface.mesh;
@@ -86,7 +88,8 @@ struct ReleaseHalfChecked : ReleaseRule {
   }
 };
 
-// A clean neighbour serves also what a ghost or the mesh touches; pieces end there all the same.
+// Releases by a clean neighbour also triangles that a ghost or the mesh touches. Pieces still end
+// at them.
 struct ReleasedWhileTouched : ReleaseRule {
   bool release(const GivenStep& step, StepMarks& marks, StepCost& cost,
                const Components& components) const override {
@@ -104,7 +107,8 @@ struct ReleasedWhileTouched : ReleaseRule {
   }
 };
 
-// The state of a triangle is asked for by its place in the component: another component's answers.
+// Asks for the state of a triangle by its place in the component, and so gets the answer for a
+// triangle of another component.
 struct WitnessesByPlace : ReleaseRule {
   Triangles witnesses(const GivenStep& step, const StepMarks& marks, std::size_t c) const override {
     Triangles found;

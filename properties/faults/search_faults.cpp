@@ -1,5 +1,5 @@
-// A wrong tree: marks that do not reach the root or leave it too early, nodes skipped for the wrong
-// partial tree, boxes of another step; a search that is not the detector's own.
+// A wrong tree: marks that do not reach the root or are taken back too early, nodes that are
+// skipped for the wrong partial tree, boxes of another step, and a search that detectors share.
 #include <algorithm>
 #include <atomic>
 
@@ -19,7 +19,8 @@ using detector::SearchInput;
 using detector::SteppedMesh;
 using detector::Topology;
 
-// A flag gone from a leaf goes from all above, though another leaf there may have it.
+// A flag that is cleared at a leaf is cleared at all nodes above it, though another leaf there may
+// have it.
 struct ClearedForOthersToo : detector::Marking {
   void clear(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
              MarkingCounts& counts) const override {
@@ -31,7 +32,8 @@ struct ClearedForOthersToo : detector::Marking {
   }
 };
 
-// "A parent that is marked at all has marked all above it": with another flag, perhaps.
+// Stops marking at a parent that has any flag, as if all nodes above it were then marked with this
+// flag. They may be marked with another one.
 struct MarkedUntilAnyFlag : detector::Marking {
   void mark(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
             MarkingCounts& counts) const override {
@@ -45,7 +47,7 @@ struct MarkedUntilAnyFlag : detector::Marking {
   }
 };
 
-// The parent's flags are gathered from its first child alone.
+// Gathers the flags of a parent from its first child alone.
 struct GatheredFromFirstChild : detector::Marking {
   void clear(std::int32_t leaf, std::uint8_t flags, const BoundingVolumeTree& tree, Marks& marks,
              MarkingCounts& counts) const override {
@@ -58,8 +60,9 @@ struct GatheredFromFirstChild : detector::Marking {
   }
 };
 
-// The partial trees of V+, V-, V0, Vv are gone down one after the other, and a node with a single
-// child in the first that is asked for is left for that child: the other may be in the next tree.
+// Walks down the partial trees of V+, V-, V0 and Vv one after the other. If a node has a single
+// child in the first tree that is asked for, the node is left for that child, though its other
+// child may be in the next tree.
 class SkippedForOneSet : public detector::TreeSearch {
  public:
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
@@ -117,7 +120,7 @@ class SkippedForOneSet : public detector::TreeSearch {
   }
 };
 
-// The tree is fitted to the first step that searches, and to no other.
+// Fits the tree to the first step that searches, and to no other.
 class FittedOnce : public detector::TreeSearch {
  public:
   bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
@@ -130,8 +133,8 @@ class FittedOnce : public detector::TreeSearch {
   mutable bool fitted_ = false;
 };
 
-// A search that was stopped is meant to go on where it was: the next one, of whatever step, leaves
-// out as many pairs as that one had looked at.
+// A search that was stopped is meant to continue where it was. But the next search, of whatever
+// step, leaves out as many pairs as the stopped one had looked at.
 class GoesOnAfterStop : public detector::TreeSearch {
  public:
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
@@ -147,8 +150,8 @@ class GoesOnAfterStop : public detector::TreeSearch {
   mutable std::uint64_t looked_at_ = 0;
 };
 
-// Box tests are counted in one place by all detectors of the process, and each takes for its own
-// what came together while it searched.
+// All detectors of the process count their box tests in one place, and each takes the sum that
+// accumulated while it searched for its own.
 struct CountedTogether : detector::TreeSearch {
   bool search(const SearchInput& input, SearchCounts& counts, const PairSink& sink) const override {
     static std::atomic<std::uint64_t> box_tests = 0;

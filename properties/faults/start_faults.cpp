@@ -18,7 +18,7 @@ using detector::ViewSign;
 using Flags = std::vector<std::uint8_t>;
 using Components = std::vector<std::int32_t>;
 
-// Triangles that meet another one of their component at t=0.
+// Adds the triangles that meet another one of their component at t=0.
 void add_own_contacts(const GivenStep& step, std::size_t c, Flags& touched) {
   detector::FeatureContacts contacts(step.surface.mesh, step.motion.at_start(), step.elementary,
                                      detector::Want::yes_no);
@@ -32,7 +32,7 @@ void add_own_contacts(const GivenStep& step, std::size_t c, Flags& touched) {
 
 enum class StartLayers { by_piece, of_component, not_looked_at };
 
-// The check of a new start, put together again with parts of it missing or changed.
+// The check of a new start, composed anew with parts of it missing or changed.
 template <bool contacts, bool ghosts, StartLayers layers>
 struct StartHalfChecked : ReleaseRule {
   bool verify_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
@@ -61,7 +61,8 @@ struct StartHalfChecked : ReleaseRule {
   }
 };
 
-// Of all layers that of the lowest untouched triangle, however few have it.
+// Takes the layer of the lowest untouched triangle for the common one, however few triangles have
+// it.
 struct LowestLayerIsCommon : ReleaseRule {
   bool verify_start(const GivenStep& step, StepMarks& marks, StepCost& cost,
                     const Components& components) const override {
@@ -102,7 +103,7 @@ bool all_positive(const StepMarks& marks, std::span<const std::int32_t> triangle
                      [&](std::int32_t t) { return marks.signs[at(t)] == ViewSign::positive; });
 }
 
-// `surface`: that of the step, or its mesh without ghosts.
+// `surface` is the surface of the step, or its mesh without ghosts.
 bool all_positive_at_start(const GivenStep& step, const StepMarks& marks, std::size_t c,
                            const detector::Topology& surface) {
   const auto& primitive = marks.primitives[c];
@@ -121,7 +122,7 @@ struct WindingNotChecked : ReleaseRule {
   }
 };
 
-// Ghosts count for the winding number, but may be seen from behind.
+// Counts ghosts for the winding number, but does not ask whether they are seen from behind.
 struct GhostSignsNotAsked : ReleaseRule {
   bool is_free(const GivenStep& step, const StepMarks& marks, StepCost&,
                std::size_t c) const override {

@@ -13,8 +13,8 @@ using detector::StepCost;
 using detector::StepMarks;
 using detector::StepState;
 
-// What the step leaves behind, from a start at which more is believed clean, or from a step that
-// has seen less.
+// What the step leaves behind is computed from a start at which too much is believed clean, or
+// from a step that is made to have seen too little.
 struct DirtyNotCarried : ReleaseRule {
   void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,
               bool complete, StepState& state) const override {
@@ -66,7 +66,7 @@ struct FirstPairsAreAll : ReleaseRule {
   }
 };
 
-// After a step without views an open component is dirty only where that found a contact.
+// After a step without views, an open component becomes dirty only if the step found a contact.
 struct LostByContactAlone : ReleaseRule {
   bool knows_clean(const GivenStep& step, const std::vector<PairContact>& pairs,
                    std::size_t c) const override {
@@ -74,14 +74,15 @@ struct LostByContactAlone : ReleaseRule {
   }
 };
 
-// Clean bits are carried through a step without views as through any other, ghosts or not.
+// Carries clean bits through a step without views as through any other step, whether or not there
+// are ghosts.
 struct CarriedPastGhosts : ReleaseRule {
   bool knows_clean(const GivenStep&, const std::vector<PairContact>&, std::size_t) const override {
     return true;
   }
 };
 
-// What the step before did not find in contact is not held against the ghosts either.
+// A triangle that the step before did not find in contact is not tested against the ghosts either.
 struct OnlyMetAgainstGhosts : ReleaseRule {
   std::vector<std::int32_t> may_touch_ghosts(
       const GivenStep& step, const std::vector<std::int32_t>& in_doubt) const override {
@@ -102,8 +103,8 @@ struct KeptElsewhere : ReleaseRule {
   }
 };
 
-// What an evaluation found that was not committed is used by the next one from the same place: "it
-// was seen to be free there, so nothing there is dirty".
+// Uses what an evaluation found, although it was not committed, in the next evaluation from the
+// same place: if that place was seen to be free, nothing there is taken for dirty.
 class EvaluationKept : public ReleaseRule {
  public:
   void settle(const GivenStep& step, const StepMarks& marks, const std::vector<PairContact>& pairs,

@@ -1,5 +1,5 @@
-// Wrong view tests from a line: every corner needs its own nearest point, at every time (L1), and
-// all triangles of a component one field of view rays (L10).
+// Wrong view tests from a line. Every corner needs its own nearest point at every time (L1), and
+// all triangles of a component need one field of view rays (L10).
 #include "detector/geometry/winding.h"
 #include "properties/faults/planting.h"
 #include "properties/faults/view_polynomials.h"
@@ -15,7 +15,7 @@ using detector::ViewSign;
 
 ViewSign one_corner(const ViewPolynomials& view) { return sign_of(pieces_of_corner(view, 0)); }
 
-// Region of corner 0 at t=0: one end of the line, or the foot on its axis.
+// Uses the region of corner 0 at t=0 for everything: one end of the line, or the foot on its axis.
 ViewSign region_of_first_corner(const ViewPolynomials& view) {
   const auto pieces = pieces_of_corner(view, 0);
   if (pieces.g0.sign_at_zero() <= 0) return strict_sign(pieces.h0);
@@ -23,7 +23,8 @@ ViewSign region_of_first_corner(const ViewPolynomials& view) {
   return strict_sign(pieces.middle);
 }
 
-// The point of the line nearest to corner 0 at t=0, for all corners and the whole step.
+// Uses the point of the line that is nearest to corner 0 at t=0 for all corners and the whole
+// step.
 ViewSign frozen_nearest_point(const ViewPolynomials& view) {
   if (view.g0[0].sign_at_zero() <= 0) return strict_sign(view.h0);
   if (view.g1[0].sign_at_zero() >= 0) return strict_sign(view.h1);
@@ -31,7 +32,7 @@ ViewSign frozen_nearest_point(const ViewPolynomials& view) {
   return strict_sign((length2 - along) * view.h0 + along * view.h1);
 }
 
-// The centroid alone, with its own nearest point (all of it times 3).
+// Looks at the centroid alone, with its own nearest point. All values are multiplied by 3.
 ViewSign of_centroid(const ViewPolynomials& view) {
   const Polynomial g0 = view.g0[0] + view.g0[1] + view.g0[2];
   const Polynomial g1 = view.g1[0] + view.g1[1] + view.g1[2];
@@ -44,7 +45,7 @@ ViewSign positive_from_either_end(const ViewPolynomials& view) {
   return first == ViewSign::positive ? first : strict_sign(view.h1);
 }
 
-// Seen from the end that is nearer to corner 0 at t=0.
+// Looks from the end of the line that is nearer to corner 0 at t=0.
 ViewSign from_nearer_end(const ViewPolynomials& view) {
   const bool second = (view.g0[0] + view.g1[0]).sign_at_zero() > 0;
   return strict_sign(second ? view.h1 : view.h0);
@@ -64,7 +65,8 @@ ViewSign from_midpoint(const MovingTriangle& triangle, const ViewPrimitive& prim
   return right_sign(triangle, midpoint(primitive));
 }
 
-// The winding number where the view is from: that of an end would say nothing.
+// Asks for the winding number at the midpoint, from which the view is taken. That of an end would
+// say nothing.
 struct FreeFromMidpoint : detector::ReleaseRule {
   bool is_free(const detector::GivenStep& step, const detector::StepMarks& marks,
                detector::StepCost&, std::size_t c) const override {
@@ -94,7 +96,7 @@ ViewSign with_swapped_ends(const MovingTriangle& triangle, const ViewPrimitive& 
   return right_sign(triangle, {primitive.q1, primitive.q0});
 }
 
-// Across the whole axis: the middle piece everywhere.
+// Uses the middle piece everywhere, as if the line were its whole axis.
 ViewSign from_unclamped_axis(const ViewPolynomials& view) {
   return common_sign({strict_sign(pieces_of_corner(view, 0).middle),
                       strict_sign(pieces_of_corner(view, 1).middle),

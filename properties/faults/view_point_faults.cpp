@@ -1,5 +1,5 @@
-// Wrong view tests from a point: f = (p0 - q).N is a cubic in t, and every short cut here looks at
-// less of it (L2).
+// Wrong view tests from a point. Here f = (p0 - q).N is a cubic in t, and every short cut looks at
+// less than all of it (L2).
 #include "detector/bernstein/bernstein.h"
 #include "detector/geometry/winding.h"
 #include "properties/faults/planting.h"
@@ -36,7 +36,7 @@ ViewSign without_cubic_term(const ViewPolynomials& view) {
   return strict_sign(f - Polynomial::constant(f[3]) * t * t * t);
 }
 
-// Positive where f >= 0 all along. Between two zeros f keeps the sign of its value half way.
+// Says positive if f >= 0 all along. Between two zeros f keeps the sign of its value half way.
 ViewSign touching_zero_is_positive(const ViewPolynomials& view) {
   const Polynomial& f = view.h0;
   if (f.is_zero()) return ViewSign::positive;
@@ -62,7 +62,7 @@ ViewSign sign_of_coefficients(const detector::Cubic& f, int depth) {
       {sign_of_coefficients(left, depth + 1), sign_of_coefficients(right, depth + 1)});
 }
 
-// Doubles without bounds: a value that is 0, or just below, may come out above.
+// Computes in doubles without bounds, so a value that is 0, or just below, may come out above 0.
 ViewSign in_plain_doubles(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
   using detector::difference;
   const auto normal =
@@ -77,7 +77,8 @@ ViewSign zero_merged(const MovingTriangle& triangle, const ViewPrimitive& primit
   return right == ViewSign::zero ? merged : right;
 }
 
-// "It has no normal, so it cannot be seen from behind."
+// Says that a triangle without area is positive, as if it could not be seen from behind because it
+// has no normal.
 ViewSign zero_area_is_positive(const MovingTriangle& triangle, const ViewPrimitive& primitive) {
   const auto vanishes = [](const PolynomialVector& n) {
     return n[0].is_zero() && n[1].is_zero() && n[2].is_zero();
@@ -88,7 +89,7 @@ ViewSign zero_area_is_positive(const MovingTriangle& triangle, const ViewPrimiti
                                                      : right_sign(triangle, primitive);
 }
 
-// Each triangle takes the view that suits it, of two (L10).
+// Each triangle takes the one of two views that suits it (L10).
 ViewSign positive_from_either_place(const MovingTriangle& triangle,
                                     const ViewPrimitive& primitive) {
   const auto q0 = still(Sample::start, primitive.q0), q1 = still(Sample::end, primitive.q0);

@@ -100,8 +100,8 @@ ViewSign sign_of(const ViewPieces& p) {
                               : p.g1.sign_at_zero() >= 0 ? p.h1
                                                          : p.middle;
   const int sign = at_zero.sign_at_zero();
-  // A zero of a piece counts where the piece is the active one; a piece that vanishes identically
-  // must not become active (the middle one is then bounded by zeros of the others).
+  // A zero of a piece counts if the piece is the active one there. A piece that vanishes
+  // identically must not become active; the middle piece is then bounded by zeros of the others.
   const auto vanishes = [](const Polynomial& h, auto is_active, const Polynomial& region) {
     if (h.is_zero()) return region.is_zero() || detector::has_root_in_unit_interval(region);
     const auto roots = detector::roots_in_unit_interval(h);

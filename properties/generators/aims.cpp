@@ -21,7 +21,7 @@ class Aimer {
   Points& x_t0() { return draft_.frames[step_]; }
   Points& x_t1() { return draft_.frames[step_ + 1]; }
 
-  // A vertex of the mesh and a face beside it that does not hold it: the nearest of a few.
+  // Chooses a vertex of the mesh, and the nearest of a few faces that do not hold it.
   std::optional<Aimed> choose() {
     const Face& own = any_of(random_, draft_.faces);
     const std::int32_t v = own[at(random_.below(3))];
@@ -47,7 +47,7 @@ class Aimer {
     return between(at(draft_.frames[step_], v), at(draft_.frames[step_ + 1], v), t);
   }
 
-  // The vertex is at `place` at time t; its start stays, but for t = 0.
+  // Moves the vertex so that it is at `place` at time t. Its start stays, unless t = 0.
   void send(std::int32_t v, const Point& place, double t) {
     if (t == 0) {
       at(x_t0(), v) = place;
@@ -56,7 +56,7 @@ class Aimer {
     }
   }
 
-  // On the target at time t: at a vertex, on an edge, or inside.
+  // A place on the target at time t: at a vertex, on an edge, or inside.
   Point place_on(const Face& f, double t) {
     const Point a = place_at(f[0], t), b = place_at(f[1], t), c = place_at(f[2], t);
     const double s = random_.between(1, 3) / 4.0;
@@ -73,7 +73,7 @@ class Aimer {
     }
   }
 
-  // The middle of an edge (v, u) meets an edge of the target.
+  // Lets the middle of an edge (v, u) meet an edge of the target.
   bool cross_edges(const Aimed& aimed, double t) {
     const auto own = std::find_if(draft_.faces.begin(), draft_.faces.end(),
                                   [&](const Face& f) { return has(f, aimed.vertex); });
@@ -86,9 +86,9 @@ class Aimer {
     return true;
   }
 
-  // Vertex and face touch without crossing, at t = s. In the face's own axes, with the corner p2
-  // going up by w: p2(t) = p2 + t w spans the plane "height = t * part along e"; the vertex, at
-  // part 2 s - t and height s^2, is above it by s^2 - t (2 s - t) = (t - s)^2.
+  // Lets vertex and face touch without crossing, at t = s. In the axes of the face, the corner p2
+  // goes up by w: p2(t) = p2 + t w spans the plane "height = t * part along e". The vertex is at
+  // part 2 s - t and at height s^2, so it is above the plane by s^2 - t (2 s - t) = (t - s)^2.
   void graze(const Aimed& aimed) {
     const double s = random_.one_in(2) ? 0.5 : 0.25;
     const auto [a, b, c] = aimed.target;
@@ -103,7 +103,8 @@ class Aimer {
     draft_.tag("aim:grazing");
   }
 
-  // Vertex's face and target stay in the plane of the target's rest throughout all frames.
+  // Keeps a face of the vertex and the target in the plane in which the target rests, in all
+  // frames.
   void flatten(const Aimed& aimed) {
     const auto own = std::find_if(draft_.faces.begin(), draft_.faces.end(),
                                   [&](const Face& f) { return has(f, aimed.vertex); });
@@ -116,7 +117,7 @@ class Aimer {
     draft_.tag("aim:coplanar");
   }
 
-  // A view-line whose end region borders on the slab exactly at `place`, in every frame.
+  // Makes a view-line whose end region borders on the slab exactly at `place`, in every frame.
   void border_of_regions(const Point& place) {
     const auto axis = at(random_.below(3));
     Point q = place;
@@ -147,7 +148,7 @@ double any_time(Random& random, Draft& draft, bool may_touch_at_start) {
     return 1;
   }
   draft.tag("aim:mid-step");
-  // Dyadic divisors: 1/t is exact.
+  // These times are powers of two, so 1/t is exact.
   constexpr double times[] = {0.5, 0.5, 0.25, 0.125};
   return any_of(random, times);
 }
@@ -167,7 +168,7 @@ void aim(Random& random, Draft& draft, bool may_touch_at_start) {
   aimer.send(aimed->vertex, place, t);
   if (kind == 5) {
     const auto other = aimer.choose();
-    // The second must leave alone what the first rests on.
+    // The second aim must not move what the first aim rests on.
     if (other && other->vertex != aimed->vertex && !has(aimed->target, other->vertex) &&
         !has(other->target, aimed->vertex)) {
       aimer.send(other->vertex, aimer.place_on(other->target, t), t);

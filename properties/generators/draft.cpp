@@ -39,7 +39,7 @@ void drop_invalid_faces(Draft& draft) {
 }
 
 bool is_cycle(const std::vector<Face>& faces) {
-  // An edge and its reverse sort to the same place and cancel.
+  // An edge and its reverse are sorted to the same place, where they cancel.
   std::vector<std::array<std::int32_t, 3>> edges;
   for (const auto& f : faces) {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -13,12 +13,13 @@ GeneratedCase make(Random& random, std::string id) {
 }
 
 constexpr Recipe closed_generic = {.positive = 20, .aimed = 35};
-constexpr Recipe closed_near = {.near = true, .positive = 20, .aimed = 35};
+constexpr Recipe closed_near = {.nearly_degenerate = true, .positive = 20, .aimed = 35};
 constexpr Recipe closed_exact = {.exact = true, .positive = 30, .aimed = 40};
 constexpr Recipe closed_far = {.far = true, .positive = 30, .aimed = 20};
 constexpr Recipe unclosed_generic = {.closed = false, .positive = 20, .aimed = 40};
 constexpr Recipe unclosed_exact = {.closed = false, .exact = true, .positive = 25, .aimed = 40};
-constexpr Recipe unclosed_near = {.closed = false, .near = true, .positive = 30, .aimed = 30};
+constexpr Recipe unclosed_near = {
+    .closed = false, .nearly_degenerate = true, .positive = 30, .aimed = 30};
 constexpr Recipe broken = {.closed = false, .broken = true, .aimed = 30};
 
 constexpr Family family_table[] = {

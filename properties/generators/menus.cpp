@@ -6,9 +6,9 @@
 namespace assay::properties {
 namespace {
 
-constexpr int kLeastExponent = -1074;
+constexpr int least_exponent = -1074;
 
-// change(point) on every vertex of every frame and on the view primitive.
+// Calls change(point) for every vertex of every frame and for the view primitive.
 template <class Change>
 void for_each_point(Draft& draft, const Change& change) {
   for (auto& x : draft.frames) {
@@ -23,21 +23,22 @@ void for_each_point(Draft& draft, const Change& change) {
 void round_to_grid(Draft& draft, double scale, int bits) {
   const double unit = std::ldexp(1, bits);
   for_each_point(draft, [=](Point& p) {
-    // + 0.0 keeps -0 out: it has a text of its own.
+    // Adding 0.0 turns -0 into 0, because -0 is written differently.
     for (double& c : p) c = std::floor(c * scale * unit + 0.5) / unit + 0.0;
   });
 }
 
 void place_ulp_neighbours(Random& random, Draft& draft) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int changes = random.between(1, 6); changes > 0; --changes) {
     Points& x = any_of(random, draft.frames);
     const Point other = any_of(random, x);
     Point& p = any_of(random, x);
     const auto k = at(random.below(3));
-    // Mostly its own value: another's moves the vertex far.
+    // Mostly the coordinate stays near its own value. The value of another vertex moves the vertex
+    // far.
     double c = random.one_in(4) ? other[k] : p[k];
-    const double towards = random.one_in(2) ? kInfinity : -kInfinity;
+    const double towards = random.one_in(2) ? infinity : -infinity;
     for (int i = random.between(1, 3); i > 0; --i) {
       c = c == 0 ? std::copysign(std::numeric_limits<double>::epsilon(), towards)
                  : std::nextafter(c, towards);
@@ -85,20 +86,21 @@ void mix_scales(Random& random, Draft& draft) {
 }
 
 void make_denormal(Random& random, Draft& draft) {
-  // Exact numbers of 1074 bits below the point beside ordinary ones are what an oracle is slowest
-  // at.
+  // Exact numbers with 1074 bits below the point, beside ordinary numbers, are what an oracle is
+  // slowest at. So only small meshes get them.
   constexpr std::size_t most_faces_among_others = 40;
   if (random.one_in(2) || draft.faces.size() > most_faces_among_others) {
-    // A coarse grid on a large mesh makes thousands of degenerate contacts.
+    // A coarse grid on a large mesh makes thousands of degenerate contacts, so a large mesh gets a
+    // fine one.
     const int least = draft.faces.size() > most_faces_among_others ? 12 : 1;
     round_to_grid(draft, std::ldexp(1, random.between(least, 20)), 0);
     for_each_point(draft, [](Point& p) {
-      for (double& c : p) c = std::ldexp(c, kLeastExponent);
+      for (double& c : p) c = std::ldexp(c, least_exponent);
     });
   } else {
     for (int changes = random.between(1, 8); changes > 0; --changes) {
       Point& p = any_of(random, any_of(random, draft.frames));
-      p[at(random.below(3))] = std::ldexp(random.between(-3, 3), kLeastExponent) + 0.0;
+      p[at(random.below(3))] = std::ldexp(random.between(-3, 3), least_exponent) + 0.0;
     }
   }
   draft.tag("menu:denormal");

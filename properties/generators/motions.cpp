@@ -31,7 +31,7 @@ void turn(Point& p, std::size_t axis, double turns) {
   b = s * a_before + c * b;
 }
 
-// Half the length of the mesh along an axis; never 0.
+// Half the length of the mesh along an axis. It is never 0.
 double reach(const Points& x, std::size_t axis) {
   double r = 0x1p-10;
   for (const auto& p : x) r = std::max(r, std::abs(p[axis]));
@@ -73,7 +73,7 @@ void jitter(Random& random, const Draft&, Points& x, double amount) {
   for (auto& p : x) p = p + 0.25 * amount * any_vector(random);
 }
 
-// The z axis becomes an arc of up to a whole turn.
+// Bends the z axis into an arc of up to a whole turn.
 void bend(Random& random, const Draft&, Points& x, double amount) {
   const double half = reach(x, 2), turns = amount * (random.one_in(2) ? 0.5 : -0.5);
   const double radius = half / (2 * corpus::pi * turns);
@@ -89,7 +89,7 @@ void twist(Random& random, const Draft&, Points& x, double amount) {
   for (auto& p : x) turn(p, axis, turns * p[axis]);
 }
 
-// A waist, which goes through itself when the amount is large.
+// Makes a waist, which goes through itself if the amount is large.
 void pinch(Random& random, const Draft&, Points& x, double amount) {
   const auto axis = any_axis(random);
   const double half = reach(x, axis);
@@ -100,7 +100,7 @@ void pinch(Random& random, const Draft&, Points& x, double amount) {
   }
 }
 
-// One half goes over to the other.
+// Moves one half over to the other.
 void fold(Random& random, const Draft&, Points& x, double amount) {
   const auto axis = any_axis(random);
   for (auto& p : x) {
@@ -108,7 +108,7 @@ void fold(Random& random, const Draft&, Points& x, double amount) {
   }
 }
 
-// To a plane, a line or a point, exactly.
+// Collapses the mesh to a plane, a line or a point, exactly.
 void collapse(Random& random, const Draft&, Points& x, double) {
   const auto first = any_axis(random);
   const int axes = random.between(1, 4) == 4 ? random.between(2, 3) : 1;
@@ -128,21 +128,21 @@ void jump(Random& random, const Draft&, Points& x, double amount) {
   p = p + 2 * amount * any_vector(random);
 }
 
-// A vertex, alone or with those beside it, through the middle, or through a hole where there is
-// one.
+// Moves a vertex, alone or with those beside it, through the middle of the mesh, or through a hole
+// if there is one.
 void poke(Random& random, const Draft& draft, Points& x, double amount) {
   const Point from = any_of(random, x);
   const Point goal = draft.holes.empty() ? -0.75 * from
                                          : 1.5 * draft.holes[static_cast<std::size_t>(random.below(
                                                      static_cast<int>(draft.holes.size())))];
   const Point by = amount * (goal - from);
-  const double near = random.one_in(2) ? 0 : 0.25;
+  const double squared_reach = random.one_in(2) ? 0 : 0.25;
   for (auto& p : x) {
-    if (dot(p - from, p - from) <= near) p = p + by;
+    if (dot(p - from, p - from) <= squared_reach) p = p + by;
   }
 }
 
-// All on one side of a plane go together.
+// Moves all vertices on one side of a plane together.
 void part(Random& random, const Draft&, Points& x, double amount) {
   const Point normal = any_vector(random), by = amount * any_vector(random);
   for (auto& p : x) {
@@ -150,7 +150,7 @@ void part(Random& random, const Draft&, Points& x, double amount) {
   }
 }
 
-// The second piece goes towards the first, or anywhere.
+// Moves the second piece towards the first, or anywhere.
 void piece(Random& random, const Draft& draft, Points& x, double amount) {
   if (draft.second_piece == 0) return part(random, draft, x, amount);
   const auto second = static_cast<std::size_t>(draft.second_piece);
@@ -181,9 +181,10 @@ constexpr Motion motion_table[] = {
 
 std::span<const Motion> motions() { return motion_table; }
 
-std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too, bool dear_too) {
+std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too,
+                                        bool for_a_small_mesh) {
   const auto weight = [=](const Motion& m) {
-    return (m.exact && !exact_too) || (m.dear && !dear_too) ? 0 : m.weight;
+    return (m.exact && !exact_too) || (m.small_meshes_only && !for_a_small_mesh) ? 0 : m.weight;
   };
   int total = 0;
   for (const auto& m : motion_table) total += weight(m);

@@ -13,8 +13,8 @@ struct Motion {
   // is as large as the mesh, so that most shapes collide.
   void (*move)(Random& random, const Draft& draft, Points& x, double amount);
   int weight;
-  bool exact;  // makes coincidences: for degenerate families only
-  bool dear;   // brings all triangles into contact: for small meshes only
+  bool exact;              // makes coincidences: for degenerate families only
+  bool small_meshes_only;  // brings all triangles into contact: for small meshes only
   // Takes many vertices through one plane or line at the same time, so that all contacts are
   // degenerate. That is wanted in degenerate families only; elsewhere the motion is roughened.
   bool level = false;
@@ -24,7 +24,8 @@ std::span<const Motion> motions();
 
 // Chooses `count` of the motions, each at most once, so that a case is made of few of them (swarm
 // weights).
-std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too, bool dear_too);
+std::vector<const Motion*> some_motions(Random& random, int count, bool exact_too,
+                                        bool for_a_small_mesh);
 
 // Moves every vertex a little aside, by up to amount / 32.
 void roughen(Random& random, Points& x, double amount);

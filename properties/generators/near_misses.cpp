@@ -12,7 +12,7 @@ double tiny(Random& random) {
   return std::ldexp(mantissa, -random.between(20, 45));
 }
 
-// Onto the face but for a tiny offset: at a vertex, on an edge, or inside.
+// A place on the face but for a tiny offset: at a vertex, on an edge, or inside.
 Point beside(Random& random, const Points& x, const Face& f, int kind) {
   const Point &a = at(x, f[0]), &b = at(x, f[1]), &c = at(x, f[2]);
   const Point offset = {tiny(random), tiny(random), tiny(random)};
@@ -25,13 +25,13 @@ Point beside(Random& random, const Points& x, const Face& f, int kind) {
 void put_beside(Random& random, Draft& draft) {
   const Face own = any_of(random, draft.faces), target = any_of(random, draft.faces);
   const std::int32_t v = own[at(random.below(3))];
-  // A target that holds v makes a sliver: v goes to its other edge.
+  // If the target holds v, it becomes a sliver: v goes to the opposite edge.
   const bool sliver = target[0] == v || target[1] == v || target[2] == v;
   Face f = target;
   while (sliver && f[2] != v) f = {f[1], f[2], f[0]};
   const int kind = sliver ? 1 : random.below(3);
   const bool always = random.one_in(4);
-  // Mostly a later frame, so that the start stays clean.
+  // Mostly a later frame is chosen, so that the start stays clean.
   const auto only = draft.frames.size() - 1 - (random.one_in(4) ? 1 : 0);
   for (std::size_t k = 0; k < draft.frames.size(); ++k) {
     Points& x = draft.frames[k];

@@ -9,7 +9,7 @@
 namespace assay::properties {
 namespace {
 
-// The point of frame f's view primitive that is nearest to c.
+// The point of the view primitive in frame f that is nearest to c.
 Point nearest_of_view(const Draft& draft, std::size_t f, const Point& c) {
   if (draft.q1.empty()) return draft.q0[f];
   const Point along = draft.q1[f] - draft.q0[f];
@@ -17,8 +17,9 @@ Point nearest_of_view(const Draft& draft, std::size_t f, const Point& c) {
   return between(draft.q0[f], draft.q1[f], std::clamp(s, 0.0, 1.0));
 }
 
-// A vertex near the view primitive by a factor of 2^-8 to 2^-12, its path a part of a ray. Where
-// the mean of all vertices is the primitive, the vertex pulls the mean along.
+// Moves a vertex towards the view primitive by a factor of 2^-8 to 2^-12, along a ray. If the
+// primitive is the mean of all vertices, the vertex pulls the mean along, which is taken into
+// account.
 void dent(Draft& draft, std::int32_t vertex, double share, std::size_t f) {
   Points& x = draft.frames[f];
   Point& c = at(x, vertex);
@@ -31,12 +32,12 @@ void dent(Draft& draft, std::int32_t vertex, double share, std::size_t f) {
   }
 }
 
-// Three vertices nearly in a plane with the view-point.
+// Puts three vertices nearly into a plane with the view-point.
 void turn_edge_on(const Face& f, double share, Points& x) {
   at(x, f[2]) = between(between(at(x, f[0]), at(x, f[1]), 0.5), at(x, f[2]), share);
 }
 
-// Just below a face, in all frames.
+// Puts the view just below a face, in all frames.
 void view_from_below_surface(Random& random, Draft& draft) {
   const Face f = any_of(random, draft.faces);
   const double depth = std::ldexp(1, -random.between(8, 12));
@@ -70,7 +71,7 @@ void move_positively(Random& random, Draft& draft, int steps) {
   if (kind == 1 && !draft.q0.empty() && draft.q1.empty()) {
     return view_from_below_surface(random, draft);
   }
-  // In every second frame, so that each step has it at one of its ends.
+  // The change is made in every second frame, so that each step has it at one of its ends.
   const Face face = any_of(random, draft.faces);
   const double share = std::ldexp(1, -random.between(8, 12));
   for (auto f = static_cast<std::size_t>(random.below(2)); f < draft.frames.size(); f += 2) {

@@ -12,7 +12,7 @@ Point near_the_middle(Random& random, const Points& x) {
   return between(mean(x), any_of(random, x), share);
 }
 
-// On a face: a vertex, the middle of an edge, or inside.
+// A place on a face: a vertex, the middle of an edge, or inside.
 Point on_face(Random& random, Draft& draft, const Points& x) {
   const Face& f = any_of(random, draft.faces);
   const Point &a = at(x, f[0]), &b = at(x, f[1]), &c = at(x, f[2]);
@@ -29,7 +29,8 @@ Point on_face(Random& random, Draft& draft, const Points& x) {
   }
 }
 
-// The middle of the step's path of a place on a face: the surface passes through it.
+// A place on a face moves along a path in a step. This is the middle of the path, so the surface
+// passes through it.
 Point pierced(Random& random, Draft& draft) {
   const auto k = static_cast<std::size_t>(random.below(static_cast<int>(draft.frames.size()) - 1));
   const Face& f = any_of(random, draft.faces);
@@ -58,7 +59,8 @@ Point place_of_view(Random& random, Draft& draft) {
   }
 }
 
-// The same place in every frame, one that goes with the mesh, or one on its own.
+// The path of the view: the same place in every frame, a place that goes with the mesh, or one
+// that moves on its own.
 std::vector<Point> path_of_view(Random& random, Draft& draft, const Point& q) {
   std::vector<Point> path(draft.frames.size(), q);
   const int kind = random.below(3);
@@ -84,7 +86,7 @@ void choose_view(Random& random, Draft& draft) {
   }
   draft.tag("view:line");
   if (random.one_in(2)) {
-    // Both ends in step: along the shape.
+    // Both ends move alike, and the line lies along the shape.
     const Point from = draft.axis[0], along = draft.axis[1] - draft.axis[0];
     draft.q0 = path_of_view(random, draft, from);
     for (const auto& q : draft.q0) draft.q1.push_back(q + along);

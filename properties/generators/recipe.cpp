@@ -41,7 +41,8 @@ const char* size_class(std::size_t triangles) {
   return "size:101-200";
 }
 
-// Frames by one to three motions, small more often than large; some cases go back as they came.
+// Makes the frames by one to three motions, more often small than large. In some cases the mesh
+// returns on the way it came.
 void move_freely(Random& random, Draft& draft, int steps, const Recipe& recipe) {
   const auto chosen =
       some_motions(random, random.between(1, 3), recipe.exact, draft.faces.size() <= 60);
@@ -83,7 +84,8 @@ Draft any_shape(Random& random, const Recipe& recipe, bool positive, int size) {
   return recipe.closed ? closed_shape(random, size) : open_shape(random, size);
 }
 
-// Coordinates of few bits: a coarse grid makes coincidences, a fine one only keeps aims exact.
+// Rounds coordinates to few bits. A coarse grid makes coincidences, a fine one only keeps aims
+// exact.
 void few_bits(Random& random, Draft& draft) {
   if (random.one_in(3)) {
     round_to_grid(draft, random.between(2, 5), 0);
@@ -120,7 +122,7 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   const bool positive = mode < recipe.positive;
   const bool aimed = !positive && mode < recipe.positive + recipe.aimed;
   const int size = any_size(random, recipe);
-  // What is made to be positive needs no long sequence.
+  // A case that is made to be positive needs no long sequence.
   const int steps = std::min(any_steps(random, size), positive ? 2 : 8);
   Draft draft = any_shape(random, recipe, positive, size);
   if (!positive && random.one_in(12)) {
@@ -136,14 +138,15 @@ GeneratedCase make_by(const Recipe& recipe, Random& random, std::string id) {
   if (recipe.exact && positive) round_to_grid(draft, 1, 14);
   if (aimed) aim(random, draft, recipe.exact);
   if (!positive && draft.q0.empty()) choose_view(random, draft);
-  if (recipe.near) miss_nearly(random, draft);
+  if (recipe.nearly_degenerate) miss_nearly(random, draft);
   if (recipe.far) use_far_menus(random, draft);
   if (random.one_in(2)) shuffle_faces(random, draft);
   draft.tag(recipe.broken ? "broken" : recipe.closed ? "closed" : "unclosed");
   draft.tag(positive ? "mode:positive" : aimed ? "mode:aimed" : "mode:free");
   draft.tag(size_class(draft.faces.size()));
   draft.tag("steps:" + std::to_string(draft.frames.size() - 1));
-  // The response costs judgements: not on meshes where these are slow.
+  // The response asks for judgements of the oracle, so it is left out on meshes where these are
+  // slow.
   const std::size_t most_faces = recipe.far ? 16 : 40;
   const bool responds =
       draft.frames.size() > 2 && draft.faces.size() <= most_faces && random.one_in(3);

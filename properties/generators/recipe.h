@@ -7,9 +7,9 @@ namespace assay::properties {
 
 struct Recipe {
   bool closed = true, broken = false;
-  bool exact = false;  // small integers and dyadics, exact aims and collapses
-  bool near = false;   // ulp neighbours, slivers, aims just missed
-  bool far = false;    // far from the origin, scales, denormals, large steps
+  bool exact = false;              // small integers and dyadics, exact aims and collapses
+  bool nearly_degenerate = false;  // ulp neighbours, slivers, aims just missed
+  bool far = false;                // far from the origin, scales, denormals, large steps
   // Percentages of the cases that are positive by construction, and of those with an aimed
   // contact.
   int positive = 0, aimed = 0;

@@ -41,11 +41,12 @@ class Responder {
   }
 
  private:
-  // The frame after `now_` by the displacement of step k, times s.
+  // Adds the frame that comes after `now_`: the displacement of step k, times s, is applied.
   std::int32_t add_frame(std::size_t k, double s) {
     const Positions& x = made_.frames[static_cast<std::size_t>(now_)];
     Positions next = x + s * (given_.frames[k + 1] - given_.frames[k]);
-    // A step that starts where the given one does, and is not shortened, also ends there.
+    // A step that starts where the given one does, and is not shortened, also has to end there
+    // exactly.
     if (s == 1 && x == given_.frames[k]) next = given_.frames[k + 1];
     made_.frames.push_back(std::move(next));
     if (made_.view) {
@@ -55,7 +56,8 @@ class Responder {
     return static_cast<std::int32_t>(made_.frames.size()) - 1;
   }
 
-  // The view primitive is where the given one is in its own step: it need not go with the mesh.
+  // The view primitive of a step that is not shortened ends where the given one does, because it
+  // need not go with the mesh.
   void add_place(const std::vector<Point>& given, std::vector<Point>& made, std::size_t k,
                  double s) {
     const Point from = made[static_cast<std::size_t>(now_)];
@@ -75,22 +77,24 @@ class Responder {
     made_.script.push_back({now_, whole, false});
     constexpr double shares[] = {1, 0.75, 0.25};
     const double s = below_half(judgement.first.lo) * shares[k % 3];
-    if (s == 0) return;  // in contact from the start: nothing is free, the step is reverted
+    // If the mesh is in contact from the start, no part of the step is free, and the step is
+    // reverted.
+    if (s == 0) return;
     const std::int32_t part = add_frame(k, s);
-    // Rounded positions can touch where exact ones would not.
+    // This is judged again, because rounded positions can touch although the exact ones do not.
     const bool free = is_free(frame(now_), frame(part), made_);
     made_.script.push_back({now_, part, free});
     if (free) now_ = part;
   }
 
-  // The greatest power of two that is at most t / 2; 0 when t is 0.
+  // The greatest power of two that is at most t / 2. It is 0 if t is 0.
   static double below_half(double t) { return t == 0 ? 0 : std::ldexp(1, std::ilogb(t) - 1); }
 
   const Positions& frame(std::int32_t f) const { return made_.frames[static_cast<std::size_t>(f)]; }
 
   const corpus::Case& given_;
   corpus::Case made_;
-  std::int32_t now_ = 0;  // frame that the mesh is in
+  std::int32_t now_ = 0;  // the frame that the mesh is in
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace assay::properties {
 using detector::ViewSign;
 
 const char* name_of(PairBlock block) {
-  constexpr const char* names[kPairBlocks] = {"V+ V-",  "V+ V0", "V- V0", "V0 V0",
+  constexpr const char* names[pair_blocks] = {"V+ V-",  "V+ V0", "V- V0", "V0 V0",
                                               "Vv any", "V+ V+", "V- V-"};
   return names[static_cast<std::size_t>(block)];
 }
@@ -61,7 +61,7 @@ void TagTable::merge(const TagTable& other) {
     own.steps += count.steps;
     own.collisions += count.collisions;
   }
-  for (std::size_t b = 0; b < kPairBlocks; ++b) {
+  for (std::size_t b = 0; b < pair_blocks; ++b) {
     for (std::size_t i = 0; i < 3; ++i) {
       blocks_[b].contacts[i] += other.blocks_[b].contacts[i];
       blocks_[b].first_contacts[i] += other.blocks_[b].first_contacts[i];
@@ -80,7 +80,7 @@ std::string TagTable::text() const {
   fmt::format_to(to, "\n{:<8} {:>32} {:>32}\n{:<8} {:>32} {:>32}\n", "pairs", "contacts",
                  "first contacts", "of", "apart / at a vertex / at an edge",
                  "apart / at a vertex / at an edge");
-  for (std::size_t b = 0; b < kPairBlocks; ++b) {
+  for (std::size_t b = 0; b < pair_blocks; ++b) {
     const auto row = [](const std::array<std::uint64_t, 3>& n) {
       return fmt::format("{} / {} / {}", n[0], n[1], n[2]);
     };

@@ -25,7 +25,7 @@ enum class PairBlock : std::uint8_t {
   positive_positive,
   negative_negative,  // the last two are outside K, unless in two groups
 };
-inline constexpr std::size_t kPairBlocks = 7;
+inline constexpr std::size_t pair_blocks = 7;
 
 const char* name_of(PairBlock block);
 PairBlock block_of(detector::ViewSign a, detector::ViewSign b, bool either_violated);
@@ -57,7 +57,7 @@ class TagTable {
 
  private:
   std::map<std::string, TagCount> tags_;
-  std::array<BlockCount, kPairBlocks> blocks_;
+  std::array<BlockCount, pair_blocks> blocks_;
 };
 
 }  // namespace assay::properties

@@ -24,14 +24,15 @@ const char* name_of(detector::FeatureKind kind) {
 
 namespace {
 
-// How a detector's times are read: `unique` is the enclosure of exact arithmetic, `interval` any
-// interval that holds the time, or misses it by no more than the tolerance.
+// How the times of a detector are read. `unique` says that a time is the enclosure of exact
+// arithmetic. Otherwise it is any interval that holds the time, or misses it by no more than the
+// tolerance.
 struct Times {
   bool unique = false;
   double tolerance = 0;
 
-  // t* of the oracle is its lo when lo == hi, else strictly between two adjacent doubles: an
-  // interval of doubles holds it when it holds both ends.
+  // The t* of the oracle is its lo if lo == hi; else it lies strictly between two adjacent
+  // doubles. In that case an interval of doubles holds t* if it holds both.
   bool begins_after(const TimeEnclosure& ours, const TimeEnclosure& theirs) const {
     return unique ? theirs < ours : ours.lo > theirs.lo + tolerance;
   }
@@ -40,11 +41,11 @@ struct Times {
   }
 };
 
-// The oracle's side that counts under a contract.
+// The part of what the oracle found that counts under a contract.
 struct Truth {
   std::vector<PairContact> pairs;
   bool complete = false;
-  TimeEnclosure first;  // when complete and there are pairs
+  TimeEnclosure first;  // set if `complete` and there are pairs
 };
 
 bool is_earlier(const PairContact& a, const PairContact& b) { return a.time < b.time; }
@@ -84,7 +85,7 @@ class Comparison {
     for (const auto& contact : asked) {
       if (!left_out(contact.pair)) truth_.pairs.push_back(contact);
     }
-    // What is not among these, or is so later.
+    // A contact is left out if it is not among these, or is so only later.
     auto counted = truth_.pairs.begin();
     for (const auto& contact : judgement_.pairs) {
       while (counted != truth_.pairs.end() && counted->pair < contact.pair) ++counted;
@@ -99,9 +100,10 @@ class Comparison {
     diff_.first_contact = *first;
   }
 
-  // What the detector reports and is not there yet, counted or not.
+  // Finds what the detector reports although it is not there, or not there yet. Contacts that the
+  // contract leaves out count as there.
   void compare_with_all() {
-    // An oracle that was stopped has not refuted what it has not reached.
+    // If the oracle was stopped, it has not refuted what it has not reached.
     if (!judgement_.complete) return;
     auto theirs = judgement_.pairs.begin();
     for (const auto& ours : result_.pairs) {
@@ -114,8 +116,8 @@ class Comparison {
     }
   }
 
-  // What counts and the detector does not report, or later. A stopped run may know only later
-  // contacts of a pair than its first.
+  // Finds what counts and the detector does not report, or reports later. A run that was stopped
+  // is left out, because it may know only later contacts of a pair than its first.
   void compare_with_what_counts() {
     if (!detector_complete()) return;
     auto ours = result_.pairs.begin();
@@ -127,7 +129,8 @@ class Comparison {
         diff_.late.push_back({ours->pair, ours->time, theirs.time});
       }
     }
-    // Without all-pairs only the least time is claimed, of the pairs reported and of the step.
+    // Without the claim all-pairs the detector claims only the least time of the step and of the
+    // pairs that it reports.
     if (!claims_.all_pairs) diff_.late.clear();
   }
 
@@ -144,7 +147,7 @@ class Comparison {
   }
 
   void compare_first_times() {
-    // Of a stopped oracle the first time is an upper bound.
+    // If the oracle was stopped, its first time is an upper bound.
     diff_.late_first = times_.begins_after(result_.first, truth_.first);
     if (!truth_.complete) return;
     diff_.early_first = times_.ends_before(result_.first, truth_.first);
@@ -152,14 +155,15 @@ class Comparison {
                    std::max(0., truth_.first.hi - result_.first.hi)};
   }
 
-  // What is left in unexcused_ of the missing pairs breaks first-pairs.
+  // Sorts out the missing pairs that are excused. Those left in unexcused_ break first-pairs.
   void excuse() {
     unexcused_ = diff_.missing;
     std::vector<PairContact> excused;
     if (truth_.complete && !truth_.pairs.empty()) {
       excuse_beside_the_first(truth_.pairs, truth_.first, unexcused_, excused);
     } else if (result_.answer == Answer::collision) {
-      // Of a stopped oracle only what is earlier than the detector's first time is a miss for sure.
+      // If the oracle was stopped, only a pair that is earlier than the detector's first time is
+      // missed for sure.
       const auto later = std::stable_partition(
           unexcused_.begin(), unexcused_.end(), [&](const PairContact& contact) {
             return times_.begins_after(result_.first, contact.time);
@@ -232,7 +236,8 @@ oracle::AskedFeatures asked_features(const Contract& contract) {
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const detector::Options& options) {
   Claims claims = claims_of(options);
-  // Bad input is refused by name, which is an answer that nobody asked for, and no defect.
+  // Bad input is refused by name. That is an answer nobody asked for, but no defect, so total is
+  // not claimed.
   claims.total = false;
   const bool unique_times = options.arithmetic == detector::Arithmetic::exact;
   return Comparison(result, judgement, claims, {}, unique_times).run([](TrianglePair) {

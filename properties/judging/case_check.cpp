@@ -52,7 +52,7 @@ class CaseChecker {
   }
 
  private:
-  void fail(std::string what) { report_.failed.push_back(std::move(what)); }
+  void fail(std::string fact) { report_.failed.push_back(std::move(fact)); }
 
   CaseReport finish() {
     if (!report_.failed.empty() && report_.outcome == Outcome::holds)
@@ -95,17 +95,19 @@ class CaseChecker {
                      found.size(), expected.pairs->size()));
   }
 
-  // The detector's own signs against the oracle, at the primitives that it used.
+  // Compares the detector's own signs with the oracle's, for the primitives that the detector
+  // used.
   void check_signs(const std::string& where, std::size_t s, const detector::StepResult& result) {
     if (result.answer == Answer::error) return;
-    // A step that chose to do without views has none.
+    // A step that chose to do without views has no signs.
     if (detector::chooses_views(options_.culling) && result.signs.empty()) return;
     const auto& mesh = player_->detector().topology();
     for (std::size_t c = 0; c < mesh.components.size(); ++c) {
       for (const auto t : mesh.components[c].triangles) {
         const auto exact = sign_by_oracle(s, t, result.primitives[c]);
         const auto ours = result.signs[static_cast<std::size_t>(t)];
-        // V0 costs time only: what is not certified may be there.
+        // A triangle in V0 costs time only. Arithmetic that does not certify every sign may put
+        // triangles there.
         const bool allowed = exact == ours || (!claims_.no_spurious && ours == ViewSign::zero);
         if (!allowed) {
           fail(fmt::format("{}view sign of triangle {}: detector {}, oracle {}", where, t,
@@ -141,7 +143,7 @@ class CaseChecker {
   int jobs_;
   detector::Options options_;
   Claims claims_;
-  CasePlayer* player_ = nullptr;  // while the case runs
+  CasePlayer* player_ = nullptr;  // set while the case runs
   CaseReport report_;
 };
 

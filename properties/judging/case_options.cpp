@@ -23,7 +23,7 @@ constexpr const char* arithmetics[] = {"exact", "bounded", "double", "float"};
 constexpr const char* releases[] = {"pieces", "model", "view"};
 constexpr const char* ghost_tests[] = {"exact", "boxes"};
 
-// False for a word that is none, and the option stays.
+// Returns false for a word that is none of these, and leaves the option as it is.
 template <class Enum>
 bool set(Enum& option, std::optional<Enum> value) {
   if (value) option = *value;

@@ -51,7 +51,7 @@ class PairOfStep {
   PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, detector::TrianglePair pair)
       : triangles_(triangles), motion_(motion), pair_(pair), faces_{pair.a, pair.b} {}
 
-  // Whose area counts; else both.
+  // Says which faces count for the area. Without this call both triangles count.
   void set_faces(std::vector<std::int32_t> faces) { faces_ = std::move(faces); }
 
   MovingPoint path(std::int32_t vertex) const { return motion_.path(vertex); }
@@ -92,7 +92,7 @@ class PairOfStep {
     return false;
   }
 
-  // What is special about the contact of these two features.
+  // Tells what is special about the contact of these two features.
   CauseShape shape(const PairContact& contact) const {
     if (is_without_area(contact.time)) return CauseShape::without_area;
     const auto& v = contact.feature.vertices;
@@ -150,7 +150,7 @@ Cause cause_of_contact(const PairOfStep& pair, const PairContact& contact) {
   const bool has_shape = contact.feature.kind == FeatureKind::vertex_face ||
                          contact.feature.kind == FeatureKind::edge_edge;
   if (has_shape) cause.shape = pair.shape(contact);
-  // What rests and meets is coplanar anyway.
+  // Features that rest and meet are coplanar anyway, so that says nothing.
   if (!cause.is_moving && cause.shape == CauseShape::coplanar_throughout)
     cause.shape = CauseShape::generic;
   return cause;
@@ -191,7 +191,8 @@ std::string text_of(const Cause& cause) {
 }
 
 int oddity_of(std::string_view signature) {
-  // Numbers first, then what is at rest, then the shape, then the time.
+  // The order goes by the numbers first, then by what is at rest, then by the shape, then by the
+  // time.
   const auto place_of = [&](const auto& words) {
     int place = 0;
     for (std::size_t i = 0; i < std::size(words); ++i) {

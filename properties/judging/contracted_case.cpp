@@ -19,7 +19,8 @@ bool may_start_at(const detector::PositionsView& x, const detector::TrianglesVie
   });
 }
 
-// Of a list with an entry a frame, those of these frames; an empty list stays empty.
+// From a list with an entry for each frame, takes the entries of these frames. An empty list stays
+// empty.
 template <class List>
 List entries_of(const List& list, const std::vector<std::int32_t>& frames) {
   List out;

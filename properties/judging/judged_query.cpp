@@ -14,8 +14,8 @@ oracle::ContactAnswer exact_answer(const FourPoints& q) {
              : oracle::edge_edge_contact({{p[0], p[1]}, {p[2], p[3]}}, detector::Want::first_time);
 }
 
-// Two triangles that are the two features, a point or a segment where these are less: how near the
-// features are is how near the triangles are.
+// Makes two triangles of the two features. Where a feature is a point or a segment, so is its
+// triangle. The triangles are then as near to each other as the features.
 bool start_apart(const FourPoints& q, double distance) {
   const bool is_vertex_face = q.first_group == 1;
   const std::array<std::size_t, 6> corners = is_vertex_face

@@ -10,7 +10,7 @@ namespace assay::properties {
 
 namespace {
 
-// The worse of two.
+// The worse of two outcomes.
 Outcome worse(Outcome a, Outcome b) {
   constexpr Outcome ascending[] = {Outcome::holds, Outcome::undecided, Outcome::error,
                                    Outcome::defect};
@@ -67,7 +67,7 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
                     std::span<const oracle::StepJudgement> judgements, const Claims& claims,
                     const Contract& contract, const CaseRun* again) {
   JudgedRun judged;
-  judged.what = run.what;
+  judged.explanation = run.explanation;
   judged.disturbances = run.disturbances + (again ? again->disturbances : 0);
   switch (run.end) {
     case RunEnd::completed:
@@ -96,7 +96,7 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
   }
   if (!again) return judged;
   if (again->end == RunEnd::crashed && run.end != RunEnd::crashed) {
-    judged.what = again->what;
+    judged.explanation = again->explanation;
     not_answered(judged, claims);
   }
   const auto ended_by_itself = [](const CaseRun& one) {

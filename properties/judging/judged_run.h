@@ -15,7 +15,7 @@ namespace assay::properties {
 struct JudgedRun {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> broken;        // in the order of Claim, each once
-  std::string what;                 // how the run ended, if it did not complete
+  std::string explanation;          // how the run ended, if it did not complete
   std::uint64_t disturbances = 0;   // how often it was killed from outside and repeated
   std::vector<StepDiff> steps;      // only of a completed run
   std::size_t left_out_misses = 0;  // steps that only the contract saves from being a miss

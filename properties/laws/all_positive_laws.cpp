@@ -1,4 +1,4 @@
-// L5: all of S positive and winding number 1, without history.
+// L5: all of S is positive and the winding number is 1, whatever was before.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,14 +38,14 @@ std::string what_is_not_free(CaseFacts& facts, std::size_t s, std::size_t compon
 template <bool closed>
 Observation all_positive_is_free(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
-  bool met = false;
+  bool premise_held = false;
   for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c) {
     if (is_cycle(facts, c) != closed || !facts.is_free_by_view(s, c)) continue;
-    met = true;
+    premise_held = true;
     const std::string wrong = what_is_not_free(facts, s, c);
     if (!wrong.empty()) return fmt::format("component {}: {}", c, wrong);
   }
-  return met ? holds() : not_met();
+  return premise_held ? holds() : not_met();
 }
 
 Observation detector_takes_the_free_path(CaseFacts& facts, std::size_t s) {

@@ -25,8 +25,9 @@ Observation violated_is_what_ghosts_touch(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// What ghosts have touched, since the last new start, up to the end of step s, and was not clean by
-// the oracle at the start of any step since. From the oracle alone.
+// The triangles that ghosts have touched since the last new start, up to the end of step s, and
+// that the oracle did not find clean at the start of any step since. This is computed from the
+// oracle alone.
 TriangleFlags touched_until(CaseFacts& facts, std::size_t s) {
   TriangleFlags held = facts.touched(s);
   const auto p = facts.known_from(s);
@@ -37,7 +38,8 @@ TriangleFlags touched_until(CaseFacts& facts, std::size_t s) {
   return held;
 }
 
-// Both had views, so both had apexes.
+// An apex must not jump between two steps. If both steps had views, both have apexes; otherwise
+// the premise does not hold.
 Observation apexes_go_on(CaseFacts& facts, std::size_t s) {
   const auto& before = facts.known_from(s);
   if (!before) return not_met();

@@ -1,4 +1,4 @@
-// L10: components have views of their own; pairs of two are always candidates.
+// L10: components have views of their own, and a pair of two components is always a candidate.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 using detector::PairContact;
 using detector::ViewSign;
 
-// Whether signs and doubts would leave the pair out of K inside a component.
+// Whether signs and doubts would leave the pair out of K if it were inside one component.
 bool is_left_out_by_signs(CaseFacts& facts, std::size_t s, const detector::TrianglePair& pair) {
   const auto sign = [&](std::int32_t t) { return facts.signs(s)[at(t)]; };
   return !facts.in_doubt(s, pair.a) && !facts.in_doubt(s, pair.b) &&
@@ -23,11 +23,11 @@ bool is_left_out_by_signs(CaseFacts& facts, std::size_t s, const detector::Trian
 Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s)) return not_met();
   const auto& found = facts.result(s).pairs;
-  bool met = false;
+  bool premise_held = false;
   for (const auto& contact : facts.judgement(s).pairs) {
     if (facts.same_component(contact.pair)) continue;
     if (!is_left_out_by_signs(facts, s, contact.pair)) continue;
-    met = true;
+    premise_held = true;
     const auto same = [&](const PairContact& c) {
       return c.pair == contact.pair && c.time == contact.time;
     };
@@ -36,7 +36,7 @@ Observation pairs_of_two_components_need_no_signs(CaseFacts& facts, std::size_t 
                          contact.pair.a, contact.pair.b);
     }
   }
-  return met ? holds() : not_met();
+  return premise_held ? holds() : not_met();
 }
 
 bool boxes_meet(const CaseFacts& facts, std::size_t s) {
@@ -58,7 +58,7 @@ bool boxes_meet(const CaseFacts& facts, std::size_t s) {
   return false;
 }
 
-// The oracle's layers of one component with everything else taken away.
+// The oracle's layers of one component if everything else is taken away.
 oracle::LayerState layers_alone(CaseFacts& facts, std::size_t s, std::size_t component) {
   const auto& surface = facts.surface();
   detector::Triangles own(0, 3), ghosts(0, 3);

@@ -31,7 +31,8 @@ Observation first_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// Only contacts inside a component: pairs of two are all in K, and make nothing dirty (L10).
+// Looks only at contacts inside a component, because pairs of two components are all in K and make
+// nothing dirty (L10).
 Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
   std::vector<PairContact> own;
@@ -48,11 +49,11 @@ Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
     }
     if (!facts.candidates(s).holds(pair)) times_outside.insert(time);
   }
-  bool met = false;
+  bool premise_held = false;
   for (const auto& time : times_outside) {
     for (const auto& part : contact_parts(own, time)) {
       if (!all_outside(part, facts.candidates(s))) continue;
-      met = true;
+      premise_held = true;
       const bool earlier = std::any_of(part.begin(), part.end(), [&](const PairContact& contact) {
         return first_of[at(contact.pair.a)] < time || first_of[at(contact.pair.b)] < time;
       });
@@ -62,7 +63,7 @@ Observation outside_k_something_came_before(CaseFacts& facts, std::size_t s) {
       }
     }
   }
-  return met ? holds() : not_met();
+  return premise_held ? holds() : not_met();
 }
 
 constexpr Law first_contact_law_table[] = {

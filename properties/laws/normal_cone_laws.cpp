@@ -1,5 +1,5 @@
-// L13, L14: patches that face one direction and have a simple contour, and the search that rests on
-// them.
+// L13 and L14: patches that face one direction and have a simple contour, and the search that
+// rests on them.
 #include <fmt/format.h>
 
 #include <set>
@@ -11,7 +11,7 @@
 namespace assay::properties {
 namespace {
 
-// The step is judged, and some patch of two triangles or more is certified.
+// Whether the step is judged and some patch of two triangles or more is certified.
 bool has_certified_patch(CaseFacts& facts, std::size_t s) {
   return facts.is_judged(s) && facts.traditional_scheme() && facts.certified_patches(s).largest > 1;
 }
@@ -30,8 +30,8 @@ Observation certified_patches_are_free(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// More than the claim of all pairs: a pair that is left out may still be found, by a feature that
-// another pair of triangles shares.
+// This asks more than the claim of all pairs, because a pair that the search leaves out may still
+// be found by a feature that another pair of triangles shares.
 Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   if (!has_certified_patch(facts, s) || facts.judgement(s).pairs.empty()) return not_met();
   const auto candidates = facts.traditional_scheme()->candidates({facts.x_t0(s), facts.x_t1(s)});
@@ -43,8 +43,8 @@ Observation every_contact_is_a_candidate(CaseFacts& facts, std::size_t s) {
   return holds();
 }
 
-// The search of a detector, asked for proofs wherever they are not hopeless: the law is about what
-// they leave out, and not about when they pay.
+// The search of a detector, made to ask for proofs wherever they are not hopeless. The law is
+// about what the proofs leave out, and not about when they pay.
 class EagerMeshSearch : public detector::MeshSearch {
  public:
   EagerMeshSearch(const detector::PairSearch& by, std::unique_ptr<detector::MeshSearch> search)
@@ -94,7 +94,7 @@ std::string left_out(const detector::StepResult& result, const oracle::StepJudge
   return {};
 }
 
-// The contacts of L3 and L7 are those of K without N as well.
+// Checks that K without N holds the contacts of L3 and L7 as well.
 void check_what_is_proved(CaseFacts& facts, LawTally& tally) {
   const auto& options = facts.options();
   if (options.culling != detector::Culling::automatic || options.pairs != detector::Pairs::all ||

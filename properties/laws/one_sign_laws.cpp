@@ -1,4 +1,4 @@
-// L4: all triangles of one sign and none in doubt: no contact.
+// L4: if all triangles have one sign and none is in doubt, there is no contact.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,17 +29,17 @@ bool is_all_of(CaseFacts& facts, std::size_t s, std::size_t component, ViewSign 
 template <ViewSign sign, bool (*applies)(const ViewPrimitive&)>
 Observation one_sign_is_collision_free(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s) || !facts.is_judged(s) || !facts.is_trusted(s)) return not_met();
-  bool met = false;
+  bool premise_held = false;
   for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c) {
     if (!applies(facts.result(s).primitives[c]) || !is_all_of(facts, s, c, sign)) continue;
-    met = true;
+    premise_held = true;
     for (const auto t : facts.surface().mesh.components[c].triangles) {
       if (facts.own_contacts(s)[at(t)]) {
         return fmt::format("component {} is of one sign, and triangle {} is in contact", c, t);
       }
     }
   }
-  return met ? holds() : not_met();
+  return premise_held ? holds() : not_met();
 }
 
 constexpr Law one_sign_law_table[] = {

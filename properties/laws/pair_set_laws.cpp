@@ -1,4 +1,4 @@
-// L7, and what the detector claims: pairs and times against the oracle's.
+// L7, and the claims of the detector: its pairs and times are compared with those of the oracle.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +33,8 @@ Observation closure_is_the_pair_set(CaseFacts& facts, std::size_t s) {
                      ours.pairs.size(), theirs.size(), pair.a, pair.b);
 }
 
-// The claims of the built-in detector; a step that the oracle did not finish is not met.
+// Checks one claim of the built-in detector. In a step that the oracle did not finish, the premise
+// does not hold.
 template <Claim claim>
 Observation claim_holds(CaseFacts& facts, std::size_t s) {
   const auto& result = facts.result(s);

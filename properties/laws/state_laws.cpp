@@ -1,4 +1,4 @@
-// L8, L9 and L15: what is clean from step to step, and at a new start.
+// L8, L9 and L15: what is clean from step to step and at a new start.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -108,10 +108,10 @@ Observation new_start_is_the_oracles_layers(CaseFacts& facts, std::size_t s) {
 Observation all_positive_at_the_start_releases(CaseFacts& facts, std::size_t s) {
   if (!facts.has_views(s)) return not_met();
   if (!facts.known_from(s) && facts.options().start == Start::unknown) return not_met();
-  bool met = false;
+  bool premise_held = false;
   for (std::size_t c = 0; c < facts.surface().mesh.components.size(); ++c) {
     if (!is_free_by_view_at_start(facts, s, c)) continue;
-    met = true;
+    premise_held = true;
     for (const auto t : facts.surface().mesh.components[c].triangles) {
       const auto i = at(t);
       if (!facts.layers_at_start(s).clean[i]) return fmt::format("triangle {} is not clean", t);
@@ -120,7 +120,7 @@ Observation all_positive_at_the_start_releases(CaseFacts& facts, std::size_t s) 
       }
     }
   }
-  return met ? holds() : not_met();
+  return premise_held ? holds() : not_met();
 }
 
 constexpr Law state_law_table[] = {

@@ -19,8 +19,8 @@ inline Observation holds_if(bool condition, std::string_view otherwise) {
   return condition ? holds() : Observation(otherwise);
 }
 
-// A law that runs the case again is checked on one case in this many.
-inline constexpr int dear = 16;
+// For a law that runs the case again, which takes long: it is checked on one case in 16.
+inline constexpr int one_case_in_16 = 16;
 
 // Whether the law was close in a step in which its premise held (law.h).
 using IsClose = bool (*)(CaseFacts&, std::size_t);

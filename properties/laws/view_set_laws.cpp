@@ -1,4 +1,4 @@
-// L2: signs over the step. The view sets: disjoint, and together all triangles.
+// L2: the signs over a step. Also that the view sets are disjoint, and together are all triangles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,24 +11,24 @@ namespace {
 
 using detector::ViewSign;
 
-// Signs of triangles from `begin` to `end` of the surface, of components whose primitive is a
-// point, or is not.
+// Compares the signs of the triangles from `begin` to `end` of the surface. It looks only at
+// components whose primitive is a point, or only at those whose primitive is not.
 Observation compare_signs(CaseFacts& facts, std::size_t s, std::size_t begin, std::size_t end,
                           bool point) {
   if (!facts.has_views(s)) return not_met();
   const auto& result = facts.result(s);
-  bool met = false;
+  bool premise_held = false;
   for (std::size_t t = begin; t < end; ++t) {
     const auto c = facts.surface().all().component_of_triangle[t];
     if (result.primitives[at(c)].is_point() != point) continue;
-    met = true;
+    premise_held = true;
     const auto exact = facts.signs(s)[t];
     if (result.signs[t] != exact) {
       return fmt::format("triangle {}: detector {}, oracle {}", t,
                          static_cast<int>(result.signs[t]), static_cast<int>(exact));
     }
   }
-  return met ? holds() : not_met();
+  return premise_held ? holds() : not_met();
 }
 
 template <bool point>

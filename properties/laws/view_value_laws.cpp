@@ -1,4 +1,4 @@
-// L1: the view function of a triangle is the clamp form, and its extremes are at the corners.
+// L1: the view function of a triangle is the clamp form, and it takes its extremes at the corners.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace {
 
 using detector::ViewSign;
 
-// Some triangles of the surface at some times, the same ones whenever the case is looked at.
+// Looks at some triangles of the surface at some times. They are the same ones whenever the case
+// is looked at.
 template <class Look>
 Observation each_sample(CaseFacts& facts, std::size_t s, Look look) {
   if (!facts.has_views(s)) return not_met();
@@ -70,7 +71,8 @@ Observation inner_values_lie_between_corners(CaseFacts& facts, std::size_t s) {
   });
 }
 
-// Signs are of the detector: this ties what it says to the function that L1 speaks of.
+// The signs come from the detector. So this law ties what the detector says to the function that
+// L1 speaks of.
 Observation signs_hold_inside(CaseFacts& facts, std::size_t s) {
   return each_sample(
       facts, s, [](const ExactView& view, ViewSign sign, Random& random) -> std::string {

@@ -16,12 +16,12 @@ constexpr int least_exponent = -1074, greatest_exponent = 1020;
 
 int any_exponent(Random& random) { return random.between(least_exponent, greatest_exponent); }
 
-// In [-1, 1), 53 bits.
+// A number in [-1, 1) with 53 bits.
 double full_mantissa(Random& random) {
   return std::ldexp(static_cast<double>(random.next() >> 11), -52) - 1;
 }
 
-// What a query draws its coordinates from.
+// The source from which a query draws its coordinates.
 class ExtremeNumbers {
  public:
   explicit ExtremeNumbers(Random& random) : random_(random), kind_(random.below(7)) {
@@ -56,7 +56,7 @@ class ExtremeNumbers {
   std::array<int, 3> scales_;
 };
 
-// Points that coincide, stay, move alike; all in a plane or on a line.
+// Makes points coincide, stay or move alike, or lie all in a plane or on a line.
 void degenerate(Random& random, std::span<MovingPoint> points) {
   const auto any = [&]() -> MovingPoint& {
     return points[static_cast<std::size_t>(random.below(static_cast<int>(points.size())))];
@@ -68,7 +68,8 @@ void degenerate(Random& random, std::span<MovingPoint> points) {
     MovingPoint& still = any();
     still.t1 = still.t0;
   }
-  // 0: nothing; 1: a coordinate vanishes; 2: it is another one, too; 3: only one is left.
+  // 0 changes nothing; 1 lets a coordinate vanish; 2 gives it the value of the next one; 3 leaves
+  // only one coordinate.
   const int shape = std::max(0, random.below(8) - 4);
   const auto k = static_cast<std::size_t>(random.below(3));
   for (MovingPoint& p : points) {
@@ -80,8 +81,8 @@ void degenerate(Random& random, std::span<MovingPoint> points) {
   }
 }
 
-// p = (0,-a,0) -> (0,0,-e) and (0,0,0), (0,0,-c) -> 0, 0 -> (0,-e,0): coplanar throughout; the
-// dependencies have roots at 1 - e/a and 1 - e/c.
+// p = (0,-a,0) -> (0,0,-e) and (0,0,0), (0,0,-c) -> 0, 0 -> (0,-e,0). These points are coplanar
+// throughout, and the dependencies have roots at 1 - e/a and 1 - e/c.
 void roots_next_to_one(Random& random, std::span<MovingPoint> points) {
   const auto power = [&](int lo, int hi) { return std::ldexp(1, random.between(lo, hi)); };
   const double a = power(0, greatest_exponent), c = a * random.between(1, 9);

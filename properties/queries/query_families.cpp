@@ -12,8 +12,8 @@
 namespace assay::properties {
 namespace {
 
-// The place of a query in its generator's sequence is drawn too: even and odd ones are of the two
-// kinds.
+// The place of a query in its generator's sequence is drawn too, because even and odd places are
+// of the two kinds.
 template <std::size_t generator>
 GeneratedCase make_query(Random& random, std::string id) {
   const std::uint64_t seed = random.next();

@@ -18,7 +18,7 @@ Query empty_query(std::uint64_t index) {
   return q;
 }
 
-// Calls change(coordinate) on all 24, in a fixed order.
+// Calls change(coordinate) for all 24 coordinates, in a fixed order.
 template <class Change>
 void for_each_coordinate(Query& q, const Change& change) {
   for (MovingPoint& p : q.points) {
@@ -33,7 +33,7 @@ double& any_coordinate(Random& random, Query& q) {
   return end[static_cast<std::size_t>(random.below(3))];
 }
 
-// In [-1, 1), multiples of 2^-52.
+// A multiple of 2^-52 in [-1, 1).
 double unit(Random& random) {
   return std::ldexp(static_cast<double>(random.next() >> 11), -52) - 1;
 }
@@ -44,7 +44,7 @@ Point integer_point(Random& random, int reach) {
   return p;
 }
 
-// Planar and collinear worlds in any direction: p becomes its shadow in one.
+// Makes planar and collinear worlds in any direction: it replaces p by its shadow in one.
 Point flattened(const Point& p, int dimensions, const std::array<Point, 2>& directions) {
   if (dimensions == 3) return p;
   Point shadow = {0, 0, 0};
@@ -54,8 +54,8 @@ Point flattened(const Point& p, int dimensions, const std::array<Point, 2>& dire
   return shadow;
 }
 
-// Integers within 1..4; a fifth of the queries planar, a tenth on one line; all motions from none
-// to every point on its own.
+// Small integers, within a reach of 1 to 4. A fifth of the queries is planar and a tenth lies on
+// one line. The motions range from none to every point moving on its own.
 Query small_integers(Random& random, std::uint64_t index) {
   Query q = empty_query(index);
   const int reach = random.between(1, 4);
@@ -88,12 +88,12 @@ GeneratedQuery small_int(std::uint64_t seed, std::uint64_t index) {
   return {small_integers(random, index), {}};
 }
 
-// Meets at a dyadic time: hulls drawn through one point there, velocities free. Everything is a
-// small dyadic, so the contact is exact.
+// Constructs a contact at a dyadic time: the two hulls are drawn through one point there, and the
+// velocities are free. All numbers are small dyadics, so the contact is exact.
 GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = empty_query(index);
-  constexpr int kReach = 4, kFaster = 8;
+  constexpr int integer_reach = 4, fastest = 8;
   const double time = random.between(0, 8) / 8.0;
   auto weights = [&](std::size_t count) {
     std::array<double, 3> w = {1, 0, 0};
@@ -106,8 +106,8 @@ GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
   };
   const auto first_group = static_cast<std::size_t>(q.first_group);
   std::array<Point, 4> at;
-  for (Point& p : at) p = integer_point(random, kReach);
-  // Moves the first group as a whole until its weighted point is that of the second.
+  for (Point& p : at) p = integer_point(random, integer_reach);
+  // Moves the first group as a whole until its weighted point is that of the second group.
   const auto w1 = weights(first_group), w2 = weights(4 - first_group);
   for (std::size_t k = 0; k < 3; ++k) {
     double gap = 0;
@@ -117,7 +117,7 @@ GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
     for (std::size_t i = 0; i < first_group; ++i) at[i][k] += gap;
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    const Point velocity = integer_point(random, kFaster);
+    const Point velocity = integer_point(random, fastest);
     for (std::size_t k = 0; k < 3; ++k) {
       q.points[i].t0[k] = at[i][k] - time * velocity[k];
       q.points[i].t1[k] = at[i][k] + (1 - time) * velocity[k];
@@ -126,15 +126,15 @@ GeneratedQuery constructed(std::uint64_t seed, std::uint64_t index) {
   return {q, time};
 }
 
-// One to three coordinates of an exact contact or a small-integer query go to a neighbouring
-// double; beside 0 one unit of the last place of 1.
+// Changes one to three coordinates of an exact contact or a small-integer query to a neighbouring
+// double. A coordinate 0 is changed by one unit of the last place of 1.
 GeneratedQuery ulp_neighbours(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   Query q = random.below(2) == 0 ? constructed(seed, index).query : small_integers(random, index);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (int changes = random.between(1, 3); changes > 0; --changes) {
     double& c = any_coordinate(random, q);
-    const double towards = random.below(2) == 0 ? kInfinity : -kInfinity;
+    const double towards = random.below(2) == 0 ? infinity : -infinity;
     c = c == 0 ? std::copysign(std::numeric_limits<double>::epsilon(), towards)
                : std::nextafter(c, towards);
   }
@@ -145,7 +145,8 @@ GeneratedQuery far_from_origin(std::uint64_t seed, std::uint64_t index) {
   Random random(~seed, index);
   GeneratedQuery made = random.below(2) == 0 ? constructed(seed, index)
                                              : GeneratedQuery{small_integers(random, index), {}};
-  // Up to 2^50 integers stay exact; the eighths and less of a constructed contact may be rounded.
+  // Up to 2^50 integers stay exact. The eighths and smaller parts of a constructed contact may be
+  // rounded.
   std::array<double, 3> offset;
   for (double& c : offset) {
     c = std::ldexp(random.below(2) == 0 ? 1 : -1, random.between(30, 50)) + random.below(1000);
@@ -164,12 +165,12 @@ GeneratedQuery mixed_scales(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = small_integers(random, index);
   const bool by_point = random.below(2) == 0;
-  constexpr int kExponent = 30;
+  constexpr int exponent_reach = 30;
   for (MovingPoint& p : q.points) {
-    const int of_point = random.between(-kExponent, kExponent);
+    const int of_point = random.between(-exponent_reach, exponent_reach);
     for (Point* end : {&p.t0, &p.t1}) {
       for (double& c : *end) {
-        c = std::ldexp(c, by_point ? of_point : random.between(-kExponent, kExponent));
+        c = std::ldexp(c, by_point ? of_point : random.between(-exponent_reach, exponent_reach));
       }
     }
   }
@@ -186,18 +187,18 @@ GeneratedQuery dyadics(std::uint64_t seed, std::uint64_t index) {
   return {q, {}};
 }
 
-// The smallest numbers: alone, or among small integers.
+// Makes the smallest numbers, alone or among small integers.
 GeneratedQuery denormals(std::uint64_t seed, std::uint64_t index) {
   Random random(seed, index);
   Query q = small_integers(random, index);
-  constexpr int kLeastExponent = -1074;
+  constexpr int subnormal_exponent = -1074;
   const int kind = random.below(3);
   if (kind == 0) {
-    for_each_coordinate(q, [](double& c) { c = std::ldexp(c, kLeastExponent); });
+    for_each_coordinate(q, [](double& c) { c = std::ldexp(c, subnormal_exponent); });
   } else {
     for (int changes = kind == 1 ? 1 : random.between(2, 8); changes > 0; --changes) {
       double& c = any_coordinate(random, q);
-      c = std::ldexp(random.between(-3, 3), kLeastExponent);
+      c = std::ldexp(random.between(-3, 3), subnormal_exponent);
     }
   }
   return {q, {}};

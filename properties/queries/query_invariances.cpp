@@ -57,7 +57,7 @@ Broken axes(const Query& query, const ContactAnswer& answer, std::uint64_t pick)
   return compare_answers(q, answer);
 }
 
-// Changes every coordinate; false when one change is not exact.
+// Changes every coordinate. Returns false if one change is not exact.
 template <class Change>
 bool change_exactly(Query& q, const Change& change) {
   for (MovingPoint& p : q.points) {
@@ -84,7 +84,8 @@ Broken powers_of_two(const Query& query, const ContactAnswer& answer, std::uint6
   return compare_answers(q, answer);
 }
 
-// Whether a + b is a double, which `sum` then is (Knuth's TwoSum: its error term is exact).
+// Whether a + b is a double; then `sum` is it. This is the TwoSum of Knuth, whose error term is
+// exact.
 bool adds_exactly(double a, double b, double& sum) {
   sum = a + b;
   if (!std::isfinite(sum)) return false;
@@ -111,16 +112,18 @@ Broken time_reversed(const Query& query, const ContactAnswer& answer, std::uint6
   for (MovingPoint& p : q.points) std::swap(p.t0, p.t1);
   const ContactAnswer back = ask_oracle(q, Want::first_time);
   if (back.contact != answer.contact) return "another answer";
-  // The reversed first time is 1 - (last time), and the last is not before the first.
+  // The first time of the reversed query is 1 - (last time), and the last time is not before the
+  // first.
   if (back.contact && answer.first.lo + back.first.lo > 1) return "last contact before the first";
   return "";
 }
 
-// A time t of the second half, 2 t - 1 there: exact for doubles t in [1/2, 1].
+// A time t of the second half is 2 t - 1 in the half, which is exact for doubles t in [1/2, 1].
 bool same_in_second_half(const TimeEnclosure& whole, const TimeEnclosure& half) {
   const double lo = 2 * whole.lo - 1, hi = 2 * whole.hi - 1;
   if (whole.lo == whole.hi) return half.lo == lo && half.hi == lo;
-  // Strictly between, so its enclosure there, which is finer, lies within.
+  // The time lies strictly between two doubles. The enclosure in the half is finer, so it lies
+  // within.
   return lo <= half.lo && half.hi <= hi;
 }
 
@@ -140,9 +143,9 @@ Broken halves(const Query& query, const ContactAnswer& answer, std::uint64_t) {
   if (late.contact != answer.contact) return "the halves answer otherwise";
   if (!answer.contact) return "";
   if (early.contact) {
-    constexpr double kDoublingIsExact = 0x1p-1000;
+    constexpr double doubling_is_exact_from = 0x1p-1000;
     const TimeEnclosure& t = answer.first;
-    if (t.lo < kDoublingIsExact && t.lo != t.hi) return "";
+    if (t.lo < doubling_is_exact_from && t.lo != t.hi) return "";
     if (early.first.lo != 2 * t.lo || early.first.hi != 2 * t.hi) {
       return "another time in the first half";
     }

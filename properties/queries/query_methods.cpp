@@ -43,7 +43,8 @@ MethodAnswer detector_integers(const Query& query) {
   return {detector::Decision::yes, exact.time};
 }
 
-// Small: what is not settled soon is mostly a touch, which no amount of work settles.
+// The limits are small, because a query that is not settled soon is mostly a touch, which no
+// amount of work settles.
 constexpr oracle::RefereeOptions referee_options = {60, 100};
 
 MethodAnswer second_referee(const Query& query) {

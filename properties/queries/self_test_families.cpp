@@ -53,7 +53,7 @@ class RungFamily final : public SelfTestFamily {
 
 class WorldFamily final : public SelfTestFamily {
  public:
-  // The world is left out when fewer than `from` queries are asked for.
+  // The world is left out if fewer than `from` queries are asked for.
   WorldFamily(std::string name, std::string about, const SmallWorld& world, std::uint64_t from)
       : SelfTestFamily(std::move(name), std::move(about)), world_(world), from_(from) {}
   std::uint64_t indices(std::uint64_t queries) const override {
@@ -109,7 +109,8 @@ class RandomFamily final : public SelfTestFamily {
   QueryGenerator generator_;
 };
 
-// Whole steps of small meshes: features, spreading, piercing. The detector tests every pair.
+// Whole steps of small meshes. They exercise features, spreading and piercing, which single
+// queries do not. The detector tests every pair.
 class StepFamily final : public SelfTestFamily {
  public:
   StepFamily() : SelfTestFamily("steps", "pair sets of small meshes, detector without culling") {}

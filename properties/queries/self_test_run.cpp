@@ -12,10 +12,10 @@
 namespace assay::properties {
 namespace {
 
-constexpr std::uint64_t kChunk = 64;  // indices that a thread takes at once
-constexpr std::size_t kFailuresKept = 5;
+constexpr std::uint64_t indices_at_once = 64;  // indices that a thread takes at once
+constexpr std::size_t failures_kept = 5;
 
-// What the threads of one family share.
+// The state that the threads of one family share.
 class Run {
  public:
   Run(const SelfTestFamily& family, const SelfTestOptions& options,
@@ -27,10 +27,10 @@ class Run {
 
   void work() {
     while (!stopped_) {
-      const std::uint64_t begin = next_.fetch_add(kChunk);
+      const std::uint64_t begin = next_.fetch_add(indices_at_once);
       if (begin >= end_) return;
       FamilyResult found;
-      const std::uint64_t end = std::min(begin + kChunk, end_);
+      const std::uint64_t end = std::min(begin + indices_at_once, end_);
       std::uint64_t index = begin;
       for (; index < end && !stopped_; ++index) {
         if (options_.stop && options_.stop()) {
@@ -59,7 +59,7 @@ class Run {
     std::move(found.failures.begin(), found.failures.end(), std::back_inserter(kept));
     std::sort(kept.begin(), kept.end(),
               [](const auto& a, const auto& b) { return a.index < b.index; });
-    if (kept.size() > kFailuresKept) kept.resize(kFailuresKept);
+    if (kept.size() > failures_kept) kept.resize(failures_kept);
     done_ += done;
     if (progress_) progress_(done_);
   }

@@ -21,7 +21,7 @@ struct SelfTestOptions {
 
 struct SelfTestFailure {
   std::uint64_t index = 0;
-  std::string what;
+  std::string contradiction;
 };
 
 struct FamilyResult {

@@ -12,7 +12,8 @@ namespace {
 using Path = std::array<int, 2>;
 using FourPaths = std::array<Path, 4>;
 
-// The least arrangement of a query's points: sorted within each group, the lesser edge first.
+// The least arrangement of the points of a query: they are sorted within each group, and the
+// lesser edge stands first.
 FourPaths sorted(FourPaths p, int first_group) {
   std::sort(p.begin() + first_group, p.end());
   if (first_group == 2) {
@@ -36,7 +37,8 @@ SmallWorld::SmallWorld(int side, int dimensions, WorldMotion motion)
 
 std::uint64_t SmallWorld::places() const {
   const auto n = static_cast<std::uint64_t>(grid_points_);
-  // Two kinds with four paths; or three movers (vertex, corner, edge's end), four points, one end.
+  // If every point moves, there are two kinds of queries with four paths each. Otherwise there are
+  // three kinds of movers (vertex, corner, end of an edge), four points, and one end of the path.
   return motion_ == WorldMotion::every_point_moves ? 2 * n * n * n * n * n * n * n * n
                                                    : 3 * n * n * n * n * n;
 }
@@ -60,12 +62,13 @@ std::optional<SmallWorld::Arranged> SmallWorld::arranged_at(std::uint64_t place)
   query.first_group = mover == 2 ? 2 : 1;
   Path& moved = query.paths[mover == 1 ? 1 : 0];
   query.mover_first = end != moved[0];
-  if (mover == 1 && !query.mover_first) return {};  // at rest: stands with the vertex's
+  if (mover == 1 && !query.mover_first) return {};  // at rest: it is counted where the vertex moves
   moved[1] = end;
   return query;
 }
 
-// With a mover each arrangement of the other points is one place, so only they need be in order.
+// If one point moves, each arrangement of the other points is one place, so only these need to be
+// in order.
 bool SmallWorld::is_least_of_its_class(const Arranged& query) const {
   const FourPaths& p = query.paths;
   const bool corner_moves = p[1][0] != p[1][1];

@@ -35,12 +35,12 @@ Corners sorted(Corners corners) {
   return corners;
 }
 
-// +1 when the corners are an even permutation of their ascending order.
+// +1 if the corners are an even permutation of their ascending order, else -1.
 int orientation(const Corners& c) {
   return ((c[0] < c[1]) + (c[1] < c[2]) + (c[2] < c[0])) == 2 ? 1 : -1;
 }
 
-// The mesh `triangles` over the vertices of c, then without those that no triangle has.
+// Makes the mesh `triangles` over the vertices of c, and drops the vertices that no triangle has.
 Case rebuilt(const Case& c, const std::vector<Corners>& triangles,
              const std::vector<std::int32_t>& target) {
   Case result;
@@ -174,7 +174,7 @@ Case close_loops(const Case& c, std::size_t corner) {
   for (const auto& loop : oracle::boundary_loops(c.triangles)) {
     const auto n = loop.size();
     const auto at = [&](std::size_t i) { return loop[(corner + i) % n]; };
-    // The loop runs along the mesh's own edges (u,v); the fan has them as (v,u).
+    // The loop runs along the edges (u,v) of the mesh itself, so the fan has them as (v,u).
     for (std::size_t i = 1; i + 1 < n; ++i) {
       const Corners fan = {at(0), at(i + 1), at(i)};
       if (fan[0] == fan[1] || fan[1] == fan[2] || fan[2] == fan[0]) continue;

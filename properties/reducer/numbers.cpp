@@ -13,7 +13,7 @@
 namespace assay::properties {
 namespace {
 
-// place(frame, axis) is the address of a coordinate.
+// place(frame, axis) gives the address of a coordinate.
 template <class Place>
 void append_groups(std::vector<NumberGroup>& groups, std::size_t frames, Place place) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -107,7 +107,7 @@ std::vector<double> simpler_values(double value) {
 
   const auto cost = number_cost(value);
   std::erase_if(values, [&](double v) { return number_cost(v) >= cost; });
-  // Shorter first; among equals the order above.
+  // Shorter numbers come first. Among equals the order above stays.
   std::stable_sort(values.begin(), values.end(),
                    [](double a, double b) { return number_cost(a) < number_cost(b); });
   values.erase(std::unique(values.begin(), values.end()), values.end());

@@ -6,7 +6,7 @@
 namespace assay::properties {
 namespace {
 
-// Once through a list; whether anything became smaller.
+// Runs each pass of a list once. Returns whether anything became smaller.
 bool run(std::span<const Pass> passes, ReductionSearch& search) {
   const MeshSize before = search.size();
   for (const Pass& pass : passes) {
@@ -23,14 +23,16 @@ bool run_to_fixed_point(std::span<const Pass> passes, ReductionSearch& search) {
   return any;
 }
 
-// Where there are few numbers, simple ones help the passes that shorten; where there are many, the
-// mesh is stuck at a large size and they would take all the time.
+// Whether a case has few numbers. If it does, simple numbers help the passes that shorten. If it
+// has many, the mesh is stuck at a large size, and simplifying the numbers would take all the
+// time.
 bool has_few_numbers(const ReductionSearch& search) {
   constexpr std::size_t few = 300;
   return 3 * search.size().vertices * search.size().frames <= few;
 }
 
-// After a pass of a later list has found something, the earlier lists may again: from the start.
+// If a pass of a later list made the case smaller, the earlier lists may succeed again, so they
+// are run from the start.
 void run_all(ReductionSearch& search) {
   bool smaller = true;
   while (smaller) {
@@ -55,7 +57,7 @@ Reduction reduce(const corpus::Case& failing, const Judge& judge, const ReduceLi
                  const OnBetter& on_better, const MakeViewExplicit& make_view_explicit) {
   ReductionSearch search(failing, judge, limits, on_better);
   if (search.found()) {
-    // Steps first: a view is made explicit for each of those that remain.
+    // Steps are dropped first, because a view is made explicit for each step that remains.
     search.begin_pass("drop later steps");
     drop_later_steps(search);
     if (make_view_explicit && !search.best().view) {

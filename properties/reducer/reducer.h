@@ -22,8 +22,8 @@ struct Finding {
   std::string signature;
   // Triangles of the reported pair, if any: what is far from them is tried first.
   std::vector<std::int32_t> focus;
-  std::size_t step = 0;   // the step that shows it: those behind it are dropped
-  std::string what = {};  // one line for people, of this case
+  std::size_t step = 0;          // the step that shows it: those behind it are dropped
+  std::string explanation = {};  // one line for people, of this case
 };
 
 // Runs a case: nothing when it holds. Must be deterministic.

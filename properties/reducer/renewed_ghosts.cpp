@@ -12,7 +12,8 @@ corpus::CaseGhosts renewed_ghosts(const corpus::Case& before, const detector::Tr
                                   const std::vector<std::int32_t>& target) {
   const auto& old = *before.ghosts;
   const auto vertices = static_cast<std::int32_t>(before.frames.front().rows());
-  std::map<std::int32_t, std::int32_t> apex_at;  // by loop vertex; the first ghost that has it
+  // The apex by loop vertex, taken from the first ghost that has the vertex.
+  std::map<std::int32_t, std::int32_t> apex_at;
   for (Eigen::Index g = 0; g < old.triangles.rows(); ++g) {
     std::int32_t apex = -1;
     for (int i = 0; i < 3; ++i) {

@@ -9,8 +9,8 @@ namespace {
 
 using corpus::Case;
 
-// 64 bits over all that a pass may change. Two of a million contents are taken for one another with
-// a chance of 3e-8; the price is a proposal not judged.
+// A hash of 64 bits over everything that a pass may change. Among a million contents two are taken
+// for one another with a chance of 3e-8. The price is that one proposal is not judged.
 class ContentHash {
  public:
   void add(std::uint64_t word) {

@@ -8,8 +8,9 @@ namespace {
 
 using Corners = std::array<std::int32_t, 3>;
 
-// Lowest corner first in each triangle, triangles ascending; of the two orientations the one whose
-// triangle with the corners of the lowest has the second corner before the third.
+// Brings a mesh into its canonical form: each triangle begins with its lowest corner, and the
+// triangles ascend. Of the two orientations it takes the one in which the first triangle has its
+// second corner before the third.
 SphereMesh canonical(SphereMesh mesh) {
   const auto sort = [](SphereMesh& m) {
     for (Corners& corners : m) {
@@ -23,7 +24,7 @@ SphereMesh canonical(SphereMesh mesh) {
   return std::min(mesh, other);
 }
 
-// A double pyramid: n-2 vertices around, the last two at the tips.
+// A double pyramid: n-2 vertices around the middle, and the last two at the tips.
 SphereMesh bipyramid(int vertices) {
   SphereMesh mesh;
   const std::int32_t around = vertices - 2;

@@ -17,11 +17,11 @@ const char* name_of(RunEnd end) {
   return word_of({"completed", "crashed", "hung", "refused", "out of memory", "not run"}, end);
 }
 
-void note_error(CaseRun& run, std::size_t s, const std::string& what) {
+void note_error(CaseRun& run, std::size_t s, const std::string& text) {
   run.errors.resize(std::max(run.errors.size(), s + 1));
   auto& error = run.errors[s];
-  error = (error.empty() ? "step " + std::to_string(s + 1) + ": " : error + "; ") + what;
-  if (run.what.empty()) run.what = error;
+  error = (error.empty() ? "step " + std::to_string(s + 1) + ": " : error + "; ") + text;
+  if (run.explanation.empty()) run.explanation = error;
 }
 
 std::string error_of(const CaseRun& run, std::size_t s) {
@@ -46,7 +46,7 @@ StepResult run_step(CasePlayer& player, std::size_t s) try {
   return undecided;
 }
 
-// Counters are plain numbers without gaps between them.
+// The counters are plain numbers without gaps between them, so they can be compared byte by byte.
 static_assert(std::has_unique_object_representations_v<detector::StepCounts>);
 
 bool same_primitive(const detector::ViewPrimitive& a, const detector::ViewPrimitive& b) {
@@ -88,7 +88,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
     clock.answered();
     const auto& result = run.steps.back();
     if (result.problem) note_error(run, s, result.problem->message);
-    // Nothing but the want of memory ends a step here without an answer.
+    // Only lack of memory ends a step here without an answer.
     if (result.answer == detector::Answer::undecided) note_error(run, s, "out of memory");
   }
   run.times = clock.take();
@@ -98,7 +98,7 @@ CaseRun run_case(const corpus::Case& c, const Configuration& configuration) try 
 }
 
 bool same_answers(const CaseRun& a, const CaseRun& b) {
-  return a.end == b.end && a.what == b.what && a.has_answers == b.has_answers &&
+  return a.end == b.end && a.explanation == b.explanation && a.has_answers == b.has_answers &&
          a.errors == b.errors && a.candidates == b.candidates &&
          std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(), same_result);
 }

@@ -48,8 +48,8 @@ using CandidatePairs = std::optional<std::vector<detector::TrianglePair>>;
 
 struct CaseRun {
   RunEnd end = RunEnd::completed;
-  // One line: the signal, the refusal, or the first error that was noted. Empty if nothing is wrong.
-  std::string what;
+  // One line: the signal, the refusal, or the first step's error. Empty if nothing is wrong.
+  std::string explanation;
   // One result for each step of the case if the run completed, else none. If a plug-in does not
   // state the time of a pair, or the first time, it is [0, 1].
   std::vector<detector::StepResult> steps;
@@ -84,8 +84,8 @@ struct CaseRun {
 // is undecided.
 CaseRun run_case(const corpus::Case& c, const Configuration& configuration);
 
-// Adds the text to the errors of step s, and makes it `what` if that is still empty.
-void note_error(CaseRun& run, std::size_t s, const std::string& what);
+// Adds the text to the errors of step s, and makes it `explanation` if that is still empty.
+void note_error(CaseRun& run, std::size_t s, const std::string& text);
 // Why step s has no answer; empty if nothing is said about it.
 std::string error_of(const CaseRun& run, std::size_t s);
 

@@ -103,7 +103,7 @@ ChildEnd ChildProcess::finish(std::chrono::milliseconds patience) {
   }
   int status = 0;
   if (id_ >= 0) {
-    // As long as its leader was not waited for, the group's number is not used again.
+    // The number of the group is not used again as long as nobody has waited for its leader.
     if (state_of(id_) != State::not_ours) ::kill(-id_, SIGKILL);
     while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
     }

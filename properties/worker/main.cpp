@@ -1,5 +1,5 @@
-// assay-worker: runs detectors on the cases that its host sends, until the host closes the channel.
-// Holds the built-in detector and, with a library named, a plug-in; never the oracle.
+// assay-worker runs detectors on the cases that its host sends, until the host closes the channel.
+// It holds the built-in detector and, if a library is named, a plug-in. It never holds the oracle.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -35,12 +35,12 @@ std::optional<std::uint64_t> number(std::string_view word) {
   return value;
 }
 
-// Dies with its host, and before it where memory is short; leaves no core file, prints nothing on
-// stdout; what it prints on a terminal does not stop it, though its process group is in the
-// background there.
+// Settles how this process lives and dies. It dies with its host, and before its host if memory is
+// short. It leaves no core file and prints nothing on stdout. It is not stopped when it prints on
+// a terminal, although its process group is in the background there.
 bool settle(std::uint64_t host) {
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
-  // The host may have died before that took hold.
+  // The host may have died before this took effect.
   if (static_cast<std::uint64_t>(::getppid()) != host) return false;
   ::signal(SIGTTOU, SIG_IGN);
   const rlimit no_core = {0, 0};
@@ -52,7 +52,7 @@ bool settle(std::uint64_t host) {
 struct LoadedPlugin {
   const char* library;
   std::uint32_t threads = 1;
-  std::string called;  // by the user
+  std::string called;  // as the user calls it
 };
 
 int serve(Channel channel, const LoadedPlugin* library) {
@@ -94,7 +94,7 @@ int serve(Channel channel, const LoadedPlugin* library) {
       }
     }
   } catch (const std::bad_alloc&) {
-    // The host goes on with a new worker.
+    // The host continues with a new worker.
     reply.run = out_of_memory();
     channel.send(encode(reply));
   }
@@ -103,9 +103,10 @@ int serve(Channel channel, const LoadedPlugin* library) {
 
 }  // namespace
 
-// Arguments: the channel's descriptor, the host's process, a limit in bytes; for a plug-in the
-// isolation, its scratch folder, the library, how many threads it may use, and what it serves where
-// it is shipped to serve a detector in Python.
+// The arguments are the descriptor of the channel, the process of the host and a limit in bytes.
+// For a plug-in these follow: the isolation, its scratch folder, the library, and how many threads
+// it may use. If it is the plug-in that serves detectors in Python, the word of the detector
+// follows too.
 int main(int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
   constexpr std::size_t built_in = 4, with_plugin = 9;

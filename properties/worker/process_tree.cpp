@@ -18,24 +18,24 @@ namespace assay::properties {
 
 namespace {
 
-// One line of /proc/ID/stat, or of a thread's; see proc(5).
+// One line of /proc/ID/stat, of a process or of a thread; see proc(5).
 struct Row {
   pid_t id = 0, parent = 0, group = 0;
   char state = 0;
-  unsigned long used = 0, used_in_system = 0;              // ticks, by itself
-  unsigned long waited_for = 0, waited_for_in_system = 0;  // ticks, by children that ended
+  unsigned long used = 0, used_in_system = 0;              // in ticks, by itself
+  unsigned long waited_for = 0, waited_for_in_system = 0;  // in ticks, by children that ended
   long threads = 0;
 };
 
 std::optional<Row> read_row(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return std::nullopt;  // it has ended by now
+  if (file < 0) return std::nullopt;  // the process has ended by now
   std::array<char, 1024> text;
   const ssize_t size = ::read(file, text.data(), text.size() - 1);
   ::close(file);
   if (size <= 0) return std::nullopt;
   text[static_cast<std::size_t>(size)] = 0;
-  // The name stands in brackets and may hold any character.
+  // The name stands in brackets and may hold any character, so the last bracket is searched.
   const char* after_name = std::strrchr(text.data(), ')');
   if (!after_name) return std::nullopt;
   Row row;
@@ -48,7 +48,8 @@ std::optional<Row> read_row(const std::string& path) {
   return row;
 }
 
-// The rows of all numbers in a folder: processes of /proc, or threads of /proc/ID/task.
+// The rows of everything in a folder whose name is a number: the processes of /proc, or the
+// threads of /proc/ID/task.
 std::vector<Row> rows_in(const std::string& folder) {
   std::vector<Row> rows;
   const std::unique_ptr<DIR, int (*)(DIR*)> open(::opendir(folder.c_str()), ::closedir);
@@ -64,7 +65,7 @@ std::vector<Row> rows_in(const std::string& folder) {
   return rows;
 }
 
-// The root and its descendants, out of all processes.
+// Selects the root and its descendants from all processes.
 std::vector<Row> tree_of(pid_t root, std::vector<Row> all) {
   std::vector<Row> tree;
   const auto belongs = [&](const Row& row) {
@@ -72,7 +73,7 @@ std::vector<Row> tree_of(pid_t root, std::vector<Row> all) {
            std::any_of(tree.begin(), tree.end(),
                        [&](const Row& member) { return member.id == row.parent; });
   };
-  // A child may stand before its parent: numbers are used again.
+  // A child may stand before its parent, because numbers are used again.
   for (bool found = true; found;) {
     const auto rest = std::stable_partition(all.begin(), all.end(), belongs);
     found = rest != all.begin();
@@ -82,7 +83,7 @@ std::vector<Row> tree_of(pid_t root, std::vector<Row> all) {
   return tree;
 }
 
-// S: waits; I: a thread of the system that waits; Z and X: has ended.
+// The states: S waits, I is a thread of the system that waits, Z and X have ended.
 bool waits(const Row& row) { return std::strchr("SIZX", row.state) != nullptr; }
 
 bool all_wait(const Row& process) {

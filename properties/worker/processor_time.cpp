@@ -32,7 +32,7 @@ double ProcessorTime::lap() {
 ProcessTree ProcessorTime::look() {
   const ProcessTree tree = look_at(process_, worker_);
   if (!of_others_before_) of_others_before_ = tree.descendant_seconds;
-  // The sum falls when a process ends that nobody waits for.
+  // The sum falls if a process ends for which nobody waits, so the greatest value is kept.
   of_others_ = std::max(of_others_, tree.descendant_seconds - *of_others_before_);
   return tree;
 }

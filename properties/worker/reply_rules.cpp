@@ -17,7 +17,7 @@ using detector::PairContact;
 using detector::StepResult;
 using detector::TimeEnclosure;
 
-// Of the fields of a result that are not lists, and of the numbers that begin lists.
+// The bytes of those fields of a result that are not lists, and of the numbers that begin lists.
 constexpr std::uint64_t bytes_of_a_result = 4096;
 
 bool is_line(const std::string& text) {
@@ -25,10 +25,10 @@ bool is_line(const std::string& text) {
 }
 
 bool is_interval(const TimeEnclosure& time) {
-  return 0 <= time.lo && time.lo <= time.hi && time.hi <= 1;  // no NaN passes
+  return 0 <= time.lo && time.lo <= time.hi && time.hi <= 1;  // false for a NaN
 }
 
-// Of a feature a plug-in says nothing.
+// A plug-in says nothing of features.
 bool is_unstated(const detector::Feature& feature) {
   const detector::Feature unstated;
   return feature.kind == unstated.kind && feature.vertices == unstated.vertices;
@@ -89,7 +89,8 @@ std::string broken_rule(const CandidatePairs& candidates, const StepResult& resu
   return ascend ? "" : "candidates that do not ascend";
 }
 
-// Of the parts that the description names, in a run with a result for each step.
+// Says which rule is broken about the parts that the description names. The run has a result for
+// each step.
 std::string broken_rule_of_parts(const CaseRun& run, const PluginDescription& description,
                                  Eigen::Index triangles) {
   if (run.has_answers != description.parts.steps) return "answers of another kind of detector";
@@ -123,7 +124,7 @@ std::uint64_t longest_reply(const corpus::Case& c) {
 
 std::string broken_rule(const corpus::Case& c, const CaseRun& run,
                         const PluginDescription& description) {
-  if (!is_line(run.what)) return "a text that is no line";
+  if (!is_line(run.explanation)) return "a text that is no line";
   switch (run.end) {
     case RunEnd::completed:
       break;
@@ -163,7 +164,7 @@ std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& ans
   if (answers.size() != queries)
     return fmt::format("{} answers to {} queries", answers.size(), queries);
   for (const auto& answer : answers) {
-    if (!is_line(answer.what)) return "a text that is no line";
+    if (!is_line(answer.explanation)) return "a text that is no line";
     if (!is_interval(answer.first)) return "a first time that is no interval in [0, 1]";
   }
   return "";

@@ -14,7 +14,8 @@ double processor_seconds_here() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Not getrusage(): what that tells outlives exec(), and with it the memory of who started this.
+// This does not use getrusage(), because what that tells outlives exec(), and so includes the
+// memory of the process that started this one.
 std::uint64_t peak_bytes_here() {
   constexpr std::uint64_t bytes_a_kilobyte = 1024;
   std::ifstream status("/proc/self/status");

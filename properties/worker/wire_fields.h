@@ -96,9 +96,9 @@ void fields(Wire& wire, RunTimes& times) {
 template <class Wire>
 void fields(Wire& wire, CaseRun& run) {
   // The last three are the host's to say.
-  auto& [end, what, steps, candidates, errors, has_answers, times, disturbances, processor_seconds,
-         printed] = run;
-  wire(end, what, steps, candidates, errors, has_answers, times);
+  auto& [end, explanation, steps, candidates, errors, has_answers, times, disturbances,
+         processor_seconds, printed] = run;
+  wire(end, explanation, steps, candidates, errors, has_answers, times);
 }
 
 template <class Wire>
@@ -212,8 +212,8 @@ void fields(Wire& wire, QueryRequest& request) {
 
 template <class Wire>
 void fields(Wire& wire, QueryAnswer& answer) {
-  auto& [answered, first, what] = answer;
-  wire(answered, first, what);
+  auto& [answered, first, explanation] = answer;
+  wire(answered, first, explanation);
 }
 
 struct QueryReply {

@@ -20,11 +20,12 @@ namespace assay::properties {
 
 namespace {
 
-// Wall clock that a process whose channel has closed may take to end by itself. Generous, for a
-// process that is being killed on a loaded machine must not be taken for one that goes on.
+// The time by the clock that a process whose channel has closed may take to end by itself. It is
+// generous, because a process that is being killed on a loaded machine must not be taken for one
+// that goes on.
 constexpr std::chrono::milliseconds last_breath{5000};
 
-// So often in a row a worker may be killed from outside before that is the detector's own doing.
+// If a worker is killed from outside this many times in a row, that is the doing of the detector.
 constexpr int attempts = 3;
 
 std::string every_time(const ChildEnd& end) { return end.text + ", three times in a row"; }
@@ -33,7 +34,8 @@ std::string broken(const std::string& rule) {
   return fmt::format("sent a reply that is none: {}", rule);
 }
 
-// Numbers of requests: a reply to another request, or sent before there was one, has another.
+// Draws the number of a request. A reply to another request, or one that was sent before there was
+// a request, has another number.
 std::uint64_t draw_number() {
   static thread_local std::mt19937_64 numbers(std::random_device{}());
   return numbers();
@@ -46,7 +48,7 @@ struct WorkerProcess::Parts {
     ChildProcess child;
     Channel channel;
     std::thread::id starter;
-    pid_t plugin = 0;  // its process; 0: none, or unknown
+    pid_t plugin = 0;  // the process of the plug-in; 0 if there is none or it is not known
     std::optional<PrintedPipe> printed;
 
     std::string take_printed() { return printed ? printed->take() : ""; }
@@ -59,16 +61,17 @@ struct WorkerProcess::Parts {
   std::optional<Live> live;
   PluginDescription description;
   Isolation isolation;
-  // A plug-in that was loaded before, and dies or hangs when it is loaded again, does so by itself.
+  // A plug-in that was loaded before, and dies or hangs when it is loaded again, does so by itself
+  // and not because it cannot be loaded.
   bool was_loaded = false;
   RunEnd end_of_loading = RunEnd::not_run;
-  std::string printed_while_loaded;  // where it ended then
+  std::string printed_while_loaded;  // set if the plug-in ended while it was loaded
   std::uint64_t starts = 0;
-  std::uint64_t told = 0;    // disturbances that runs speak of
-  std::uint64_t untold = 0;  // before the run that is next
-  int killed_under_way = 0;  // attempts at that run that were disturbed
+  std::uint64_t told = 0;    // disturbances that are noted in a run
+  std::uint64_t untold = 0;  // disturbances since then, which the next run will note
+  int killed_under_way = 0;  // attempts at the next run that were disturbed
 
-  // A live worker, a new one if need be.
+  // Makes sure that there is a live worker, and starts a new one if need be.
   Expected<void> ensure() {
     if (live && live->channel.is_closed()) bury();
     for (int killed = 0; !live; ++killed) {
@@ -98,8 +101,8 @@ struct WorkerProcess::Parts {
     return text.empty() ? "" : "; it printed: " + text.substr(text.rfind('\n') + 1);
   }
 
-  // One that ended between two cases owes no answer. The system kills it when the thread that
-  // started it ends: that is no disturbance.
+  // Buries a worker that ended between two cases, and so owes no answer. The system kills a worker
+  // when the thread that started it ends; that is no disturbance.
   void bury() {
     const ChildEnd end = live->child.finish(last_breath);
     if (was_killed_from_outside(end) && live->starter == std::this_thread::get_id()) ++untold;
@@ -146,8 +149,8 @@ struct WorkerProcess::Parts {
 
   std::string who() const { return plugin_library ? plugin_library->string() : program.string(); }
 
-  // Hears the worker's first message. How the worker ended, where it did so without a word; then
-  // there is none any more.
+  // Hears the first message of the worker. If the worker ended without one, returns how it ended;
+  // then there is no worker any more.
   Expected<std::optional<ChildEnd>> greet() {
     WorkerWatch watch(live->child, std::min(limits.seconds, longest_loading));
     const Patience patience = [&] { return watch.patience(); };
@@ -212,10 +215,10 @@ struct WorkerProcess::Parts {
     return {ProblemKind::broken_reply, fmt::format("{}: {}", who(), broken(rule))};
   }
 
-  // Sends what is left to do and appends what comes back, until a run ends the worker.
+  // Sends what is left to do and appends the answers, until a run ends the worker.
   void run_rest(const corpus::Case& c, const std::vector<Configuration>& rest,
                 std::vector<CaseRun>& runs) {
-    // The fields of a Request, without a copy of the case.
+    // These are the fields of a Request, without a copy of the case.
     const std::uint64_t number = draw_number();
     const std::string request = encode(RequestKind::run, number, c, rest);
     WorkerWatch watch(live->child, limits.seconds, live->plugin);
@@ -233,12 +236,12 @@ struct WorkerProcess::Parts {
             reply.run.times.has_value() != rest[i].is_timed)
           rule = "times that nobody asked for, or none";
         if (!rule.empty()) {
-          meddled(watch, rule, runs);
+          end_rule_breaker(watch, rule, runs);
           return;
         }
       }
       if (transfer != Transfer::done) {
-        lost(watch, transfer == Transfer::timed_out && !watch.has_ended(), runs);
+        end_silent_worker(watch, transfer == Transfer::timed_out && !watch.has_ended(), runs);
         return;
       }
       CaseRun run = std::move(reply.run);
@@ -246,14 +249,16 @@ struct WorkerProcess::Parts {
       run.printed = live->take_printed();
       keep(std::move(run), runs);
       if (runs.back().end == RunEnd::out_of_memory) {
-        live.reset();  // it ends itself: what it has left of its memory is in pieces
+        // The worker ends itself, because what it has left of its memory is in pieces.
+        live.reset();
         return;
       }
     }
   }
 
-  // The same of some queries, in one message. Where one of several ends the worker nothing is
-  // appended: whether they are all to be asked one by one, or in halves.
+  // Does the same for some queries in one message. If several were asked and one of them ends the
+  // worker, nothing is appended, and the answer says whether all of them are to be asked one by
+  // one, or in halves.
   enum class Asked { answered, in_halves, one_by_one };
   Asked ask_some(std::span<const detector::FourPoints> queries, std::vector<CaseRun>& runs) {
     const std::uint64_t number = draw_number();
@@ -269,7 +274,7 @@ struct WorkerProcess::Parts {
     if (transfer == Transfer::done || transfer == Transfer::too_long) {
       const auto rule = broken_rule_of(transfer, message, queries.size(), number, reply);
       if (!rule.empty()) {
-        meddled(watch, rule, runs);
+        end_rule_breaker(watch, rule, runs);
         if (queries.size() == 1) return Asked::answered;
         runs.pop_back();
         return Asked::in_halves;
@@ -278,7 +283,7 @@ struct WorkerProcess::Parts {
     if (transfer != Transfer::done) {
       const bool is_hung = transfer == Transfer::timed_out && !watch.has_ended();
       const std::size_t before = runs.size();
-      lost(watch, is_hung, runs);
+      end_silent_worker(watch, is_hung, runs);
       if (queries.size() == 1) return Asked::answered;
       runs.resize(before);
       return is_hung ? Asked::one_by_one : Asked::in_halves;
@@ -302,8 +307,8 @@ struct WorkerProcess::Parts {
     return broken_rule(queries, reply.answers);
   }
 
-  // Which rule a message breaks that should be the reply with this number and place; empty: none,
-  // and `reply` is it.
+  // The message should be the reply with this number and place. Says which rule it breaks. Empty
+  // if it breaks none; then `reply` is what it says.
   std::string broken_rule_of(Transfer transfer, const std::string& message, const corpus::Case& c,
                              const RunReply& expected, RunReply& reply) const {
     if (transfer == Transfer::too_long) return "longer than any reply to this case";
@@ -314,11 +319,11 @@ struct WorkerProcess::Parts {
     return plugin_library ? broken_rule(c, reply.run, description) : "";
   }
 
-  // The plug-in sent what is no reply: it is taken for one that crashed, and ended.
-  void meddled(WorkerWatch& watch, const std::string& rule, std::vector<CaseRun>& runs) {
+  // The plug-in sent something that is no reply, so it is ended and counts as one that crashed.
+  void end_rule_breaker(WorkerWatch& watch, const std::string& rule, std::vector<CaseRun>& runs) {
     CaseRun run;
     run.end = RunEnd::crashed;
-    run.what = broken(rule);
+    run.explanation = broken(rule);
     run.processor_seconds = watch.next_case();
     live->child.finish(std::chrono::milliseconds(0));
     run.printed = live->take_printed();
@@ -326,9 +331,9 @@ struct WorkerProcess::Parts {
     keep(std::move(run), runs);
   }
 
-  // The worker fell silent: ends it. The run of the configuration that was under way, unless it is
-  // to be repeated.
-  void lost(WorkerWatch& watch, bool is_hung, std::vector<CaseRun>& runs) {
+  // The worker fell silent, so it is ended. The run of the configuration that was under way is
+  // appended, unless it is to be repeated.
+  void end_silent_worker(WorkerWatch& watch, bool is_hung, std::vector<CaseRun>& runs) {
     CaseRun run;
     run.end = is_hung ? RunEnd::hung : RunEnd::crashed;
     const std::string why_hung = watch.why();
@@ -337,16 +342,16 @@ struct WorkerProcess::Parts {
     run.printed = live->take_printed();
     live.reset();
     if (is_hung) {
-      run.what = why_hung;
+      run.explanation = why_hung;
     } else if (end.by_host) {
-      run.what = "closed its channel and went on";
+      run.explanation = "closed its channel and went on";
     } else if (!was_killed_from_outside(end)) {
-      run.what = end.text;
+      run.explanation = end.text;
     } else if (++killed_under_way < attempts) {
       return;
     } else {
-      run.what = every_time(end);
-      killed_under_way = 0;  // no disturbances after all
+      run.explanation = every_time(end);
+      killed_under_way = 0;  // these were no disturbances after all
     }
     keep(std::move(run), runs);
   }

@@ -11,11 +11,13 @@ namespace {
 
 constexpr double shortest_wait = 1e-3;  // seconds
 
-// Before the first look. What the worker's children did for the case by then is not counted, so it
-// comes early; most cases are over by then, so it costs them nothing.
+// The wait before the first look. The processor time that children of the worker used for the case
+// before that look is not counted, so the look comes early. Most cases are over by then, so it
+// costs them nothing.
 double first_wait(double limit) { return std::clamp(limit / 10, shortest_wait, .05); }
 
-// Between two looks: long enough to tell sleep from a pause, and that a look costs nothing.
+// The wait between two looks. It is long enough to tell sleep from a pause, and long enough that a
+// look costs nothing.
 double longest_wait(double limit) { return std::clamp(limit / 10, shortest_wait, 1.); }
 
 double seconds_between(std::chrono::steady_clock::time_point from,
@@ -56,16 +58,17 @@ std::optional<std::chrono::milliseconds> WorkerWatch::patience() {
 }
 
 void WorkerWatch::look(Clock::time_point now) {
-  // A look that comes late was held up, and the worker with it perhaps: the host was stopped, or
-  // the machine. So it does not count for more than twice what was planned.
+  // A look that comes late was held up, because the host or the machine was stopped, and perhaps
+  // so was the worker. So it counts for at most twice the time that was planned.
   const double since =
       std::min(seconds_between(last_look_, now), 2 * seconds_between(last_look_, next_look_));
   const bool is_first = watched_ == 0;
   const ProcessTree tree = time_.look();
   const double used = time_.seconds();
   watched_ += since;
-  // Threads that wait with a time-out wake up now and then and go to sleep again; a process that
-  // gets no processor is seen as runnable.
+  // Threads that wait with a time-out wake up now and then and go to sleep again, so a little use
+  // of the processor still counts as sleep. A process that gets no processor is seen as runnable,
+  // not as asleep.
   constexpr double idle_share = .01;
   if (!is_first && tree.is_asleep && used - used_ <= idle_share * since) asleep_ += since;
   used_ = used;

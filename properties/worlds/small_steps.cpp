@@ -69,7 +69,8 @@ detector::Point small_point(Random& random, int reach) {
   return p;
 }
 
-// One of: still, one vertex moves, all vertices translate, every vertex goes its own way.
+// One of four motions: nothing moves, one vertex moves, all vertices translate, or every vertex
+// goes its own way.
 void move(Random& random, int reach, const detector::Positions& x_t0, detector::Positions& x_t1) {
   x_t1 = x_t0;
   const auto n = static_cast<int>(x_t0.rows());
@@ -107,7 +108,8 @@ SmallStep make_small_step(std::uint64_t seed, std::uint64_t index) {
           family.faces[t][static_cast<std::size_t>(inward ? 2 - k : k)];
     }
   }
-  // A flat menu makes coplanar motion frequent, a small reach coincident points.
+  // A flat menu makes coplanar motion frequent, and a small reach makes coincident points
+  // frequent.
   const int reach = random.between(1, 5);
   const bool flat = random.below(6) == 0;
   step.x_t0.resize(family.vertices, 3);

@@ -34,10 +34,12 @@ class Check {
     faces_[0].resize(4, 3);
     faces_[0] << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
     faces_[1] = faces_[0].rowwise().reverse();
-    // Contacts do not depend on the orientation of the faces.
+    // The oracle judges one orientation only, because contacts do not depend on the orientation of
+    // the faces.
     judgement_ = oracle::judge_step({x_t0_, x_t1_}, faces_[0], {1, {}});
     collides_ = judgement_.answer == detector::Answer::collision;
-    // One tetrahedron without a contact is embedded: its layers are all (1,0) or all (0,-1).
+    // A single tetrahedron without a contact is embedded, so its layers are all (1,0) or all
+    // (0,-1).
     clean_start_ = !collides_ || judgement_.first.hi > 0;
   }
 
@@ -68,13 +70,13 @@ class Check {
   }
 
  private:
-  // True when it does not hold.
+  // Returns true if the detector does not hold.
   bool check_detector(Detector& detector, Pairs pairs, const ViewPrimitive& q) const {
     const auto result = detector.evaluate(x_t0_, x_t1_, {&q, 1});
     return compare(result, judgement_, pairs).outcome != Outcome::holds;
   }
 
-  // The law that does not hold, or null.
+  // The law that does not hold, or null if all hold.
   const char* check_laws(std::size_t turned, const ViewPrimitive& q) {
     const auto signs = oracle::view_signs({x_t0_, x_t1_}, faces_[turned], {&q, 1}, 1);
     const auto all = [&](ViewSign sign) {
@@ -104,9 +106,10 @@ class Check {
     return nullptr;
   }
 
-  TetrahedronFailure failure(std::size_t turned, const detector::Point& q, const char* what) const {
-    TetrahedronFailure failed{{}, what};
-    failed.c.about = std::string("does not hold: ") + what;
+  TetrahedronFailure failure(std::size_t turned, const detector::Point& q,
+                             const char* explanation) const {
+    TetrahedronFailure failed{{}, explanation};
+    failed.c.about = std::string("does not hold: ") + explanation;
     failed.c.source = "small world of tetrahedra";
     failed.c.triangles = faces_[turned];
     failed.c.frames = {x_t0_, x_t1_};

@@ -10,7 +10,7 @@ namespace assay::properties {
 
 struct TetrahedronFailure {
   corpus::Case c;
-  std::string what;
+  std::string explanation;
 };
 
 // Checks all view-points of the motion, in both orientations, and adds to the counts. Returns the

@@ -11,8 +11,8 @@
 namespace assay::properties {
 namespace {
 
-// The next ascending list (equal numbers allowed) of numbers below `end`, none below the first
-// list's; false after the last.
+// Makes the next ascending list of numbers below `end`, in which equal numbers are allowed. None
+// is below those of the first list. Returns false after the last list.
 bool next_ascending(std::span<int> list, int end) {
   for (std::size_t i = list.size(); i > 0; --i) {
     if (list[i - 1] + 1 == end) continue;
@@ -22,7 +22,7 @@ bool next_ascending(std::span<int> list, int end) {
   return false;
 }
 
-// Orders of four sorted items that differ.
+// The number of different orders of four sorted items.
 std::uint64_t orders(const std::array<int, 4>& sorted) {
   std::uint64_t all = 24, run = 1;
   for (std::size_t i = 1; i < 4; ++i) {
@@ -61,7 +61,8 @@ TetrahedronMotions::TetrahedronMotions(const TetrahedronGrid& grid)
       }
     } while (next_ascending(std::span(block.resting).first(4 - at(moving)), places_));
   }
-  // Degenerate ones stand together: in another order a part of the world is a fair sample of it.
+  // Degenerate blocks stand together, so they are shuffled: then a part of the world is a fair
+  // sample of it.
   Random random(0, 0);
   blocks_ = shuffled(random, std::move(blocks_));
 }
@@ -88,7 +89,7 @@ void TetrahedronMotions::for_each(
     }
     std::sort(paths.begin(), paths.end());
     if (!visit_class(paths, visit)) return;
-    // The first of those that move is the block's.
+    // The first of the moving paths belongs to the block, so only the others are counted up.
     more = moving > 1 && next_ascending(std::span(movers).subspan(1, moving - 1),
                                         static_cast<int>(moving_paths_.size()));
   }
@@ -96,10 +97,10 @@ void TetrahedronMotions::for_each(
 
 bool TetrahedronMotions::visit_class(
     const Paths& paths, const std::function<bool(const TetrahedronMotion&)>& visit) const {
-  std::vector<const Symmetry*> own;  // that leave the motion as it is
+  std::vector<const Symmetry*> own;  // the symmetries that leave the motion as it is
   for (const auto& s : symmetries_) {
     const Paths other = image(paths, s);
-    if (other < paths) return true;  // not the least of its class
+    if (other < paths) return true;  // this motion is not the least of its class
     if (other == paths) own.push_back(&s);
   }
   TetrahedronMotion motion;

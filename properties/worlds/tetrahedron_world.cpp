@@ -24,7 +24,7 @@ constexpr TetrahedronWorld worlds[] = {
     {"cube-3-two", "{0,2,4}^3, at most two vertices move", {3, 3, 2}},
 };
 
-// What the threads of one world share.
+// The state that the threads of one world share.
 class Run {
  public:
   Run(const TetrahedronWorld& world, const TetrahedronWorldOptions& options)
@@ -72,7 +72,7 @@ class Run {
     if (block < failed_block_) {
       failed_block_ = block;
       result_.counterexample = std::move(failure->c);
-      result_.what = std::move(failure->what);
+      result_.explanation = std::move(failure->explanation);
     }
     return false;
   }

@@ -51,7 +51,7 @@ struct TetrahedronWorldResult {
   // The first case, in the order of the enumeration, that does not hold, and what does not hold in
   // it.
   std::optional<corpus::Case> counterexample;
-  std::string what;
+  std::string explanation;
 };
 
 // Takes 0.1 to 0.5 ms for each class.

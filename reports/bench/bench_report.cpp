@@ -26,17 +26,17 @@ RowOutcome BenchRow::outcome() const {
   return holds ? RowOutcome::holds : RowOutcome::fails;
 }
 
-void BenchReport::add(std::string what, std::string unit, Estimate measured,
+void BenchReport::add(std::string label, std::string unit, Estimate measured,
                       std::optional<Wanted> wanted, std::string note) {
-  rows.push_back({std::move(what), std::move(unit), std::move(measured), wanted, std::move(note)});
+  rows.push_back({std::move(label), std::move(unit), std::move(measured), wanted, std::move(note)});
 }
 
-void BenchReport::add_no_data(std::string what, const std::string& missing) {
-  add_left_out(std::move(what), missing + " is not there");
+void BenchReport::add_no_data(std::string label, const std::string& missing) {
+  add_left_out(std::move(label), missing + " is not there");
 }
 
-void BenchReport::add_left_out(std::string what, std::string why) {
-  rows.push_back({std::move(what), {}, {}, {}, std::move(why)});
+void BenchReport::add_left_out(std::string label, std::string why) {
+  rows.push_back({std::move(label), {}, {}, {}, std::move(why)});
 }
 
 const char* name_of(RowOutcome outcome) {
@@ -66,7 +66,7 @@ std::string measured_text(const BenchRow& row) {
 std::string text_of(const BenchReport& report) {
   std::size_t widest = 4, measured = 8;
   for (const auto& row : report.rows) {
-    widest = std::max(widest, row.what.size());
+    widest = std::max(widest, row.label.size());
     measured = std::max(measured, measured_text(row).size());
   }
   std::string text;
@@ -75,7 +75,7 @@ std::string text_of(const BenchReport& report) {
     text += fmt::format("{:<{}}  {:<{}}  {:<10}  {}\n", "what", widest, "measured", measured,
                         "wanted", "outcome");
   for (const auto& row : report.rows) {
-    text += fmt::format("{:<{}}  {:<{}}  {:<10}  {}{}\n", row.what, widest, measured_text(row),
+    text += fmt::format("{:<{}}  {:<{}}  {:<10}  {}{}\n", row.label, widest, measured_text(row),
                         measured, row.wanted ? text_of(*row.wanted) : "-", name_of(row.outcome()),
                         row.note.empty() ? "" : "  " + row.note);
   }
@@ -98,7 +98,7 @@ Json to_json(const BenchReport& report) {
     Json measured, wanted;
     if (row.measured) measured = to_json(*row.measured);
     if (row.wanted) wanted = text_of(*row.wanted);
-    rows.push_back({{"what", row.what},
+    rows.push_back({{"what", row.label},
                     {"unit", row.unit},
                     {"measured", measured},
                     {"wanted", wanted},
@@ -132,7 +132,7 @@ Json to_json(const BenchReport& report) {
 
 namespace {
 
-// A field of CSV: in quotes, for words hold commas.
+// A field of CSV. It stands in quotes, because the words may hold commas.
 std::string quoted(const std::string& words) {
   std::string text(1, '"');
   for (const char c : words) text.append(c == '"' ? 2 : 1, c);
@@ -152,7 +152,7 @@ std::string csv_of(const BenchReport& report) {
     if (!row.measured) continue;
     int sample = 0;
     for (const double value : row.measured->samples) {
-      text += fmt::format("{},{},{},{},{}\n", report.suite, quoted(row.what), quoted(row.unit),
+      text += fmt::format("{},{},{},{},{}\n", report.suite, quoted(row.label), quoted(row.unit),
                           ++sample, value);
     }
   }

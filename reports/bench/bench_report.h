@@ -19,7 +19,7 @@ namespace assay::reports {
 enum class RowOutcome : unsigned char { holds, fails, not_judged, no_data };
 
 struct BenchRow {
-  std::string what;
+  std::string label;
   std::string unit;                  // "ns", "times", "%", ...; may be empty
   std::optional<Estimate> measured;  // none: no data
   std::optional<Wanted> wanted;      // none: for information
@@ -41,7 +41,7 @@ struct ScatterPoint {
 
 // The time of one thing at one size, in suite growth.
 struct GrowthPoint {
-  std::string what;
+  std::string label;
   double triangles = 0;
   Estimate ms;
 };
@@ -57,7 +57,7 @@ struct BenchReport {
   std::vector<std::string> wrong_answers;
   std::vector<ScatterPoint> scatter;
   std::vector<StabilityCell> heat;  // filled by suite stability
-  std::vector<GrowthPoint> growth;  // in the order of what, then of triangles
+  std::vector<GrowthPoint> growth;  // in the order of label, then of triangles
   // Filled by suite speed-error.
   std::vector<JudgedStep> steps;
   std::vector<FamilySummary> families;
@@ -71,12 +71,12 @@ struct BenchReport {
   std::vector<AbsentPeer> absent_peers;
   std::vector<UnsafeAnswer> unsafe_answers;
 
-  void add(std::string what, std::string unit, Estimate measured,
+  void add(std::string label, std::string unit, Estimate measured,
            std::optional<Wanted> wanted = std::nullopt, std::string note = {});
   // Adds a row that says that the folder or file `missing` is not there.
-  void add_no_data(std::string what, const std::string& missing);
+  void add_no_data(std::string label, const std::string& missing);
   // Adds a row without a measurement. `why` is its note, such as "left out: ...".
-  void add_left_out(std::string what, std::string why);
+  void add_left_out(std::string label, std::string why);
 };
 
 const char* name_of(RowOutcome outcome);

@@ -7,7 +7,7 @@
 namespace assay::reports {
 namespace {
 
-// Reorders its argument.
+// Computes the median, and reorders its argument for that.
 double median_in_place(std::vector<double>& values) {
   const std::size_t half = values.size() / 2;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(half);
@@ -17,7 +17,8 @@ double median_in_place(std::vector<double>& values) {
 }
 
 constexpr int draws = 2'000;
-constexpr double share_below = 0.025;  // of the draws, and as many above
+// This share of the draws lies below the interval, and as much above it.
+constexpr double share_below = 0.025;
 
 properties::Random generator() { return properties::Random("percentile bootstrap"); }
 

@@ -7,7 +7,7 @@ namespace assay::reports {
 
 std::size_t rank_of_lower_end(std::size_t n) {
   constexpr double risk = 0.05;
-  // term = P(B = k), below = P(B < k).
+  // term is P(B = k), and below is P(B < k).
   double term = std::pow(0.5, static_cast<double>(n)), below = 0;
   std::size_t k = 0;
   while (k < n / 2 && 2 * (below + term) <= risk) {

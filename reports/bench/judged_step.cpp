@@ -33,7 +33,7 @@ std::string name_of(const Variant& variant) {
 
 namespace {
 
-// The place of a finite double among all of them; -0 and 0 are one place.
+// The place of a finite double among all of them. -0 and 0 have the same place.
 std::int64_t ordinal(double x) {
   const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
   return x < 0 ? -bits : bits;

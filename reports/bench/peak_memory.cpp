@@ -10,7 +10,7 @@
 namespace assay::reports {
 namespace {
 
-// A line such as "VmHWM:     1234 kB" of /proc/self/status, in bytes.
+// Reads a line such as "VmHWM:     1234 kB" of /proc/self/status. The result is in bytes.
 std::optional<double> status_bytes(const std::string& name) {
   std::ifstream status("/proc/self/status");
   std::string word;
@@ -21,7 +21,8 @@ std::optional<double> status_bytes(const std::string& name) {
   return std::nullopt;
 }
 
-// In the child: the highest resident memory is what it is now, from here on.
+// Called in the child: from here on the highest resident memory is counted anew, beginning with
+// what is resident now.
 bool forget_peak() {
   std::ofstream file("/proc/self/clear_refs");
   constexpr const char* reset_peak = "5";
@@ -36,8 +37,8 @@ double measured_in_child(const std::function<void()>& work) {
   work();
   const auto peak = status_bytes("VmHWM:"), file_after = status_bytes("RssFile:");
   if (!before || !peak || !file_before || !file_after) return unknown;
-  // Pages of the program itself that the child touched for the first time: they are not of the
-  // work, and none goes away again in between.
+  // The child touched pages of the program itself for the first time. They do not belong to the
+  // work, and none of them goes away in between.
   const double of_the_program = *file_after - *file_before;
   return *peak - *before - of_the_program;
 }
@@ -53,7 +54,7 @@ std::optional<double> peak_memory_of(const std::function<void()>& work) {
     double bytes = -1;
     try {
       bytes = measured_in_child(work);
-    } catch (...) {  // the parent learns it from the exit code
+    } catch (...) {  // the parent learns of it from the exit code
       _exit(1);
     }
     const bool told = write(ends[1], &bytes, sizeof bytes) == sizeof bytes;

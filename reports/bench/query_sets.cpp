@@ -15,7 +15,7 @@ namespace {
 using namespace detector;
 using properties::at;
 
-// The feature pairs of two triangles, as keys.
+// Enumerates the feature pairs of two triangles, as keys.
 class Enumeration {
  public:
   Enumeration(const Topology& mesh, const RoundedPositions& points)
@@ -52,7 +52,8 @@ class Enumeration {
   const RoundedPositions& points_;
 };
 
-// Mixes all bits, one to one: keys in this order are as good as shuffled (SplitMix64's end).
+// Mixes all bits, one to one, so that keys in this order are as good as shuffled. This is the last
+// part of SplitMix64.
 FeatureKey mixed(FeatureKey key) {
   key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
   key = (key ^ (key >> 27)) * 0x94d049bb133111ebu;
@@ -69,7 +70,7 @@ FourPoints query_of(FeatureKey key, const Topology& mesh, const SteppedMesh& mot
   return {{point(a[0]), point(a[1]), point(b[0]), point(b[1])}, 2};
 }
 
-// False when a file is not there.
+// Returns false if a file is not there.
 bool append_file(const std::string& csv, const std::string& truth, LabelledSet& set) {
   namespace fs = std::filesystem;
   std::error_code ignored;
@@ -150,13 +151,13 @@ std::vector<FourPoints> random_exponents(std::size_t count, int least, int most)
     properties::Random random(20111, i);
     FourPoints q{};
     q.first_group = i % 2 == 0 ? 1 : 2;
-    constexpr int near = 2;
+    constexpr int spread = 2;
     const bool narrow = i % 4 >= 2;
-    const int centre = random.between(least + near, most - near);
+    const int centre = random.between(least + spread, most - spread);
     const auto coordinate = [&] {
       const double mantissa = std::ldexp(static_cast<double>(random.next() >> 11), -53);
       const int exponent =
-          narrow ? random.between(centre - near, centre + near) : random.between(least, most);
+          narrow ? random.between(centre - spread, centre + spread) : random.between(least, most);
       return std::ldexp(random.one_in(2) ? 1 + mantissa : -1 - mantissa, exponent);
     };
     for (auto& p : q.points) {

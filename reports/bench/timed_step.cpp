@@ -12,7 +12,7 @@ namespace {
 
 using namespace detector;
 
-// FNV-1a over 64-bit words.
+// The hash FNV-1a, over 64-bit words.
 class Hash {
  public:
   void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3u; }

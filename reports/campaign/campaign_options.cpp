@@ -17,7 +17,8 @@ namespace assay::reports {
 
 namespace {
 
-// Refused where nothing of them is there, or what is there cannot be used.
+// Reads the public sequences. Refuses a folder in which none of them is there, or in which one
+// cannot be used.
 Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) try {
   std::vector<std::string> missing;
   std::vector<corpus::Case> cases;
@@ -83,7 +84,7 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     if (!own) return own.error();
     request.own_cases = std::move(own.value());
   }
-  // Before the first code of a plug-in runs.
+  // The proof is read before the first code of a plug-in runs.
   if (!words.power.empty()) {
     auto proof = properties::take_power(words.power, words.out, request);
     if (!proof) return Refusal(proof.error());

@@ -22,7 +22,8 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// "; about 40 s left" at the rate so far; nothing before there is one.
+// Gives "; about 40 s left", for example, at the rate so far. Gives nothing before there is a
+// rate.
 std::string rest_text(std::uint64_t done, std::uint64_t left, double seconds) {
   constexpr double least_seconds = 1;
   if (done == 0 || left == 0 || seconds < least_seconds) return "";
@@ -103,7 +104,7 @@ class CampaignTerminal : public properties::CampaignObserver {
     progress_->show(fmt::format("{}: every motion of a tetrahedron on a small grid", world));
   }
 
-  // Whether every failing mesh could be written.
+  // Says whether every failing mesh could be written.
   const Expected<void>& written() const { return written_; }
 
  private:

@@ -32,7 +32,7 @@ std::string stratum_row(const RunFindings& findings, const properties::StratumPl
                          : "");
 }
 
-// A row for each family and configuration, one where all configurations agree.
+// A row for each family and configuration. If all configurations agree, they share one row.
 std::string strata_text(const RunFindings& findings) {
   const auto& configurations = findings.run.detector.configurations;
   std::string out = fmt::format("{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n",
@@ -52,21 +52,22 @@ std::string strata_text(const RunFindings& findings) {
   return out;
 }
 
-// Trials that were killed from outside and ran again, and those that came near their limit.
+// The trials that were killed from outside and ran again, and those that came near their limit.
 std::string disturbance_text(const RunFindings& findings) {
   const auto& tally = findings.tally;
   std::string out;
   if (tally.disturbances > 0)
     out += fmt::format("{} trials ran again: their worker was killed from outside ({} times)\n",
                        tally.disturbed(), tally.disturbances);
-  if (tally.near.empty()) return out;
-  out += fmt::format("{} trials took more than a third of the limit of {} s:", tally.near.size(),
-                     findings.run.plan.case_seconds);
+  if (tally.near_limit.empty()) return out;
+  out +=
+      fmt::format("{} trials took more than a third of the limit of {} s:", tally.near_limit.size(),
+                  findings.run.plan.case_seconds);
   constexpr std::size_t most = 5;
-  for (std::size_t i = 0; i < std::min(most, tally.near.size()); ++i)
-    out += fmt::format("{} {} ({:.1f} s)", i ? "," : "", tally.near[i].id,
-                       1e-6 * static_cast<double>(tally.near[i].slowest_us));
-  return out + (tally.near.size() > most ? ", ...\n" : "\n");
+  for (std::size_t i = 0; i < std::min(most, tally.near_limit.size()); ++i)
+    out += fmt::format("{} {} ({:.1f} s)", i ? "," : "", tally.near_limit[i].id,
+                       1e-6 * static_cast<double>(tally.near_limit[i].slowest_us));
+  return out + (tally.near_limit.size() > most ? ", ...\n" : "\n");
 }
 
 std::string range_text(int log2) {
@@ -167,7 +168,7 @@ std::string faults_text(const RunFindings& findings) {
   return out + count + "\n";
 }
 
-// How small what the planted faults show became; empty where nothing was shrunk.
+// Tells how small the meshes became that show the planted faults. Empty if nothing was shrunk.
 std::string shrinking_text(const RunFindings& findings) {
   std::string out = fmt::format("{:44} {:>22} {:>14} {:>7} {:>8}\n", "fault",
                                 "triangles, steps from", "to", "known", "calls");
@@ -177,14 +178,14 @@ std::string shrinking_text(const RunFindings& findings) {
     if (!proof.shrunk || proof.status != FaultStatus::planted) continue;
     any = true;
     const auto& [before, after, calls] = *proof.shrunk;
-    const bool near = after.vertices <= proof.known_vertices + 1;
+    const bool is_near = after.vertices <= proof.known_vertices + 1;
     tried += proof.known_vertices > 0 ? 1 : 0;
-    reached += proof.known_vertices > 0 && near ? 1 : 0;
+    reached += proof.known_vertices > 0 && is_near ? 1 : 0;
     out += fmt::format("{:44} {:>22} {:>14} {:>7} {:>8}{}\n", proof.fault,
                        fmt::format("{}, {}", before.triangles, before.steps),
                        fmt::format("{} vertices", after.vertices),
                        proof.known_vertices ? fmt::format("{}", proof.known_vertices) : "-", calls,
-                       near || proof.known_vertices == 0 ? "" : "  larger");
+                       is_near || proof.known_vertices == 0 ? "" : "  larger");
   }
   if (!any) return "";
   return out +
@@ -240,7 +241,7 @@ std::string gates_text(const properties::Judgement& judgement) {
 
 std::string verdict_text(const RunFindings& findings, const properties::Judgement& judgement) {
   std::string word = judgement.verdict;
-  // What has to be looked at stands out.
+  // A verdict that somebody has to look at stands out.
   if (judgement.exit_code == exit_defect || judgement.exit_code == exit_unsound)
     std::transform(word.begin(), word.end(), word.begin(),
                    [](char c) { return c == '-' ? ' ' : static_cast<char>(std::toupper(c)); });

@@ -78,11 +78,11 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
                                             failure.configuration, failure.signature);
       if (!report.written) return report;
     }
-    const auto count = kept.met.find(failure.signature);
+    const auto count = kept.times_met.find(failure.signature);
     report.text += fmt::format(
         "\nDEFECT {} ({}), met {} times\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n",
-        failure.signature, failure.configuration, count == kept.met.end() ? 1 : count->second,
-        shown_what(failure), failure.id, size_of_mesh(failure.mesh),
+        failure.signature, failure.configuration, count == kept.times_met.end() ? 1 : count->second,
+        shown_explanation(failure), failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
         picture_file((out / shown_file).string()), replay_line(out, shown_file, detector));

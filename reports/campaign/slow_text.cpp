@@ -15,7 +15,7 @@ namespace {
 
 using properties::SlowCase;
 
-// Within the run's folder: slow/ID-CONFIGURATION-smallest.json.
+// The path of a mesh within the folder of the run: slow/ID-CONFIGURATION-smallest.json.
 std::filesystem::path slow_file(const SlowCase& slow, bool smallest) {
   std::string name = slow.id + "-" + slow.configuration;
   for (char& c : name) {
@@ -66,7 +66,8 @@ Expected<void> write_slow_cases(const std::vector<SlowCase>& cases,
   std::filesystem::create_directories(folder, error);
   if (error)
     return Refusal(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
-  // By the oracle alone: what the detector takes so long for is not asked again.
+  // The scene is made by the oracle alone, because the detector takes too long for this case to be
+  // asked again.
   SceneMaker scenes(std::nullopt);
   for (const auto& slow : cases) {
     for (const bool smallest : {false, true}) {

@@ -15,7 +15,8 @@ namespace {
 
 using properties::BoundRun;
 
-// Before any of its code runs.
+// Finds the library of the plug-in and checks that it is the certified one, before any of its code
+// runs.
 Expected<std::string> certified_library(const properties::RunFindings& findings,
                                         const std::string& named) {
   const auto& run = findings.run;
@@ -37,7 +38,7 @@ Expected<std::string> certified_library(const properties::RunFindings& findings,
   return library;
 }
 
-// What of this build keeps it from making the trials again; empty: nothing.
+// Says what in this build keeps it from making the trials again. Empty if nothing does.
 std::string difference_of_builds(const BoundRun& certified, const BoundRun& ours) {
   if (certified.digests.generator != ours.digests.generator)
     return "the generator of this assay makes other cases than that of the certificate";

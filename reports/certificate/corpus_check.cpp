@@ -33,7 +33,7 @@ CorpusRow row_of(const std::string& input, const std::string& configuration) {
   return row;
 }
 
-// Expected facts of the built-in detector, one culling.
+// Compares the built-in detector with the expected facts of the cases, in one culling.
 CorpusRow check_facts(const std::vector<corpus::Case>& cases, Culling culling, int jobs) {
   CorpusRow row = row_of("curated cases", properties::name_of(culling));
   for (const auto& c : cases) {
@@ -48,8 +48,8 @@ CorpusRow check_facts(const std::vector<corpus::Case>& cases, Culling culling, i
   return row;
 }
 
-// Of the corpus: its scenes are larger than a campaign's cases, which take a sixth of this at most
-// unless the campaign says otherwise.
+// The limits for the corpus. Its scenes are larger than the cases of a campaign, so their limit is
+// six times that of a case, but at most a minute.
 properties::WorkerLimits limits_of(const properties::CampaignRequest& request) {
   constexpr double times = 6, most_seconds = 60;
   auto limits = request.worker_limits();
@@ -57,14 +57,15 @@ properties::WorkerLimits limits_of(const properties::CampaignRequest& request) {
   return limits;
 }
 
-// Who hangs in so many cases of the corpus is not asked for the others: each may take an hour, and
-// nothing is certified any more.
+// A detector that hangs in this many cases of the corpus is not asked for the others, because each
+// may take long, and nothing is certified any more.
 constexpr int most_hung_cases = 3;
 
-// Cases through the worker, a row for each configuration.
+// Runs cases through the worker, and makes a row for each configuration.
 class JudgedRows {
  public:
-  // hung: in how many cases of the corpus the detector hung, before these and with them.
+  // `hung` counts the cases of the corpus in which the detector hung. It goes on from those before
+  // these rows.
   JudgedRows(const properties::CampaignRequest& request, const std::string& input,
              const OnCorpusFailure& on_failure, int& hung, const std::string& before_id = "")
       : request_(request),
@@ -79,7 +80,7 @@ class JudgedRows {
   void add(const corpus::Case& c) {
     const auto seen = properties::contracted(c, request_.detector.contract);
     for (auto& row : rows_) ++(seen ? row.cases : row.left_out);
-    if (!seen) return;  // it is beyond the contract
+    if (!seen) return;  // the case is beyond the contract
     if (hung_ >= most_hung_cases) {
       for (auto& row : rows_)
         row.open.push_back(
@@ -88,7 +89,7 @@ class JudgedRows {
     }
     const auto& configurations = request_.detector.configurations;
     const auto runs = worker_.run(*seen, configurations);
-    // What has no step is judged without the truth, which takes the most time by far.
+    // A run without a step is judged without the truth, which takes most of the time by far.
     const bool is_answered =
         std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.steps.empty(); });
     std::vector<oracle::StepJudgement> truth;
@@ -104,13 +105,13 @@ class JudgedRows {
       const auto& failure = verdict.failure;
       rows_[i].defects += failure ? 1 : 0;
       if (!failure) {
-        rows_[i].open.push_back({before_id_ + c.id, "", "no verdict: " + runs[i].what});
+        rows_[i].open.push_back({before_id_ + c.id, "", "no verdict: " + runs[i].explanation});
       } else {
-        rows_[i].failed.push_back({before_id_ + c.id, failure->signature(), failure->what});
+        rows_[i].failed.push_back({before_id_ + c.id, failure->signature(), failure->explanation});
         on_failure_({std::string(properties::corpus_in_id) + before_id_ + c.id,
                      configurations[i].name,
                      failure->signature(),
-                     failure->what,
+                     failure->explanation,
                      corpus::case_text(*seen),
                      {},
                      false,
@@ -135,7 +136,7 @@ corpus::Expected<std::vector<corpus::Case>> curated(const std::filesystem::path&
   return read_cases(files.value());
 }
 
-// Small enough to judge every scene in a few seconds, and in as many frames as the scene is itself.
+// Makes a scene small enough to be judged in a few seconds, in as many frames as the scene needs.
 corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   corpus::SceneOptions options;
   options.size = 600;
@@ -151,7 +152,7 @@ corpus::Expected<corpus::Case> case_of_scene(const corpus::SceneInfo& scene) {
   return c;
 }
 
-// The named queries of the self-test, and those of the corpus.
+// Checks the named queries of the self-test, and those of the corpus.
 Expected<void> check_queries(const properties::CampaignRequest& request,
                              const std::filesystem::path& corpus, const OnCorpusRow& on_row,
                              const OnCorpusFailure& on_failure) {
@@ -191,7 +192,7 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
   } else {
     JudgedRows judged(request, "curated cases", on_failure, hung);
     for (const auto& c : cases.value()) {
-      // What has to be refused is no valid input, so nothing is claimed of it.
+      // Input that has to be refused is not valid, so the detector claims nothing of it.
       if (c.expected.answer != detector::Answer::error) judged.add(c);
     }
     for (const auto& row : judged.rows()) on_row(row);
@@ -227,8 +228,9 @@ std::string corpus_row_text(const CorpusRow& row) {
   std::string text =
       fmt::format("{:<18} {:<18} {:>6} {:>6} {:>11} {:>7} {:>8}\n", row.input, row.configuration,
                   row.cases, row.steps, row.collisions, row.pairs, row.defects);
-  for (const auto& open : row.open) text += fmt::format("  {}: {}\n", open.id, open.what);
-  for (const auto& failed : row.failed) text += fmt::format("  {}: {}\n", failed.id, failed.what);
+  for (const auto& open : row.open) text += fmt::format("  {}: {}\n", open.id, open.explanation);
+  for (const auto& failed : row.failed)
+    text += fmt::format("  {}: {}\n", failed.id, failed.explanation);
   return text;
 }
 

@@ -35,7 +35,7 @@ Json failures_json(const properties::RunFindings& findings) {
                     {"met", findings.met_count(*failure)},
                     {"waived", findings.is_waived(failure->signature)},
                     {"flaky", failure->flaky},
-                    {"what", shown_what(*failure)},
+                    {"what", shown_explanation(*failure)},
                     {"case", failure->id},
                     {"before", size_json(failure->mesh)},
                     {"after", is_shrunk ? size_json(failure->smallest) : Json(nullptr)},

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of a case, where they are not the usual ones.
+// The limits of a case, if they are not the usual ones.
 std::string case_limits_text(const Json& plan) {
   const properties::CampaignPlan usual;
   std::string text;
@@ -27,7 +27,7 @@ std::string case_limits_text(const Json& plan) {
   return text;
 }
 
-// The claims that were judged, and those that were not.
+// Names the claims that were judged, and those that were not.
 std::string claims_text(const Json& p) {
   const auto& configurations = p["detector"]["configurations"];
   if (p["detector"]["built_in"].get<bool>())

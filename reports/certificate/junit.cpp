@@ -49,8 +49,9 @@ bool gate_fails(const Json& p, std::string_view name) {
   return false;
 }
 
-// A stratum fails for what makes a gate fail: its defects where the claims do not hold, its bound,
-// or what has no verdict, where the bounds are not met. Of one shard by itself no bound is wanted.
+// A stratum fails for what makes a gate fail. If the claims do not hold, that is its defects. If
+// the bounds are not met, that is its bound, or its cases without a verdict. A shard by itself is
+// not asked for a bound.
 Suite strata_suite(const Json& p) {
   Suite suite{"strata", {}};
   const bool claims_fail = gate_fails(p, "claims"), bounds_fail = gate_fails(p, "bounds");
@@ -59,14 +60,14 @@ Suite strata_suite(const Json& p) {
     const auto& wanted = stratum["wanted_bound"];
     for (const auto& bound : stratum["bounds"]) {
       const auto count = [&](const char* name) { return bound[name].get<std::uint64_t>(); };
-      const auto what = fmt::format("{} of {} trials hold, {} defects, {} undecided; bound {:.2e}",
-                                    count("holds"), count("n"), count("defects"),
-                                    count("undecided"), bound["bound"].get<double>());
+      const auto counts = fmt::format(
+          "{} of {} trials hold, {} defects, {} undecided; bound {:.2e}", count("holds"),
+          count("n"), count("defects"), count("undecided"), bound["bound"].get<double>());
       const bool is_short = wanted.is_null() ? count("undecided") + count("errors") > 0
                                              : !is_alone && bound["bound"] > wanted;
       TestCase test{text(stratum["family"]) + ", " + text(bound["configuration"]), {}, {}};
       if ((claims_fail && count("defects") > 0) || (bounds_fail && is_short)) {
-        test.failure = what;
+        test.failure = counts;
       } else if (count("n") == 0) {
         test.skipped = "no trial";
       }
@@ -92,7 +93,7 @@ Suite laws_suite(const Json& p) {
   return suite;
 }
 
-// Planted ones have to be found, equivalent ones must not.
+// Planted faults have to be found, and equivalent ones must not be.
 Suite faults_suite(const Json& p) {
   Suite suite{"faults", {}};
   for (const auto& fault : p["power"]["faults"]) {
@@ -101,7 +102,8 @@ Suite faults_suite(const Json& p) {
     if (fault["status"] == "planted" && !found) {
       const auto why =
           fmt::format("not found within {} cases", fault["cases"].get<std::uint64_t>());
-      // The plan's policy may ask for less than all of them.
+      // The policy of the plan may ask for less than all of them, so this fault fails only if the
+      // gate fails.
       (gate_fails(p, "harness") && !fault["time_over"].get<bool>() ? test.failure : test.skipped) =
           why;
     } else if (fault["status"] == "equivalent" && found) {
@@ -135,14 +137,14 @@ Suite corpus_suite(const Json& p) {
 Suite failures_suite(const Json& p) {
   Suite suite{"failures", {}};
   for (const auto& failure : p["failures"]) {
-    const auto what =
+    const auto line =
         fmt::format("{} ({}), {}; {}\n", text(failure["what"]), text(failure["configuration"]),
                     met_text(failure), text(failure["case"]));
     TestCase test{text(failure["signature"]), {}, {}};
     if (failure["waived"].get<bool>()) {
-      test.skipped = "waived: " + what;
+      test.skipped = "waived: " + line;
     } else {
-      test.failure = what + "replay: " + text(failure["replay"]);
+      test.failure = line + "replay: " + text(failure["replay"]);
     }
     suite.cases.push_back(std::move(test));
   }

@@ -16,8 +16,8 @@ using properties::SpeedFigure;
 
 constexpr int rounds = 9;
 
-// Of the first over the second, in turn.
-SpeedFigure figure_of(std::string_view what, const corpus::Sequence& step, const Options& measured,
+// The time of the first options over that of the second, measured in turn.
+SpeedFigure figure_of(std::string_view name, const corpus::Sequence& step, const Options& measured,
                       const Options& beside) {
   BenchReport unused;
   TimedStep one("", step.triangles, step.frames, measured, unused);
@@ -25,7 +25,7 @@ SpeedFigure figure_of(std::string_view what, const corpus::Sequence& step, const
   const auto samples =
       interleave(rounds, {[&] { return one.time(); }, [&] { return other.time(); }});
   const Estimate ratio = ratio_of(samples[0], samples[1]);
-  return {std::string(what), ratio.value, ratio.lo, ratio.hi, ratio.samples};
+  return {std::string(name), ratio.value, ratio.lo, ratio.hi, ratio.samples};
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ void measure_speed(const OnSpeedFigure& on_figure) {
   const auto exact = bench_options(Culling::automatic), bvh = bench_options(Culling::bvh);
   const auto sphere = bench_scene("breathing-sphere", free_triangles, frames);
   on_figure(figure_of(properties::speed_figures[0], sphere, exact, bvh));
-  // The scene most like the step for which that limit is stated (rod-twist).
+  // This scene is most like rod-twist, for whose step the limit is stated.
   const auto twist = bench_scene("twist", search_triangles, frames);
   on_figure(figure_of(properties::speed_figures[2], twist, exact,
                       bench_options(Culling::automatic, Arithmetic::double_precision)));

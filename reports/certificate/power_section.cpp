@@ -7,7 +7,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using properties::RunFindings;
 
-// What the row says of it, under the keys of properties/campaign/stored/evidence.cpp.
+// What the row of a piece of evidence says of it, under the keys of
+// properties/campaign/stored/evidence.cpp.
 template <class T>
 Json facts_of(const T& evidence) {
   return Json::parse(to_row(evidence).facts);
@@ -49,7 +50,7 @@ Json faults_json(const RunFindings& findings) {
 Json worlds_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto& world : findings.evidence.worlds) {
-    // Of one that the time ended only the times tell how far it came.
+    // If the time ended a world, the numbers of classes and motions stand among the times only.
     const bool is_settled = world.complete || world.counterexample;
     list.push_back(
         {{"world", world.world},
@@ -112,7 +113,7 @@ Json times_json(const RunFindings& findings) {
   const auto& [issued, speed] = std::tie(findings.evidence.issued, findings.evidence.speed);
   Json figures = Json::array(), strata = Json::array(), worlds = Json::array(),
        files = Json::array();
-  for (const auto& figure : speed) figures.push_back(named("what", figure.what, figure));
+  for (const auto& figure : speed) figures.push_back(named("what", figure.name, figure));
   for (const auto& [family, tally] : findings.tally.strata)
     strata.push_back({{"family", family},
                       {"oracle_us", tally.oracle_us},
@@ -123,14 +124,15 @@ Json times_json(const RunFindings& findings) {
                       {"classes", world.classes},
                       {"all", world.all},
                       {"motions", world.motions}});
-  // Stores hold times, so the bytes of their files differ from run to run.
+  // The digests of the stores stand here, because stores hold times, and so their bytes differ
+  // from run to run.
   for (const auto& file : findings.files)
     files.push_back({{"name", file.name}, {"sha256", file.sha256}});
   return {{"issued", issued ? Json(issued->at) : Json(nullptr)},
           {"seconds", issued ? Json(issued->seconds) : Json(nullptr)},
           {"speed", std::move(figures)},
           {"strata", std::move(strata)},
-          {"near_the_limit", findings.tally.near.size()},
+          {"near_the_limit", findings.tally.near_limit.size()},
           {"worlds", std::move(worlds)},
           {"files", std::move(files)}};
 }
@@ -138,8 +140,8 @@ Json times_json(const RunFindings& findings) {
 Json waivers_json(const RunFindings& findings) {
   Json list = Json::array();
   for (const auto& waiver : findings.evidence.waivers) {
-    const auto met = findings.met.find(waiver.signature);
-    std::uint64_t count = met == findings.met.end() ? 0 : met->second;
+    const auto met = findings.times_met.find(waiver.signature);
+    std::uint64_t count = met == findings.times_met.end() ? 0 : met->second;
     for (const auto& row : findings.evidence.corpus) {
       for (const auto& failed : row.failed) count += failed.signature == waiver.signature ? 1 : 0;
     }

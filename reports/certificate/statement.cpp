@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using properties::RunFindings;
 
-// Whether the stores are bound to the plan: its times are not part of that.
+// Whether the stores are bound to the plan. The times of the plan do not count for that.
 bool is_plan_of(const RunFindings& findings, const properties::CampaignPlan& plan) {
   auto bound = plan;
   bound.seconds = bound.shrink_share = bound.tetrahedron_seconds = 0;
@@ -27,12 +27,14 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-// The library of a plug-in; of the built-in detector the program that holds it and runs it.
+// The subject is the library of a plug-in. For the built-in detector it is the program that holds
+// and runs it.
 Json subject_json(const RunFindings& findings) {
   const auto& run = findings.run;
   Json digest;
   digest["sha256"] = or_null(run.detector.built_in ? run.digests.worker : run.digests.plugin);
-  // Of a plug-in only its owner knows the commit; changed files have none.
+  // The commit is stated for the built-in detector only, because only the owner of a plug-in knows
+  // that of the plug-in. Changed files have no commit.
   constexpr std::size_t digits = 40;
   const auto& versions = findings.evidence.versions;
   if (run.detector.built_in && versions && versions->commit && versions->commit->size() == digits)
@@ -40,7 +42,7 @@ Json subject_json(const RunFindings& findings) {
   return Json::array({{{"name", run.detector.name}, {"digest", std::move(digest)}}});
 }
 
-// What held for all of it: in every shard, and where the corpus was run.
+// The isolation that held for everything: in every shard, and where the corpus was run.
 Json isolation_json(const RunFindings& findings) {
   if (findings.run.detector.built_in) return nullptr;
   const auto& told = findings.evidence.isolation;
@@ -99,8 +101,8 @@ Json replay_json(const RunFindings& findings) {
                    shell_word(properties::certificate_file(paths->out).string()))});
 }
 
-// What is no UTF-8 in it, such as the name of a folder, replaced: as it is read back from the file
-// that it is written to.
+// Replaces what is not UTF-8 in the statement, such as in the name of a folder. The result is what
+// will be read back from the file.
 Json in_utf8(const Json& json) { return Json::parse(corpus::json_text(json)); }
 
 }  // namespace
@@ -109,7 +111,7 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
                     const properties::CampaignPlan& plan, const std::string& campaign_digest) {
   Json problems = Json::array();
   for (const auto& problem : findings.evidence.problems) {
-    if (!problem.what.empty()) problems.push_back(problem.what);
+    if (!problem.explanation.empty()) problems.push_back(problem.explanation);
   }
   return in_utf8(
       {{"schema", certificate_schema},

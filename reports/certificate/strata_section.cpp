@@ -24,7 +24,7 @@ Json bounds_json(const RunFindings& findings, const properties::StratumPlan& str
   return list;
 }
 
-// [from, to, count] of numbers by their power of two; [0, 0, count] for none at all.
+// A row [from, to, count] for each power of two, and [0, 0, count] for those that are 0.
 Json histogram(const std::map<int, std::uint64_t>& counts) {
   Json list = Json::array();
   for (const auto& [log2, count] : counts) {

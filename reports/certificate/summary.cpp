@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// As words of a paragraph or within a cell of a table, and as nothing else: what a plug-in says
-// becomes neither HTML nor a link, a picture or code.
+// Writes a text as words of a paragraph or of a cell of a table. What a plug-in says becomes
+// neither HTML nor a link, a picture or code.
 std::string cell(const std::string& text) {
   static const std::map<char, std::string_view> written = {
       {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'\\', "\\\\"}, {'|', "\\|"},

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 using corpus::json_text;
 using Lines = std::vector<std::string>;
 
-// Where each leaf stands, in the order of the text. Objects and lists without anything are leaves.
+// The place of each leaf, in the order of the text. An empty object or list is a leaf.
 using Leaves = std::vector<std::pair<std::string, const Json*>>;
 
 void add_leaves(const Json& json, const Json::json_pointer& place, Leaves& leaves) {
@@ -32,7 +32,7 @@ void add_leaves(const Json& json, const Json::json_pointer& place, Leaves& leave
   for (const auto& [name, value] : json.items()) add_leaves(value, place / name, leaves);
 }
 
-// A leaf that only one side has, or that differs.
+// Reports each leaf that only one side has, or that differs.
 void compare_fields(const Json& stated, const Json& computed, Lines& lines) {
   Leaves one, other;
   add_leaves(stated, Json::json_pointer(), one);
@@ -57,7 +57,7 @@ void compare_fields(const Json& stated, const Json& computed, Lines& lines) {
 
 void compare_file(const std::filesystem::path& file, const std::string& sha256, Lines& lines) {
   std::error_code ignored;
-  // A pipe would keep its reader waiting.
+  // Only a regular file is read, because a pipe would keep its reader waiting.
   if (!std::filesystem::is_regular_file(file, ignored)) {
     lines.push_back(fmt::format("{}: no such file", file.string()));
     return;
@@ -70,7 +70,7 @@ void compare_file(const std::filesystem::path& file, const std::string& sha256, 
   }
 }
 
-// The schema that a certificate of another version names.
+// The schema that the certificate names, if it is that of another version.
 std::optional<std::string> other_schema(const Json& statement) {
   const auto predicate = statement.find("predicate");
   if (predicate == statement.end() || !predicate->is_object()) return std::nullopt;
@@ -83,7 +83,8 @@ std::optional<std::string> other_schema(const Json& statement) {
   return is_version ? std::optional(text) : std::nullopt;
 }
 
-// Reads the certificate into the result; false where that says already why it does not verify.
+// Reads the certificate into the result. Returns false if the result says already why it does not
+// verify.
 bool read_certificate(const std::filesystem::path& certificate, Verification& result) {
   auto& lines = result.differences;
   std::error_code ignored;
@@ -130,7 +131,8 @@ void compare(const std::filesystem::path& certificate, const properties::Expecte
   const auto folder = folder_of(certificate);
   const Json& computed = made.value();
   compare_fields(result.statement, computed, lines);
-  // A compressed file is read as what it holds, and assay writes none.
+  // The bytes of the file are compared as well, because a compressed certificate would be read
+  // like its contents, and assay writes none.
   if (lines.empty()) compare_file(certificate, corpus::sha256_of(statement_text(computed)), lines);
   const auto& predicate = computed["predicate"];
   for (const auto& failure : predicate["failures"])

@@ -69,7 +69,7 @@ corpus::Expected<std::vector<Waiver>> read_waivers(const std::filesystem::path& 
   return waivers;
 }
 
-// Days written in this way are ordered as their texts are.
+// Days written in this way have the order of their texts.
 bool is_expired(const Waiver& waiver, const std::string& today) { return waiver.expires < today; }
 
 }  // namespace assay::reports

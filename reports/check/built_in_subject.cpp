@@ -24,7 +24,7 @@ detector::Options options_of(const BuiltInChoice& choice, const CheckInput& inpu
 
 class BuiltIn : public Subject {
  public:
-  // player: nothing where a limit was reached before there was one.
+  // `player` is empty if a limit was reached before there was one.
   BuiltIn(std::optional<properties::CasePlayer> player, double create_ms,
           const detector::Options& options, const corpus::Case& c, Limits& limits)
       : player_(std::move(player)),

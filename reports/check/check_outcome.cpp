@@ -14,7 +14,7 @@ using properties::Outcome;
 
 namespace {
 
-// The outcome speaks only of what was judged.
+// The outcome names only claims that were judged.
 std::string claims_text(const std::vector<std::string>& held,
                         const std::vector<properties::NotJudged>& not_judged) {
   if (not_judged.empty()) return "; all claims hold\n";

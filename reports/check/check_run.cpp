@@ -23,7 +23,7 @@ using properties::Outcome;
 
 namespace {
 
-// A week: nobody waits longer for one mesh.
+// A week, because nobody waits longer for one mesh.
 constexpr double longest_check_seconds = 7 * 24 * 3600.0;
 
 class CheckRun {
@@ -90,7 +90,7 @@ class CheckRun {
       say(fmt::format("writes {}\n", question_.announced_file));
   }
 
-  // Whether there are steps to go through.
+  // Lets the subject begin. Returns whether there are steps to go through.
   bool begin() {
     const auto judged = subject_.begin();
     if (judged.disturbances > 0)
@@ -100,7 +100,7 @@ class CheckRun {
       say(fmt::format("the detector took {:.3g} s of processor time for {} step{}\n", *seconds,
                       step_count(), step_count() == 1 ? "" : "s"));
     if (judged.outcome == Outcome::holds) return true;
-    outcome_.ended = judged.what;
+    outcome_.ended = judged.explanation;
     for (const auto claim : judged.broken) {
       outcome_.ended +=
           fmt::format("{}{}", outcome_.ended.empty() ? "broken: " : "; broken: ", name_of(claim));
@@ -108,13 +108,13 @@ class CheckRun {
     say(fmt::format("the detector's run: {}\n", outcome_.ended));
     outcome_.defect = judged.outcome == Outcome::defect;
     outcome_.undecided = !outcome_.defect;
-    // What only differs between two runs has steps to show.
+    // If the only broken claim is that two runs agree, there are steps to show.
     return judged.broken == std::vector<properties::Claim>{properties::Claim::deterministic};
   }
 
   ShownWork shown_work(std::size_t s) const {
     const auto* plugin = subject_.description();
-    // The time of preprocessing is told once, with the first step.
+    // The time of preprocessing is shown once, with the first step.
     return {!plugin, !plugin || plugin->contract.reports_pairs,
             s == 0 ? subject_.create_ms() : std::nullopt};
   }
@@ -167,8 +167,9 @@ class CheckRun {
     return json;
   }
 
-  // Null where nobody asked for the report, for it takes more memory than what it tells. Of a step
-  // that ended at the limit of memory the pairs found until then are left out for the same reason.
+  // Null if nobody asked for the report, because it takes more memory than what it tells. If a
+  // step ended at the limit of memory, the pairs that it found until then are left out for the
+  // same reason.
   nlohmann::ordered_json json_of(detector::StepResult& result,
                                  const oracle::StepJudgement* judgement, double oracle_ms,
                                  const properties::StepDiff* diff) const {
@@ -192,7 +193,8 @@ class CheckRun {
     return second_opinion_json(opinion, share, milliseconds);
   }
 
-  // The step alone, where each frame is a file of its own; the same queries are chosen again.
+  // Names the frames of this step alone if each frame is a file of its own. The same queries are
+  // chosen again.
   std::string replay_line(std::size_t s) const {
     const auto& files = question_.files;
     const bool file_a_frame = files.size() == case_.frames.size();
@@ -211,12 +213,13 @@ class CheckRun {
     say(fmt::format("  triangles {} and {} were lost at: {}\n", lost.pair.a, lost.pair.b, stage));
   }
 
-  // The facts of a case are the built-in detector's; a plug-in is judged by the oracle alone.
+  // Whether the facts of the case are to be checked. They are facts of the built-in detector; a
+  // plug-in is judged by the oracle alone.
   bool has_facts() const {
     return is_case_file_ && !question_.no_oracle && question_.detector.library.empty();
   }
 
-  // A case states what is true of it: an answer that differs is a defect.
+  // A case states what is true of it, so an answer that differs is a defect.
   void check_facts() {
     const auto report = properties::check_case(case_, question_.built_in.culling, question_.jobs,
                                                question_.built_in.arithmetic);

@@ -27,7 +27,7 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
     return Refusal(fmt::format("{}: it holds no elementary query", words.library));
   if (!of_queries && !has_steps)
     return Refusal(fmt::format("{}: it holds no steps, but a query alone", words.library));
-  // Its words go into ids, files and pages.
+  // The words of the plug-in go into ids, files and pages, so they must be printable.
   const auto name = properties::printable(plugin.name);
   request.detector = {fmt::format("{} {}", name, properties::printable(plugin.version)),
                       false,

@@ -15,7 +15,7 @@ namespace {
 using detector::StepResult;
 using properties::Claim;
 
-// Its words go to the terminal and into JSON.
+// The words of the plug-in go to the terminal and into JSON, so they must be printable.
 properties::PluginDescription in_print(properties::PluginDescription description) {
   description.name = properties::printable(description.name);
   description.version = properties::printable(description.version);
@@ -58,8 +58,8 @@ class Plugin : public Subject {
               {"contract", nlohmann::json(description_.contract)}}}};
   }
 
-  // All steps at once: the worker carries the detector's state from one to the next. A second time
-  // where it claims to be deterministic.
+  // Runs all steps at once, because the worker carries the state of the detector from one to the
+  // next. They run a second time if the plug-in claims to be deterministic.
   properties::JudgedRun begin() override {
     const std::size_t times = claims_.deterministic ? 2 : 1;
     runs_ =
@@ -80,7 +80,7 @@ class Plugin : public Subject {
 
   StepError error_of(std::size_t s, const StepResult&) const override {
     const auto error = properties::error_of(runs_[0], s);
-    return {error.empty() ? runs_[0].what : error, false};
+    return {error.empty() ? runs_[0].explanation : error, false};
   }
 
   oracle::AskedFeatures asked() const override {

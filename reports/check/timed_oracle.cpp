@@ -6,7 +6,7 @@
 namespace assay::reports {
 namespace {
 
-// What `ask` answers; an answer without anything in it where memory fails.
+// Returns what `ask` answers, or an empty answer if memory fails.
 template <class Ask>
 auto timed(Limits& limits, const Ask& ask) {
   const auto begin = std::chrono::steady_clock::now();

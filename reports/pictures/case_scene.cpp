@@ -44,8 +44,9 @@ bool has_views(const properties::CaseRun& run) {
 }
 
 std::string end_text(const properties::CaseRun& run) {
-  return run.what.empty() ? properties::name_of(run.end)
-                          : std::string(properties::name_of(run.end)) + ": " + run.what;
+  return run.explanation.empty()
+             ? properties::name_of(run.end)
+             : std::string(properties::name_of(run.end)) + ": " + run.explanation;
 }
 
 }  // namespace

@@ -12,7 +12,8 @@ namespace {
 using Vector = Eigen::Vector3d;
 using Corners = std::array<std::int32_t, 3>;
 
-// Where the line e0 e1 crosses the plane of f, within the edge; its middle when it is parallel.
+// The point where the line e0 e1 crosses the plane of f, within the edge. If it is parallel to the
+// plane, the middle of the edge.
 Vector on_plane(const Vector& e0, const Vector& e1, const std::array<Vector, 3>& f) {
   const Vector normal = (f[1] - f[0]).cross(f[2] - f[0]);
   const double h0 = normal.dot(e0 - f[0]), h1 = normal.dot(e1 - f[0]);
@@ -20,7 +21,8 @@ Vector on_plane(const Vector& e0, const Vector& e1, const std::array<Vector, 3>&
   return e0 + part * (e1 - e0);
 }
 
-// Where two triangles come closest, in features that share no vertex; nothing where all do.
+// The point where two triangles come closest, by features that share no vertex. Nothing if all of
+// their features share one.
 template <class Place>
 std::optional<Vector> where_closest(const Corners& a, const Corners& b, const Place& place) {
   std::optional<NearestPoints> best;

@@ -26,7 +26,8 @@ std::string contents(std::FILE* file) {
   return text;
 }
 
-// The exit status of gnuplot, or what kept it from running as an errno below 0.
+// Returns the exit status of gnuplot. If it could not be run, returns the errno that says why, as
+// a number below 0.
 int run(std::FILE* in, std::FILE* out, std::FILE* err) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

@@ -10,11 +10,11 @@ namespace {
 
 struct Look {
   const char* colour;
-  int point_type;  // of gnuplot
+  int point_type;  // a number of gnuplot
 };
 constexpr Look looks[] = {{colour::blue, 7}, {colour::green, 5}, {colour::vermilion, 9}};
 
-// n log n through the last point of a line.
+// The curve n log n through the last point of a line.
 std::string guide(const std::vector<GrowthPoint>& points) {
   std::string text;
   const auto& last = points.back();
@@ -31,7 +31,7 @@ std::string guide(const std::vector<GrowthPoint>& points) {
 std::string growth_picture(const BenchReport& report) {
   std::vector<std::vector<GrowthPoint>> lines;
   for (const auto& p : report.growth) {
-    if (lines.empty() || lines.back().front().what != p.what) lines.emplace_back();
+    if (lines.empty() || lines.back().front().label != p.label) lines.emplace_back();
     lines.back().push_back(p);
   }
   std::string script = picture_head(760, 520);
@@ -55,7 +55,7 @@ std::string growth_picture(const BenchReport& report) {
         " $line_{1} using 1:2:3:4 with yerrorlines pointtype {3} pointsize 0.8 linecolor '{2}' "
         "linewidth 1.2 title {4} noenhanced",
         l == 0 ? "plot" : ", \\\n", l, look.colour, look.point_type,
-        quoted_for_gnuplot(lines[l].front().what));
+        quoted_for_gnuplot(lines[l].front().label));
   }
   return script + plots + "\n";
 }

@@ -8,7 +8,7 @@
 namespace assay::reports {
 namespace {
 
-// Of a family in an arithmetic, over all strengths.
+// The total of a family in an arithmetic, over all strengths.
 struct Total {
   int cases = 0, right = 0, missed = 0;
 };
@@ -28,14 +28,15 @@ std::string tics(const char* axis, const std::vector<std::string>& names) {
   return text + ") noenhanced scale 0\n";
 }
 
-// Colours run from dark (never right) to light (always): told apart by lightness alone.
+// The colours run from dark (never right) to light (always right), so that they can be told apart
+// by lightness alone.
 constexpr const char* palette =
     "set palette defined (0 '#2d1160', 0.5 '#b5367a', 0.8 '#fb8761', 1 '#fcfdda')\n";
-constexpr double dark_below = 0.7;  // where words must be light
+constexpr double dark_below = 0.7;  // below this share the words must be light
 
 std::string words_of(const Total& total) {
   const double share = static_cast<double>(total.right) / total.cases;
-  // 100 % is said only of what is always right.
+  // 100 % is said only if every case is right.
   const double percent = total.right == total.cases ? 100 : std::min(99.9, 100 * share);
   std::string words = fmt::format("{:.3g} %", percent);
   if (total.missed > 0) words += fmt::format("   {} missed", total.missed);
@@ -55,7 +56,7 @@ std::string heat_picture(const BenchReport& report) {
     totals[f][a].right += cell.right;
     totals[f][a].missed += cell.missed;
   }
-  constexpr int row = 26, around = 130;  // pixels
+  constexpr int row = 26, around = 130;  // in pixels
   std::string script =
       picture_head(860, around + row * static_cast<int>(std::max<std::size_t>(families.size(), 1)));
   script += "$heat << EOD\n";

@@ -18,7 +18,7 @@ using detector::Positions;
 using Vector = Eigen::Vector3d;
 using Corners = std::array<std::int32_t, 3>;
 
-// Pixels.
+// These are in pixels.
 constexpr double width = 360, picture = 300, margin = 24, caption = 44, row = 18;
 
 std::string escaped(const std::string& text) {
@@ -72,7 +72,8 @@ class Picture {
   }
 
  private:
-  // Coordinates may be of any size: divided by the largest before anything is added up.
+  // Coordinates may be of any size, so they are divided by the largest before anything is added
+  // up.
   void place_in_unit_box() {
     const double largest = x_.topRows(x_t0_.rows()).cwiseAbs().maxCoeff();
     scale_ = largest > 0 ? largest : 1;
@@ -84,8 +85,8 @@ class Picture {
   }
   Vector unit(const Vector& point) const { return (point / scale_ - low_) / size_; }
 
-  // Of four isometric sides, the one from which the pair covers the largest area, a hidden
-  // triangle being none.
+  // Chooses one of four isometric sides: the one from which the triangle of the pair that covers
+  // the smaller area covers most. A triangle that is not shown does not count.
   void choose_side() {
     double most = -1;
     for (const auto& [sx, sy] : {std::pair(1, 1), {-1, 1}, {-1, -1}, {1, -1}}) {
@@ -175,7 +176,7 @@ class Picture {
   std::optional<detector::TrianglePair> pair_;
   double time_ = 0;
   Positions x_t0_, x_t1_, x_;
-  std::vector<Corners> faces_;  // the mesh's, then ghosts
+  std::vector<Corners> faces_;  // those of the mesh, then those of ghosts
   std::size_t own_ = 0;
   double scale_ = 1, size_ = 1, flat_size_ = 1;
   Vector low_, towards_, right_, up_;

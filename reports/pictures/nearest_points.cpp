@@ -11,12 +11,13 @@ using Vector = Eigen::Vector3d;
 
 namespace {
 
-// part / whole within [0,1]; 0 for a whole of no length.
+// part / whole, clamped to [0,1]. It is 0 if the whole has no length.
 double share(double part, double whole) {
   return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0;
 }
 
-// The largest coordinate, as a power of two: of numbers divided by it no product of four overflows.
+// The largest coordinate, as a power of two. If numbers are divided by it, no product of four of
+// them overflows.
 double size_of(std::initializer_list<Vector> points) {
   double largest = 0;
   for (const auto& point : points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
@@ -27,7 +28,8 @@ NearestPoints scaled(const NearestPoints& nearest, double size) {
   return {size * nearest.a, size * nearest.b};
 }
 
-// The ends are clamped one after the other, as in Ericson, Real-Time Collision Detection, 5.1.9.
+// The parameters are clamped one after the other, as in Ericson, Real-Time Collision Detection,
+// 5.1.9.
 NearestPoints of_segments(const Vector& a0, const Vector& a1, const Vector& b0, const Vector& b1) {
   const Vector a = a1 - a0, b = b1 - b0, gap = a0 - b0;
   const double aa = a.squaredNorm(), bb = b.squaredNorm(), ab = a.dot(b);

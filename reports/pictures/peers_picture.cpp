@@ -16,15 +16,16 @@ std::uint64_t alarms_of(const PeerCounts& counts) { return counts.false_alarms; 
 
 bool is_shown(const PeerRow& row) { return row.over && row.counts.steps > 0; }
 
-// The built-in detector in one colour, the others in a colour each, as far as they go.
+// The built-in detector has one colour. Each other detector has a colour of its own, as far as the
+// colours go.
 std::string colour_of(const PeerRow& row, std::size_t place) {
   constexpr std::array colours = {colour::vermilion, colour::orange, colour::green,
                                   colour::purple,    colour::sky,    colour::grey};
   return row.is_built_in ? colour::blue : colours[place % colours.size()];
 }
 
-// Numbers of gnuplot's points: hollow, and filled one further. A shape that comes again has another
-// colour than before.
+// The number of a hollow point of gnuplot; the number one higher is the same shape, filled. A
+// shape that is used again has another colour.
 int point_of(std::size_t place) {
   constexpr std::array hollow = {4, 6, 8, 10, 12, 14};
   return hollow[(place + place / hollow.size()) % hollow.size()];
@@ -34,7 +35,7 @@ std::string block_name(const char* panel, std::size_t place) {
   return fmt::format("${}_{}", panel, place);
 }
 
-// x, its interval, y in %, its interval.
+// A line holds x and its interval, then y in % and its interval.
 std::string data(const BenchReport& report, const char* panel, Part part) {
   std::string text;
   for (std::size_t i = 0; i < report.peers.size(); ++i) {
@@ -49,7 +50,7 @@ std::string data(const BenchReport& report, const char* panel, Part part) {
 }
 
 std::string look_of(const PeerRow& row, std::size_t place) {
-  // Hollow: it does not promise to miss nothing.
+  // A hollow point shows a detector that does not promise to miss nothing.
   return fmt::format("pointtype {} pointsize 1.2 linewidth 1.2 linecolor '{}'",
                      point_of(place) + (row.claims_soundness ? 1 : 0), colour_of(row, place));
 }
@@ -93,7 +94,8 @@ std::string peers_picture(const BenchReport& report) {
   script += data(report, "unsafe", unsafe_of) + data(report, "alarms", alarms_of);
   script += "set logscale x\nset xtics (0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500)\n" +
             range_of_times(report) +
-            // Shares near 0 and shares of some tens of % on one axis; 0 is on it.
+            // This scale shows shares near 0 and shares of some tens of % on one axis. It has 0 on
+            // it.
             "set nonlinear y via asinh(10*y) inverse sinh(y)/10\n"
             "set yrange [-0.03:100]\n"
             "set ytics (0, 0.1, 0.3, 1, 3, 10, 30, 100)\n"

@@ -12,7 +12,7 @@ namespace {
 struct CullingLook {
   const char* culling;
   const char* colour;
-  int point_type;  // of gnuplot
+  int point_type;  // a number of gnuplot
 };
 constexpr CullingLook culling_looks[] = {{"view-point", colour::blue, 9},
                                          {"view-line", colour::vermilion, 11},
@@ -22,7 +22,7 @@ std::vector<ScatterPoint> points_of(const BenchReport& report, const CullingLook
                                     const std::string& over) {
   std::vector<ScatterPoint> points;
   for (const auto& p : report.scatter) {
-    // A step of view-auto that fell back to bvh has no view sets.
+    // A step of view-auto that fell back to bvh has no view sets, so it has no share.
     const bool has_views = p.culling != "view-auto" || p.share > 0;
     if (p.culling == look.culling && p.over == over && has_views) points.push_back(p);
   }
@@ -41,7 +41,7 @@ std::string data(const BenchReport& report, const std::string& name, const std::
   return text;
 }
 
-// The same for both panels: a decade's third around what there is.
+// The range is the same for both panels: a third of a decade around all ratios.
 std::string ratio_range(const BenchReport& report) {
   double least = 0.3, most = 3;
   for (const auto& p : report.scatter) {
@@ -51,7 +51,7 @@ std::string ratio_range(const BenchReport& report) {
   return fmt::format("set yrange [{:.4g}:{:.4g}]\n", least / 2, most * 2);
 }
 
-// Where the fitted lines cross 1, as words below the title.
+// Tells where the fitted lines cross 1, in words below the title.
 std::string crossings(const BenchReport& report, const std::string& over) {
   std::string text;
   for (const auto& look : culling_looks) {

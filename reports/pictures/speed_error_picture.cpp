@@ -26,7 +26,7 @@ constexpr ArithmeticLook arithmetic_looks[] = {{Arithmetic::exact, colour::blue}
 
 struct Mark {
   Culling culling;
-  int point_type;  // of gnuplot: all filled
+  int point_type;  // a number of gnuplot; all these points are filled
 };
 constexpr Mark marks[] = {{Culling::automatic, 15},   {Culling::view_auto, 7},
                           {Culling::view_point, 9},   {Culling::view_line, 11},
@@ -36,7 +36,7 @@ bool is_drawn(const VariantSummary& v) {
   return v.variant.pairs == Pairs::all && v.variant.culling != Culling::none;
 }
 
-// x, its interval, y in %, its interval.
+// A line holds x and its interval, then y in % and its interval.
 std::string point(const VariantSummary& v, Error error) {
   const auto& e = v.*error;
   return fmt::format("{} {} {} {} {} {}\n", v.over_reference.value, v.over_reference.lo,
@@ -47,7 +47,7 @@ std::string block_name(const char* panel, std::size_t look, std::size_t mark) {
   return fmt::format("${}_{}_{}", panel, look, mark);
 }
 
-// A block of data for each arithmetic and culling, and one for the Pareto line.
+// Writes a block of data for each arithmetic and culling, and one for the Pareto line.
 std::string data(const BenchReport& report, const char* panel, Error error) {
   std::string text;
   for (std::size_t l = 0; l < std::size(arithmetic_looks); ++l) {
@@ -67,7 +67,8 @@ std::string data(const BenchReport& report, const char* panel, Error error) {
   return text + "EOD\n";
 }
 
-// Exact is drawn hollow: at no error at all it would hide bounded.
+// Exact arithmetic is drawn hollow, because it has no error at all and would hide bounded
+// arithmetic.
 bool is_hollow(const ArithmeticLook& look) { return look.arithmetic == Arithmetic::exact; }
 
 std::string plots(const char* panel) {
@@ -105,7 +106,7 @@ std::string legend() {
   return text;
 }
 
-// In %.
+// The largest share of steps with an error, in %.
 double largest_share(const BenchReport& report) {
   double most = 0.01;
   for (const auto& v : report.variants) {

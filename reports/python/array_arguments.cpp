@@ -6,14 +6,16 @@ namespace py = pybind11;
 
 namespace {
 
-// In the machine's order of bytes, and where the processor expects it.
+// Whether the numbers stand in the byte order of the machine, and at addresses where the processor
+// expects them.
 template <class Scalar>
 bool holds(const py::array& array) {
   return py::isinstance<py::array_t<Scalar>>(array) &&
          (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
 }
 
-// Rows one behind the other, in whole numbers of scalars; of a single row the stride says nothing.
+// Whether the rows stand one behind the other, at distances of whole numbers. If there is a single
+// row, its stride says nothing.
 template <class Scalar>
 bool is_viewable(const py::array& array) {
   constexpr py::ssize_t size = sizeof(Scalar), columns = 3;
@@ -23,7 +25,7 @@ bool is_viewable(const py::array& array) {
          (array.strides(0) >= columns * size && array.strides(0) % size == 0);
 }
 
-// A function of assay/arrays.py.
+// Calls a function of assay/arrays.py.
 template <class... Arguments>
 py::array converted(const char* function, const Arguments&... arguments) {
   return py::module_::import("assay.arrays")
@@ -36,7 +38,8 @@ constexpr const char* conversion = "positions";
 template <>
 constexpr const char* conversion<std::int32_t> = "triangles";
 
-// A subclass may mean something else by its elements: masked ones are told apart in Python.
+// A subclass may mean something else by its elements. Masked arrays, for example, are treated in
+// Python.
 bool is_plain(const py::object& given) {
   return Py_TYPE(given.ptr()) ==
          reinterpret_cast<PyTypeObject*>(py::detail::npy_api::get().PyArray_Type_);

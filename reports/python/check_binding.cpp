@@ -16,7 +16,7 @@ namespace py = pybind11;
 using reports::CheckInput;
 using reports::CheckQuestion;
 
-// An option whose word is given; ValueError for one that is none.
+// Reads an option if its word is given. A word that is not known is a ValueError.
 template <class Parse, class Target>
 void choose(const py::dict& given, const char* name, const Parse& parse, Target& target) {
   if (!given.contains(name) || given[name].is_none()) return;
@@ -63,7 +63,7 @@ CheckInput input_of(const py::object& triangles, const py::list& frames) {
   return input;
 }
 
-// The report as JSON, what is printed, and the exit code.
+// Returns the report as JSON, what is printed, and the exit code.
 py::tuple checked(CheckInput& input, const CheckQuestion& question, const std::string& worker,
                   const py::object& listener) {
   std::string text;
@@ -93,7 +93,7 @@ py::tuple check_arrays(const py::object& triangles, const py::list& frames, cons
   return checked(input, question, worker, listener);
 }
 
-// A case file, or files of frames.
+// Checks a case file, or files of frames.
 py::tuple check_files(const std::vector<std::string>& files, const py::dict& given,
                       const std::string& worker, const py::object& listener) {
   auto question = question_of(given);

@@ -15,14 +15,14 @@ using TimeArray = py::array_t<double, py::array::c_style | py::array::forcecast>
 
 constexpr py::ssize_t numbers_of_a_feature = 6;
 
-// How many vertices a feature of this kind has; -1: there is no such kind.
+// How many vertices a feature of this kind has, or -1 if there is no such kind.
 py::ssize_t vertices_of(std::int32_t kind) {
   constexpr std::array<py::ssize_t, 4> of_kinds = {4, 4, 5, 0};
   const auto place = static_cast<std::size_t>(kind);
   return place < of_kinds.size() ? of_kinds[place] : -1;
 }
 
-// Whether all indices are in range: contacts may come from anywhere.
+// Refuses indices that are out of range, because contacts may come from anywhere.
 void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
                      const IntegerArray& features, Eigen::Index triangles, Eigen::Index vertices) {
   const bool are_rows = pairs.ndim() == 2 && pairs.shape(1) == 2 && times.ndim() == 2 &&
@@ -36,7 +36,7 @@ void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
   }
   for (py::ssize_t k = 0; k < features.shape(0); ++k) {
     const auto* feature = features.data(k, 0);
-    // No vertex at all: of a detector that names no features.
+    // A feature without any vertex comes from a detector that names no features.
     const bool is_named = feature[1] >= 0;
     const py::ssize_t needed = is_named ? vertices_of(feature[0]) : 0;
     bool fits = vertices_of(feature[0]) >= 0;
@@ -45,7 +45,8 @@ void demand_contacts(const IntegerArray& pairs, const TimeArray& times,
   }
 }
 
-// float64 k x 3: where each contact is at its first time; NaN where that is no place.
+// Returns an array of float64, k x 3: the place of each contact at its first time, or NaN if there
+// is no such place.
 py::array contact_points(const py::object& triangles, const py::object& x_t0,
                          const py::object& x_t1, const IntegerArray& pairs, const TimeArray& times,
                          const IntegerArray& features) {

@@ -19,8 +19,8 @@ namespace py = pybind11;
 using detector::Detector;
 using detector::SavedState;
 
-// A detector is of one thread at a time: a call that finds another one under way is refused, for
-// the answers of steps depend on their order.
+// A detector is used by one thread at a time. A call that finds another one under way is refused,
+// because the answers of steps depend on their order.
 class OneAtATime {
  public:
   explicit OneAtATime(std::atomic_flag& busy) : busy_(busy) {
@@ -35,10 +35,10 @@ class OneAtATime {
   std::atomic_flag& busy_;
 };
 
-// After a fork the threads of the process that forked are not there: who would wait for them is
+// After a fork the threads of the parent process are not there. A call that would wait for them is
 // refused.
 void threads_in_this_process(std::uint32_t threads) {
-  static std::atomic<pid_t> process = 0;  // the first that had several
+  static std::atomic<pid_t> process = 0;  // the first process that used several
   if (threads == 1) return;
   pid_t first = 0;
   if (!process.compare_exchange_strong(first, ::getpid()) && first != ::getpid())
@@ -48,7 +48,8 @@ void threads_in_this_process(std::uint32_t threads) {
 
 class PythonDetector {
  public:
-  // options: words by their names, as a case file states them. threads: 0: all cores.
+  // `options` are words by their names, as a case file states them. If `threads` is 0, all cores
+  // are used.
   PythonDetector(const py::object& triangles, const py::object& positions, const py::dict& options,
                  std::uint32_t threads)
       : threads_(threads), detector_(made(triangles, positions, options, threads)) {}

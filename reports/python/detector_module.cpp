@@ -1,4 +1,4 @@
-// The module assay._detector: the production detector and its elementary test. It holds no oracle.
+// The module assay._detector holds the production detector and its elementary test, and no oracle.
 #include "reports/python/detector_binding.h"
 #include "reports/python/query_binding.h"
 

@@ -13,7 +13,7 @@ namespace {
 
 namespace py = pybind11;
 
-// An array of the matrix's numbers that owns the matrix.
+// Makes an array of the numbers of a matrix. The array owns the matrix.
 template <class Matrix>
 py::array owning_array(Matrix matrix) {
   auto kept = std::make_unique<Matrix>(std::move(matrix));
@@ -23,7 +23,7 @@ py::array owning_array(Matrix matrix) {
   return py::array_t<typename Matrix::Scalar>({rows, columns}, data, owner);
 }
 
-// Triangles, and a list of the positions of each frame.
+// Returns the triangles, and a list of the positions of each frame.
 py::tuple read_sequence(const std::vector<std::string>& files) {
   const std::vector<std::filesystem::path> paths(files.begin(), files.end());
   auto sequence = [&] {

@@ -12,8 +12,9 @@ namespace {
 
 namespace py = pybind11;
 
-// Modules such as NumPy's take the interpreter's symbols from the program. Here it is a library,
-// and was loaded for this plug-in alone: loading it again shows them to all.
+// Modules such as those of NumPy take the symbols of the interpreter from the program. Here the
+// interpreter is a library that was loaded for this plug-in alone, so it is loaded again, which
+// shows its symbols to all.
 void show_interpreter_to_modules() {
   Dl_info library = {};
   if (::dladdr(reinterpret_cast<const void*>(&Py_InitializeFromConfig), &library) == 0 ||
@@ -29,14 +30,14 @@ void demand(PyStatus status, PyConfig& config) {
 }
 
 void initialize() {
-  // What multiplies matrices in threads reserves much memory for each of them.
+  // Libraries that multiply matrices in threads reserve much memory for each of them.
   for (const char* name : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"}) ::setenv(name, "1", 0);
   PyConfig config;
   PyConfig_InitPythonConfig(&config);
   config.parse_argv = 0;
   config.install_signal_handlers = 0;
-  config.write_bytecode = 0;  // there is no place for it
-  config.buffered_stdio = 0;  // what is printed belongs to the step that printed it
+  config.write_bytecode = 0;  // there is no place to write it to
+  config.buffered_stdio = 0;  // text must come out in the step that printed it
   const char* executable = std::getenv("ASSAY_PYTHON");
   if (!executable || !*executable) executable = ASSAY_PYTHON_EXECUTABLE;
   demand(PyConfig_SetBytesString(&config, &config.program_name, executable), config);
@@ -52,7 +53,7 @@ void start_interpreter(const char* package) {
   initialize();
   {
     auto path = py::module_::import("sys").attr("path").cast<py::list>();
-    path.insert(0, "");  // this folder, as `python -m` has it
+    path.insert(0, "");  // the current folder, as with `python -m`
     path.append(package);
   }
   PyEval_SaveThread();

@@ -13,7 +13,7 @@ namespace {
 
 namespace py = pybind11;
 
-// The oracle takes what the detector takes, and refuses it by the same names.
+// The oracle takes the same input as the detector, and refuses other input by the same names.
 void demand_good_input(const detector::TrianglesView& triangles,
                        const detector::PositionsView& x_t0, const detector::PositionsView& x_t1) {
   if (const auto bad = detector::check_triangles(triangles, x_t0.rows())) raise(*bad);

@@ -1,4 +1,4 @@
-// The module assay._judge: the oracle, `check` and the readers of frames.
+// The module assay._judge holds the oracle, `check` and the readers of frames.
 #include "reports/python/frames_binding.h"
 #include "reports/python/judge_binding.h"
 

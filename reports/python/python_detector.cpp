@@ -1,6 +1,6 @@
-// The plug-in that serves `--detector python:MODULE:CLASS`: an interpreter in the process of a
-// plug-in, and the class in it. What the class may have, and how its answers are read, is in
-// assay/hosting.py, which does all that can be done in Python.
+// The plug-in that serves `--detector python:MODULE:CLASS`. It runs an interpreter in the process
+// of a plug-in, and the class in it. assay/hosting.py says what the class may have and how its
+// answers are read, and does everything that can be done in Python.
 #include <dlfcn.h>
 #include <pybind11/numpy.h>
 
@@ -24,15 +24,15 @@ using plugin::Pair;
 using plugin::Positions;
 using plugin::Result;
 
-// The folder above that of this library: the package `assay` is in it.
+// The folder above that of this library. The package `assay` is in it.
 std::string folder_of_package() {
   Dl_info self = {};
   if (::dladdr(reinterpret_cast<const void*>(&folder_of_package), &self) == 0) return ".";
   return std::filesystem::absolute(self.dli_fname).parent_path().parent_path().string();
 }
 
-// What an exception of Python comes to on this side. Its traceback was printed, so it is kept with
-// the failure; the line says what it is and where.
+// Passes on an exception of Python. Its traceback was printed, so it is kept with the failure; the
+// line says what it is and where it was raised.
 [[noreturn]] void pass_on(py::error_already_set& error) {
   if (error.matches(PyExc_MemoryError)) throw std::bad_alloc();
   if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
@@ -52,7 +52,7 @@ auto in_python(const Work& work) {
   }
 }
 
-// The class, as assay/hosting.py wraps it. It stays as long as the process.
+// The class, as assay/hosting.py wraps it. It stays as long as the process does.
 const py::object& hosted() {
   static const py::object* const host = [] {
     start_interpreter(folder_of_package().c_str());
@@ -65,14 +65,15 @@ const py::object& hosted() {
   return *host;
 }
 
-// work(the class), in Python.
+// Calls work(the class), in Python.
 template <class Work>
 auto with_class(const Work& work) {
   const py::object& host = hosted();
   return in_python([&] { return work(host); });
 }
 
-// Copies: who computes in Python keeps arrays, and the host's are gone after the call.
+// Makes copies, because code in Python keeps arrays, and those of the host are gone after the
+// call.
 template <class T>
 py::array_t<T> array_of(const plugin::Rows<T>& rows) {
   py::array_t<T> array({static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}});
@@ -90,7 +91,7 @@ std::vector<Row> rows_of(const py::object& given) {
   return rows;
 }
 
-// Of the four or five parts that hosting.py makes of an answer.
+// Makes a result of the four or five parts into which hosting.py divides an answer.
 Result result_of(const py::tuple& parts) {
   Result result;
   result.answer = parts[0].cast<std::int32_t>();
@@ -103,7 +104,7 @@ Result result_of(const py::tuple& parts) {
 class PythonDetector {
  public:
   static plugin::Description describe() {
-    // Texts of a description live as long as the library.
+    // The texts of a description must live as long as the library.
     static std::string name, version;
     return with_class([](const py::object& host) {
       const auto text = [&](const char* member) { return host.attr(member).cast<std::string>(); };
@@ -173,7 +174,7 @@ class PythonDetector {
   py::object detector_;
 };
 
-// The table without the parts that the class does not have.
+// Makes the table without the parts that the class does not have.
 assay_detector_api made_table() {
   assay_detector_api made = *plugin::detail::table<PythonDetector>();
   try {
@@ -185,7 +186,7 @@ assay_detector_api made_table() {
     if (!has("query")) made.query = nullptr;
     if (!has("use_threads")) made.use_threads = nullptr;
   } catch (const std::exception&) {
-    // describe() says why.
+    // describe() will say why.
   }
   return made;
 }

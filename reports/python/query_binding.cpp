@@ -11,7 +11,7 @@ namespace {
 
 namespace py = pybind11;
 
-// Whether signals have come is asked after so many queries: about a millisecond.
+// After this many queries it is asked whether signals have come. They take about a millisecond.
 constexpr std::size_t queries_of_a_piece = 1024;
 
 void answer(const QueriesArgument& x_t0, const QueriesArgument& x_t1, int first_group, bool* hit,

@@ -20,10 +20,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* family_row = "{:<14}{:>10}{:>10}{:>10}{:>10}{:>11}{:>9}\n";
 
-// What one family came to.
+// The counts of one family.
 struct FamilyCount {
   std::uint64_t queries = 0, contacts = 0, left_out = 0, defects = 0, undecided = 0;
-  std::string first_failure;  // its name in the self-test
+  std::string first_failure;  // the name of the query in the self-test
 };
 
 void count_query(FamilyCount& count, const JudgedQuery& one, const std::string& name) {
@@ -61,7 +61,7 @@ class PluginSelfTest {
     return count;
   }
 
-  // The time that the user gave.
+  // Whether the time that the user gave is over.
   bool is_over() {
     was_over_ |= request_.time_limit && seconds() >= *request_.time_limit;
     return was_over_;
@@ -91,7 +91,7 @@ int replay_query(QueryDetector& detector, const QuerySelfTest& request) {
     const auto& step = one.run.steps[0];
     fmt::print("plug-in: {}{}{}\n", properties::name_of(step.answer),
                step.answer == detector::Answer::collision ? " at t = " + time_text(step.first) : "",
-               one.run.what.empty() ? "" : " (" + one.run.what + ")");
+               one.run.explanation.empty() ? "" : " (" + one.run.explanation + ")");
   }
   fmt::print("{}", detector.text());
   return detector.exit_code();

@@ -18,9 +18,10 @@ using properties::Outcome;
 
 namespace {
 
-// So many that a library that crashes at each of a million queries is known in a minute.
+// The number is chosen so that a library that crashes at each of a million queries is known in a
+// minute.
 constexpr std::uint64_t most_crashes = 100;
-constexpr double query_seconds = 10;  // of processor time, of the queries of a message
+constexpr double query_seconds = 10;  // of processor time, for all queries of a message
 
 }  // namespace
 
@@ -62,7 +63,7 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
     auto some = judge_->judge(std::span(queries).subspan(all.size(), count));
     for (auto& one : some) {
       const auto& name = names[all.size()];
-      if (one.run.end == properties::RunEnd::not_run) return Refusal(one.run.what);
+      if (one.run.end == properties::RunEnd::not_run) return Refusal(one.run.explanation);
       if (!one.is_within) {
         ++left_out_;
       } else {
@@ -75,7 +76,7 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
         ++broken_[properties::name_of(one.failure->claim)];
         const auto signature = one.failure->signature();
         if (met_[signature]++ == 0)
-          shown_.push_back({name, signature, properties::printable(one.failure->what)});
+          shown_.push_back({name, signature, properties::printable(one.failure->explanation)});
       }
       all.push_back(std::move(one));
     }
@@ -93,7 +94,7 @@ std::string QueryDetector::text() const {
   for (std::size_t i = 0; i < std::min(most_shown, shown_.size()); ++i) {
     const auto& one = shown_[i];
     out += fmt::format("DEFECT {}, met {} times\n  {}: {}\n", one.signature, met_.at(one.signature),
-                       one.name, one.what);
+                       one.name, one.explanation);
   }
   if (shown_.size() > most_shown)
     out += fmt::format("... {} signatures more\n", shown_.size() - most_shown);
@@ -115,7 +116,7 @@ nlohmann::ordered_json QueryDetector::to_json() const {
     failures.push_back({{"signature", one.signature},
                         {"met", met_.at(one.signature)},
                         {"query", one.name},
-                        {"what", one.what}});
+                        {"what", one.explanation}});
   return {{"judged", judged_},
           {"left_out", left_out_},
           {"undecided", undecided_},

@@ -20,7 +20,7 @@ namespace assay::reports {
 struct BrokenQuery {
   std::string name;       // "FILE query 12", "ulp:1:7"
   std::string signature;  // signature of the failure
-  std::string what;
+  std::string explanation;
 };
 
 class QueryDetector {

@@ -30,7 +30,7 @@ std::vector<JudgedQuery> QueryJudge::judge(std::span<const detector::FourPoints>
     asked.push_back(*properties::query_of(*seen));
     cases.push_back(std::move(*seen));
   }
-  // Starts it before the time is taken; its problems come back with the runs.
+  // This starts the worker before the time is taken. If it does not start, the runs say why.
   [[maybe_unused]] const auto started = worker_.describe();
   const auto begin = Clock::now();
   auto runs = worker_.ask(asked);

@@ -27,7 +27,7 @@ std::string obj_text(const detector::Positions& x, const detector::Triangles& tr
   return out;
 }
 
-// C++ doubles bit by bit, as hexadecimal literals.
+// Writes doubles for C++ bit by bit, as hexadecimal literals.
 std::string matrix_text(const detector::Positions& x) {
   std::string out;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -52,7 +52,8 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
                       const std::vector<oracle::StepJudgement>& truth) {
   std::string culling = properties::name_of(options.culling);
   std::replace(culling.begin(), culling.end(), '-', '_');
-  if (options.culling == detector::Culling::automatic) culling = "automatic";  // auto is a keyword
+  // `auto` is a keyword
+  if (options.culling == detector::Culling::automatic) culling = "automatic";
   const char* const arithmetics[] = {"exact", "bounded", "double_precision", "single_precision"};
   const bool exact = options.arithmetic == detector::Arithmetic::exact;
   std::string out = fmt::format(

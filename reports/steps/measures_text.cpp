@@ -13,14 +13,15 @@ namespace {
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
-// "12 of 120, 10 % [5.3, 17]"
+// Gives "12 of 120, 10 % [5.3, 17]", for example.
 std::string rate_text(const properties::Rate& rate) {
   if (rate.in == 0) return "-";
   return fmt::format("{} of {}, {} [{:.2g}, {:.2g}]", rate.of, rate.in, percent(rate.share()),
                      100 * rate.interval.lo, 100 * rate.interval.hi);
 }
 
-// "3: 0 0.01 0.5": steps that are off, then median, 99 of 100, and worst.
+// Gives "3: 0 0.01 0.5", for example: the number of steps that are off, then the median, the value
+// that 99 of 100 do not exceed, and the worst.
 std::string off_text(const properties::TimesOff& off) {
   if (off.steps == 0) return "none";
   return fmt::format("{}: {:.2g} {:.2g} {:.2g}", off.steps, off.median, off.p99, off.worst);
@@ -28,7 +29,7 @@ std::string off_text(const properties::TimesOff& off) {
 
 constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>24} {:>24} {:>14} {:>26}";
 
-// What the claim `deterministic` was tried on besides the trials.
+// Tells on what the claim `deterministic` was tried besides the trials.
 std::string repeated_text(const std::vector<properties::Repetition>& repeated) {
   if (repeated.empty()) return "";
   std::uint64_t most = 0, steps = 0, differing = 0;
@@ -37,9 +38,9 @@ std::string repeated_text(const std::vector<properties::Repetition>& repeated) {
     most = std::max(most, one.triangles);
     steps += one.steps;
     differing += one.broken ? 1 : 0;
-    if (!one.what.empty())
+    if (!one.difference.empty())
       lines += fmt::format("  {} {}: {}\n", one.broken ? "DIFFERS" : "not compared", one.input,
-                           one.what);
+                           one.difference);
   }
   return fmt::format(
       "repeated on larger meshes: {} sequences of up to {} triangles, {} steps; {} "

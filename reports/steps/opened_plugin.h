@@ -24,11 +24,11 @@ int main(int argc, char** argv) {
   const assay_detector_api* api = reinterpret_cast<const assay_detector_api* (*)()>(entry)();
 )";
 
-// `what` is "case" or "query"; its arrays stand in the file beside it. The code that follows finds
+// `kind` is "case" or "query"; its arrays stand in the file beside it. The code that follows finds
 // the table as `api`.
-inline std::string opened_plugin(const std::string& what) {
+inline std::string opened_plugin(const std::string& kind) {
   return std::string("// The same ")
-      .append(what)
+      .append(kind)
       .append(" through a plug-in: ./case_plugin ./libmine.so\n")
       .append(plugin_loading);
 }

@@ -12,7 +12,7 @@
 namespace assay::reports {
 namespace {
 
-// What a detector under the contract has to find, each with its first time.
+// The contacts that a detector has to find under the contract, each with its first time.
 std::vector<detector::PairContact> contacts_that_count(const corpus::Case& c,
                                                        const properties::Contract& contract,
                                                        const oracle::StepJudgement& truth) {

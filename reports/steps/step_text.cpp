@@ -18,7 +18,8 @@ std::string time_text(const detector::TimeEnclosure& time) {
 
 namespace {
 
-// In ways that no claim is broken by, where the outcome is `holds`.
+// Whether detector and oracle differ. If the outcome is `holds`, they differ in ways that break no
+// claim.
 bool differs(const properties::StepDiff& diff) {
   return diff.wrong_answer() || diff.wrong_first_time() || !diff.missing.empty() ||
          !diff.spurious.empty() || !diff.missing_candidates.empty() || !diff.late.empty() ||
@@ -42,12 +43,12 @@ std::string diff_text(const properties::StepDiff& diff, bool has_stages) {
     out += "\n";
   }
   constexpr std::size_t most_listed = 10;
-  const auto list = [&](const char* what, const std::vector<detector::PairContact>& pairs,
+  const auto list = [&](const char* heading, const std::vector<detector::PairContact>& pairs,
                         bool has_features) {
     for (std::size_t i = 0; i < pairs.size() && i < most_listed; ++i) {
       const auto& [pair, time, feature] = pairs[i];
-      out +=
-          fmt::format("  {}: triangles {} and {} at t = {}", what, pair.a, pair.b, time_text(time));
+      out += fmt::format("  {}: triangles {} and {} at t = {}", heading, pair.a, pair.b,
+                         time_text(time));
       out += has_features ? fmt::format(" ({})\n", properties::name_of(feature.kind)) : "\n";
     }
     if (pairs.size() > most_listed)
@@ -59,7 +60,7 @@ std::string diff_text(const properties::StepDiff& diff, bool has_stages) {
   return out;
 }
 
-// How far off the first time is, where it is.
+// Tells how far off the first time is, if it is wrong.
 std::string times_off_text(const properties::StepDiff& diff) {
   if (!diff.first || !diff.wrong_first_time()) return "";
   const bool is_late = diff.late_first;
@@ -68,7 +69,7 @@ std::string times_off_text(const properties::StepDiff& diff) {
                      is_late ? diff.first->late_by : diff.first->early_by);
 }
 
-// A step without views has no view sets: why it has none stands in their place.
+// Tells the view sets. A step without views has none, so the reason why takes their place.
 std::string sets_text(const detector::StepResult& result) {
   if (result.views != detector::ViewUse::used)
     return fmt::format("no views, {}", words_of(result.views));

@@ -24,7 +24,8 @@ void end_when_interrupted(const std::string& line, int code) {
     }
     fmt::print("\n{}\n", line);
     std::fflush(stdout);
-    // At once, whatever the other threads are at: what is stored is whole at any moment.
+    // The program ends at once, whatever the other threads are doing, because a store is whole at
+    // any moment.
     _exit(code);
   }).detach();
 }

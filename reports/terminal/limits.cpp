@@ -11,7 +11,7 @@ namespace assay::reports {
 
 namespace {
 
-// Of all threads of this process, ended ones included.
+// The processor time of all threads of this process, including those that ended.
 double processor_seconds() {
   timespec now = {};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

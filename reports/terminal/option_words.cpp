@@ -8,7 +8,7 @@
 namespace assay::reports {
 namespace {
 
-// A decimal number with nothing before or behind it.
+// Reads a decimal number with nothing before or behind it.
 std::optional<double> number_of(const std::string& word) {
   char* end = nullptr;
   const double number = std::strtod(word.c_str(), &end);
@@ -51,7 +51,8 @@ Check positive() {
           }};
 }
 
-// CLI11 reads "-1", and numbers beyond 64 bits, as the largest unsigned number.
+// This check is needed because CLI11 reads "-1", and numbers beyond 64 bits, as the largest
+// unsigned number.
 Check whole_number() {
   return {"NUMBER >= 0", [](const std::string& word) {
             return whole_number_of<std::uint64_t>(word)

@@ -7,9 +7,9 @@
 
 namespace assay::reports {
 
-PlainProgress::PlainProgress(std::string what)
+PlainProgress::PlainProgress(std::string title)
     : on_terminal_(isatty(fileno(stdout)) != 0),
-      what_(std::move(what)),
+      title_(std::move(title)),
       last_(std::chrono::steady_clock::now()) {}
 
 void PlainProgress::show(const std::string& text) {
@@ -19,9 +19,9 @@ void PlainProgress::show(const std::string& text) {
   last_ = now;
   drawn_ = true;
   if (on_terminal_) {
-    fmt::print("\r\033[K{}: {}", what_, text);
+    fmt::print("\r\033[K{}: {}", title_, text);
   } else {
-    fmt::print("{}: {}\n", what_, text);
+    fmt::print("{}: {}\n", title_, text);
   }
   std::fflush(stdout);
 }

@@ -9,7 +9,7 @@ namespace assay::reports {
 
 class PlainProgress {
  public:
-  explicit PlainProgress(std::string what);
+  explicit PlainProgress(std::string title);
   ~PlainProgress() { finish(); }
   PlainProgress(const PlainProgress&) = delete;
   PlainProgress& operator=(const PlainProgress&) = delete;
@@ -23,7 +23,7 @@ class PlainProgress {
  private:
   const bool on_terminal_;
   bool drawn_ = false;
-  std::string what_;
+  std::string title_;
   std::chrono::steady_clock::time_point last_;
 };
 

@@ -7,9 +7,9 @@
 
 namespace assay::reports {
 
-Progress::Progress(std::string what)
+Progress::Progress(std::string title)
     : on_terminal_(isatty(STDERR_FILENO) == 1),
-      what_(std::move(what)),
+      title_(std::move(title)),
       begin_(std::chrono::steady_clock::now()),
       last_(begin_) {}
 
@@ -26,7 +26,7 @@ void Progress::tick() {
   last_ = now;
   drawn_ = true;
   const std::chrono::duration<double> elapsed = now - begin_;
-  fmt::print(stderr, "\r\033[K{}: {} {:.0f} s", what_, phase_, elapsed.count());
+  fmt::print(stderr, "\r\033[K{}: {} {:.0f} s", title_, phase_, elapsed.count());
 }
 
 void Progress::finish() {

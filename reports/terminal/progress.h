@@ -8,7 +8,7 @@ namespace assay::reports {
 
 class Progress {
  public:
-  explicit Progress(std::string what);
+  explicit Progress(std::string title);
   ~Progress() { finish(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -22,7 +22,7 @@ class Progress {
  private:
   bool on_terminal_;
   bool drawn_ = false;
-  std::string what_, phase_;
+  std::string title_, phase_;
   std::chrono::steady_clock::time_point begin_, last_;
 };
 

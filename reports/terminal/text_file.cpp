@@ -28,7 +28,8 @@ Expected<void> may_write(const std::string& path, const std::vector<std::string>
   }
   const fs::path parent = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
   if (!fs::is_directory(parent, ignored)) return Refusal(path + ": its folder does not exist");
-  // Some folders and names take no file whatever their permissions say.
+  // A file is opened as a test, because some folders and names take no file whatever their
+  // permissions say.
   const std::string probe = path + ".probe";
   const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
   if (file < 0) return Refusal(path + ": cannot be written: " + std::strerror(errno));
@@ -38,7 +39,7 @@ Expected<void> may_write(const std::string& path, const std::vector<std::string>
 }
 
 Expected<void> write_text_file(const std::string& path, const std::string& text) {
-  // Through a symbolic link to the file behind it.
+  // If the path is a symbolic link, the file behind it is written.
   std::error_code ignored;
   const auto target = std::filesystem::is_symlink(path, ignored)
                           ? std::filesystem::canonical(path, ignored)

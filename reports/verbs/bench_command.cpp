@@ -1,4 +1,5 @@
-// `assay bench`: one suite, its rows, its figures as JSON and CSV, its picture.
+// `assay bench` runs one suite. It prints the rows, and writes the figures as JSON and CSV and the
+// picture.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -17,20 +18,20 @@ namespace assay::reports {
 namespace {
 
 struct BenchRequest {
-  std::string suite;         // one of `suites`; empty: a plug-in is timed
-  DetectorWords detector;    // of a plug-in; else it is not asked for
-  double case_seconds = 60;  // of one run of a sequence by the plug-in
+  std::string suite;         // one of `suites`; if it is empty, a plug-in is timed
+  DetectorWords detector;    // the plug-in; not asked for if there is a suite
+  double case_seconds = 60;  // the limit of one run of a sequence by the plug-in
   int jobs = 1;
   bool is_quick = false;
-  std::string data;                           // folder of the public data
-  std::string peers;                          // folder of the plug-ins of suite peers
-  std::string json_file, csv_file, svg_file;  // empty: none
+  std::string data;                           // the folder of the public data
+  std::string peers;                          // the folder of the plug-ins of suite peers
+  std::string json_file, csv_file, svg_file;  // an empty name: not written
 };
 
 struct Suite {
   std::string_view name;
   BenchReport (*run)(const BenchSettings&, Progress&);
-  std::string (*picture)(const BenchReport&);  // a script for gnuplot, or null
+  std::string (*picture)(const BenchReport&);  // makes a script for gnuplot; null if there is none
 };
 constexpr Suite suites[] = {{"elementary", elementary_suite, nullptr},
                             {"view", view_suite, nullptr},
@@ -49,7 +50,8 @@ const Suite* suite_named(std::string_view name) {
   return nullptr;
 }
 
-// Before the suite runs: a picture that cannot be drawn would be known minutes later.
+// Says why no picture can be drawn. This is asked before the suite runs, because otherwise it
+// would be known only minutes later.
 std::string no_picture(const BenchRequest& request, const Suite* suite) {
   if (request.svg_file.empty()) return {};
   if (!suite || !suite->picture) {
@@ -59,7 +61,7 @@ std::string no_picture(const BenchRequest& request, const Suite* suite) {
   return cannot_draw();
 }
 
-// The plug-in, loaded once, so that what is wrong with it is known before any work.
+// The plug-in. It is loaded once here, so that what is wrong with it is known before any work.
 Expected<BenchedPlugin> plugin_of(const BenchRequest& request) {
   const auto& words = request.detector;
   BenchedPlugin plugin;

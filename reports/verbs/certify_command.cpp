@@ -1,4 +1,5 @@
-// `assay certify`: corpus, campaign, planted faults, self-test, speed; then the certificate.
+// `assay certify` runs the corpus, the campaign, the planted faults, the self-test and the
+// measures of speed. Then it writes the certificate.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -44,7 +45,7 @@ using properties::stored_shards;
 
 constexpr const char* known_failures = ASSAY_CORPUS_DIR "/../known.json";
 
-// A folder that holds shards of more than one, or a merged store: nothing of it is run here.
+// Whether the folder holds shards of several, or a merged store. Then no trial is run here.
 bool holds_shards(const std::filesystem::path& out) {
   const auto files = stored_shards(out);
   return files && std::any_of(files.value().begin(), files.value().end(), [&](const auto& file) {
@@ -62,10 +63,11 @@ class Certification {
         checks_(std::move(checks)),
         begin_(Clock::now()) {}
 
-  // Exit code of the verdict, or of what kept it from being reached.
+  // Returns the exit code of the verdict, or of what kept it from being reached.
   int run() {
     auto done = write_text_file(properties::campaign_file(out_).string(), campaign_text());
-    // Before the cases of the corpus run: from then on every row is known.
+    // The stores are opened before the cases of the corpus run, because from then on every row is
+    // known.
     if (done) done = holds_shards(out_) ? take_shards() : open_store();
     if (done) store_subject();
     if (done) done = store_waivers();
@@ -95,7 +97,8 @@ class Certification {
     keep(properties::asked_of_a_certificate());
   }
 
-  // Those of the owner, where he gives cases or waivers, are taken together with the shipped ones.
+  // If the owner gives cases or waivers, their digests are taken together with those of the
+  // shipped ones.
   properties::InputDigests input_digests() const {
     std::string cases = corpus_digest(ASSAY_CORPUS_DIR);
     if (request_.own_cases) cases = corpus::sha256_of(cases + request_.own_cases->digest);
@@ -153,12 +156,12 @@ class Certification {
     return done;
   }
 
-  // Those of an earlier call that the corpus does not show any more.
+  // Removes failures of an earlier call that the corpus does not show any more.
   Expected<void> forget_corpus_failures() {
     std::set<std::string> signatures;
     for (const auto& failure : corpus_failures_) signatures.insert(failure.signature);
     checks_.keep_failures(signatures);
-    if (const auto& lost = checks_.problem()) return Refusal(*lost);
+    if (const auto& problem = checks_.problem()) return Refusal(*problem);
     return outcome::success();
   }
 
@@ -192,7 +195,7 @@ class Certification {
     return done;
   }
 
-  // What `run` stored, or `merge`: read, and made whole files of.
+  // Takes the stores that `run` or `merge` wrote, and makes whole files of them.
   Expected<void> take_shards() {
     const auto files = stored_shards(out_);
     if (!files) return Refusal(files.error());
@@ -213,7 +216,8 @@ class Certification {
     return outcome::success();
   }
 
-  // All that the stores have to hold: what was written here, and what was there before.
+  // All rows that the stores have to hold: those that were written here, and those that were there
+  // before.
   properties::KnownRows known_rows() const {
     properties::KnownRows known;
     known[properties::checks_file(out_).filename().string()] = &checks_.known_rows();
@@ -243,7 +247,7 @@ class Certification {
     checks_.drop(DroppedKind::times);
     fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
     measure_speed([&](const properties::SpeedFigure& figure) {
-      fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.what, figure.median,
+      fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.name, figure.median,
                  fmt::format("[{:.4f}, {:.4f}]", figure.lo, figure.hi));
       std::fflush(stdout);
       keep(figure);
@@ -255,8 +259,9 @@ class Certification {
     keep(properties::Issued{fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
                             seconds});
     checks_.seal();
-    if (const auto& lost = checks_.problem()) return refuse(Refusal(*lost));
-    // The code of a plug-in may have reached the files: the verdict is on what was stored, or none.
+    if (const auto& problem = checks_.problem()) return refuse(Refusal(*problem));
+    // The code of a plug-in may have reached the files. So there is a verdict on what was stored,
+    // or none.
     const auto findings = properties::read_findings(out_, known_rows());
     if (!findings) return refuse(Refusal(findings.error()));
     const auto statement = make_statement(findings.value());
@@ -282,7 +287,7 @@ class Certification {
   const properties::CampaignRequest& request_;
   const std::filesystem::path out_;
   properties::Checks checks_;
-  std::optional<properties::Store> store_;  // of the trials that are run here
+  std::optional<properties::Store> store_;  // the store of the trials that are run here
   std::map<std::string, properties::WholeShard>
       shards_;  // those that were run before, by file name
   std::vector<properties::StoredFailure> corpus_failures_;

@@ -1,5 +1,5 @@
-// `assay check`: consecutive frames are the steps of one mesh; each goes through the detector and,
-// unless left out, the oracle, and the two are compared.
+// `assay check` takes consecutive frames as the steps of one mesh. Each step goes through the
+// detector and, unless it is left out, the oracle, and the two are compared.
 #include <fmt/format.h>
 
 #include "properties/judging/case_options.h"
@@ -13,14 +13,14 @@ namespace assay::reports {
 namespace {
 
 struct CheckRequest {
-  std::vector<std::string> files;  // frames of one mesh, or one case file
+  std::vector<std::string> files;  // the frames of one mesh, or one case file
   CheckQuestion question;
   bool fail_on_collision = false;
-  std::string json_file;  // empty: none
+  std::string json_file;  // empty: not written
 };
 
 int run_check(const CheckRequest& request) {
-  // Before the work, not after it.
+  // This is asked before the work, not after it.
   if (auto may = may_write(request.json_file, request.files); !may) return refuse(may.error());
   auto input = read_check_input(request.files);
   if (!input) return refuse(Refusal(input.error()));

@@ -1,5 +1,6 @@
-// `assay check-queries`: labelled vertex-face and edge-edge queries answered by one method, scored
-// against their truth, and timed one by one; or by a plug-in's query, judged by its claims too.
+// `assay check-queries` asks one method labelled vertex-face and edge-edge queries, scores the
+// answers against their truth, and times them one by one. The query of a plug-in may answer
+// instead; then its claims are judged too.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -18,7 +19,7 @@ namespace {
 
 struct CheckQueriesRequest {
   std::vector<std::string> files;
-  std::vector<std::string> truths;  // none, or one a file
+  std::vector<std::string> truths;  // none, or one for each file
   QueryMethod method = QueryMethod::oracle;
   DetectorWords detector;
   std::string json_file;
@@ -33,7 +34,7 @@ Expected<void> write_report(const std::string& file, const nlohmann::ordered_jso
   return written;
 }
 
-// What a plug-in answers to the queries of a file, judged and scored.
+// Asks the plug-in the queries of a file. The answers are judged and scored.
 Expected<void> ask_plugin(QueryDetector& detector, const std::string& file, const QuerySet& set,
                           QueryScore& score) {
   std::vector<detector::FourPoints> queries;

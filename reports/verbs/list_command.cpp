@@ -1,4 +1,5 @@
-// `assay list`: scenes, laws, planted faults, campaigns; the failures and the slow cases of a run.
+// `assay list` lists scenes, laws, planted faults and campaigns, and the failures and slow cases
+// of a run.
 #include <fmt/format.h>
 
 #include "corpus/scenes/scenes.h"
@@ -15,8 +16,8 @@ namespace assay::reports {
 namespace {
 
 struct ListRequest {
-  std::string what = "scenes";  // scenes, laws, faults, campaigns, failures, slow
-  std::string folder;           // of a run, for the last two
+  std::string list = "scenes";  // scenes, laws, faults, campaigns, failures, slow
+  std::string folder;           // the folder of a run, for the last two
 };
 
 int list_scenes() {
@@ -67,7 +68,7 @@ int list_failures(const std::string& folder) {
     if (failure.signature != told)
       fmt::print("{:>8} times  {}\n", findings.value().met_count(failure), failure.signature);
     told = failure.signature;
-    fmt::print("    {} ({}): {}\n{}", failure.id, failure.configuration, failure.what,
+    fmt::print("    {} ({}): {}\n{}", failure.id, failure.configuration, failure.explanation,
                printed_text(failure.printed));
   }
   if (told.empty()) fmt::print("no failures\n");
@@ -82,17 +83,17 @@ int list_slow(const std::string& folder) {
 }
 
 int run_list(const ListRequest& request) {
-  const auto& [what, folder] = request;
-  if (what == "slow")
+  const auto& [list, folder] = request;
+  if (list == "slow")
     return folder.empty() ? refuse("list slow needs the folder of a run") : list_slow(folder);
-  if (what == "failures") {
+  if (list == "failures") {
     return folder.empty() ? refuse("list failures needs the folder of a run")
                           : list_failures(folder);
   }
-  if (!folder.empty()) return refuse(fmt::format("list {} takes no folder", what));
-  if (what == "laws") return list_laws();
-  if (what == "faults") return list_faults();
-  if (what == "campaigns") return list_campaigns();
+  if (!folder.empty()) return refuse(fmt::format("list {} takes no folder", list));
+  if (list == "laws") return list_laws();
+  if (list == "faults") return list_faults();
+  if (list == "campaigns") return list_campaigns();
   return list_scenes();
 }
 
@@ -102,7 +103,7 @@ bool is_list(const std::string& word) {
 }
 
 void add_options(Verb& verb, ListRequest& request) {
-  verb.add("what", request.what, "scenes, laws, faults, campaigns, failures, slow")
+  verb.add("what", request.list, "scenes, laws, faults, campaigns, failures, slow")
       .with(one_of("scenes, laws, faults, campaigns, failures, slow", is_list));
   verb.add("folder", request.folder, "Of a run, for failures and slow");
 }

@@ -1,4 +1,4 @@
-// `assay merge`: the stores of several shards of one campaign become one.
+// `assay merge` makes one store of the stores of several shards of a campaign.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -63,7 +63,7 @@ int run_merge(const MergeRequest& request) {
                detector_words(findings.library, findings.run.detector.threads),
                shell_word(request.out));
   }
-  // That they are one now: whether it holds is for certify to say.
+  // This says only that the stores are one now. Whether the detector holds is for certify to say.
   return exit_holds;
 }
 

@@ -1,4 +1,5 @@
-// `assay replay`: one case again, by its id or from its file, and what is known of a pair in it.
+// `assay replay` runs one case again, by its id or from its file, and tells what is known of a
+// pair in it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ namespace {
 
 struct ReplayRequest {
   std::string id_or_file;
-  std::string export_folder;  // empty: none
+  std::string export_folder;  // empty: nothing is exported
   std::optional<detector::TrianglePair> why;
   DetectorWords detector;
 };
@@ -48,8 +49,8 @@ struct TrialName {
   std::uint64_t index;
 };
 
-// Of an id "campaign:seed:family:index"; nothing for what is none. Behind the seed's number a round
-// may stand, as in "quick:1.canary:broken:7".
+// Reads an id "campaign:seed:family:index". Returns nothing if it is none. A round may stand
+// behind the number of the seed, as in "quick:1.canary:broken:7".
 std::optional<TrialName> trial_of(std::string_view id) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0; begin <= id.size();) {
@@ -70,11 +71,11 @@ std::optional<TrialName> trial_of(std::string_view id) {
 }
 
 struct ReplayedCase {
-  corpus::Case c;                  // of a file
-  std::optional<TrialName> trial;  // or of the campaign that it is from
+  corpus::Case c;                  // if it is read from a file
+  std::optional<TrialName> trial;  // if it is made again by a campaign
 };
 
-// An id makes the case again; anything else is a file.
+// If a file has this name, the case is read from it. Otherwise an id makes the case again.
 corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
   std::error_code ignored;
   if (!std::filesystem::exists(id_or_file, ignored)) {
@@ -87,7 +88,8 @@ corpus::Expected<ReplayedCase> case_of(const std::string& id_or_file) {
   return ReplayedCase{std::move(read.value()), std::nullopt};
 }
 
-// A case that states options is about them; one that does not, about every configuration.
+// A case that states options runs in the configuration of these. One that does not runs in every
+// configuration.
 std::optional<std::string> choose_configurations(const corpus::Case& c,
                                                  properties::DetectorUnderTest& detector) {
   if (!detector.built_in || c.options.empty()) return std::nullopt;
@@ -124,7 +126,7 @@ std::string sets_text(const detector::StepResult& result) {
 void print_run(const properties::Configuration& configuration, const properties::CaseRun& run,
                const properties::JudgedTrial& verdict) {
   fmt::print("{}: {}{}\n", configuration.name, properties::name_of(verdict.outcome),
-             run.what.empty() ? "" : " (" + run.what + ")");
+             run.explanation.empty() ? "" : " (" + run.explanation + ")");
   for (std::size_t s = 0; s < run.steps.size(); ++s) {
     const auto& result = run.steps[s];
     if (s < run.candidates.size() && run.candidates[s])
@@ -140,18 +142,18 @@ void print_run(const properties::Configuration& configuration, const properties:
   }
   if (verdict.failure) {
     fmt::print("  DEFECT {} in step {}: {}\n", verdict.failure->signature(),
-               verdict.failure->step + 1, verdict.failure->what);
+               verdict.failure->step + 1, verdict.failure->explanation);
   }
   if (verdict.outcome != Outcome::holds) fmt::print("{}", printed_text(run.printed));
 }
 
-// True when there are any.
+// Prints the broken laws. Returns whether there are any.
 bool print_broken_laws(const corpus::Case& c, const properties::DetectorUnderTest& detector,
                        const std::vector<properties::CaseRun>& runs,
                        const std::vector<oracle::StepJudgement>& truth) {
   const auto tally = properties::tally_case({c, {}}, detector.configurations, runs, truth, true);
   for (const auto& broken : tally.broken) {
-    fmt::print("BROKEN LAW {} ({}): {}\n", broken.law, broken.configuration, broken.what);
+    fmt::print("BROKEN LAW {} ({}): {}\n", broken.law, broken.configuration, broken.explanation);
   }
   return !tally.broken.empty();
 }
@@ -201,7 +203,7 @@ int run_replay(const ReplayRequest& request) {
                                    {.isolation = subject.isolation, .threads = subject.threads});
   const auto runs = worker.run(*seen, subject.detector.configurations);
   for (const auto& run : runs) {
-    if (run.end == properties::RunEnd::not_run) return refuse(run.what);
+    if (run.end == properties::RunEnd::not_run) return refuse(run.explanation);
   }
   if (!request.export_folder.empty()) {
     const auto written = export_case(request.export_folder, *seen, subject.detector, truth);
@@ -234,7 +236,7 @@ int run_replay(const ReplayRequest& request) {
   return code;
 }
 
-// "3,17"
+// Reads "3,17", for example.
 std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
   const auto comma = word.find(',');
   if (comma == std::string::npos) return std::nullopt;

@@ -1,4 +1,4 @@
-// `assay report`: runs as one HTML page that works offline.
+// `assay report` shows runs as one HTML page that works offline.
 #include <fmt/format.h>
 
 #include "properties/campaign/gates/read_findings.h"
@@ -19,14 +19,14 @@ namespace assay::reports {
 namespace {
 
 struct ReportRequest {
-  std::vector<std::string> folders;  // of runs, oldest first
-  std::string out;                   // one HTML file
+  std::vector<std::string> folders;  // the folders of the runs, oldest first
+  std::string out;                   // the HTML file that is written
 };
 
 using Json = nlohmann::ordered_json;
 
-// All that the page says of the run in a folder. What stands in a certificate there is believed
-// only where it verifies.
+// Everything that the page says of the run in a folder. A certificate that stands there is
+// believed only if it verifies.
 properties::Expected<Json> describe_run(const std::string& folder, PlainProgress& progress) {
   const auto read = properties::read_findings(folder);
   if (!read) return read.error();

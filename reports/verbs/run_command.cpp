@@ -1,4 +1,4 @@
-// `assay run`: a campaign in one shard, and what it comes to.
+// `assay run` runs one shard of a campaign, and tells what it comes to.
 #include <fmt/format.h>
 
 #include "properties/campaign/gates/read_findings.h"
@@ -26,7 +26,7 @@ struct RunRequest {
 
 constexpr const char* go_on = "; what is stored stays: run the same again to go on";
 
-// junit.xml and summary.md; of a shard of several junit-shard-I-of-N.xml and so on.
+// Writes junit.xml and summary.md. A shard of several writes junit-shard-I-of-N.xml and so on.
 Expected<void> write_files(const properties::CampaignRequest& request,
                            const properties::RunFindings& findings,
                            const properties::Judgement& judgement) {
@@ -52,7 +52,8 @@ int conclude(const properties::CampaignRequest& request, const properties::RunFi
     fmt::print("next: assay report {} --out {}\n", shell_word(out),
                shell_word((findings.folder / "report.html").string()));
   }
-  // The exit code may be of a defect as well: who waits for all shards reads this.
+  // This line is for whoever waits for all shards, because the exit code may also be that of a
+  // defect.
   fmt::print("shard {}: {}\n", text_of(request.shard), is_complete ? "complete" : "not complete");
   if (const auto written = write_files(request, findings, judgement); !written)
     return refuse(written.error());
@@ -60,12 +61,12 @@ int conclude(const properties::CampaignRequest& request, const properties::RunFi
 }
 
 int refuse_and_keep(Refusal refusal) {
-  // A store that somebody changed is not gone on with.
+  // A store that somebody changed cannot be continued, so the line does not say that it can.
   if (refusal.code == exit_usage) refusal.line += go_on;
   return refuse(refusal);
 }
 
-// The owner's cases go with the first shard.
+// Runs the cases of the owner, which go with the first shard.
 Expected<void> run_own_cases(const properties::CampaignRequest& request, properties::Store& store) {
   if (!request.own_cases || request.shard.index != 1) return outcome::success();
   std::vector<properties::CorpusRow> rows;
@@ -98,14 +99,15 @@ int run_campaign(const RunRequest& command) {
     return refuse_and_keep(done.error());
   if (const auto done = run_on_terminal(request, store.value(), out); !done)
     return refuse_and_keep(done.error());
-  // The code of a plug-in may have reached the file: the verdict is on what was stored, or none.
+  // The code of a plug-in may have reached the file. So there is a verdict on what was stored, or
+  // none.
   const auto findings = properties::read_one_store(file, &store.value().known_rows());
   if (!findings) return refuse_and_keep(Refusal(findings.error()));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   return conclude(request, findings.value(), out, took.count());
 }
 
-// "2/8"
+// Reads "2/8", for example.
 std::optional<properties::Shard> parse_shard(const std::string& word) {
   const auto slash = word.find('/');
   if (slash == std::string::npos) return std::nullopt;

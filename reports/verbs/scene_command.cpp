@@ -1,4 +1,4 @@
-// `assay scene`: the frames of a kinematic scene.
+// `assay scene` writes the frames of a kinematic scene.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -14,14 +14,15 @@ namespace {
 
 struct SceneRequest {
   std::string name;
-  std::string mesh_file;  // empty: the scene's own shape
+  std::string mesh_file;  // empty: the shape of the scene itself
   int size = 0, frames = 0;
   std::string out;
 };
 
 int refuse_scene(const corpus::Problem& problem) { return refuse(problem.message); }
 
-// Frames of an earlier run with more of them would be taken for steps of this one.
+// Finds a frame that an earlier run with more frames left in the folder, because it would be taken
+// for a step of this scene.
 std::optional<std::string> stale_frame(const std::string& folder, std::size_t frames) {
   const auto next = std::filesystem::path(folder) / fmt::format("frame_{:04}.ply", frames);
   std::error_code ignored;

@@ -1,4 +1,5 @@
-// assay self-test: the oracle's own check, a line a family; or a plug-in's query on these families.
+// `assay self-test` checks the oracle and prints a line for each family. Or it asks the query of a
+// plug-in on these families.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -17,10 +18,10 @@ namespace {
 
 struct SelfTestRequest {
   std::uint64_t seed = 1;
-  std::uint64_t queries = 20'000;    // random small-integer queries
+  std::uint64_t queries = 20'000;    // this many random small-integer queries
   std::optional<double> time_limit;  // seconds
   int jobs = 1;
-  DetectorWords detector;  // whose query answers; none: the oracle and its referees
+  DetectorWords detector;  // its query answers; if there is none, the oracle and its referees do
   std::string replay;      // "family:seed:index"; empty: the whole self-test
 };
 
@@ -47,8 +48,8 @@ std::string replay_line(const SelfTestFamily& family, std::uint64_t seed, std::u
 
 void print_failures(const SelfTestFamily& family, std::uint64_t seed, const FamilyResult& result) {
   for (const auto& failure : result.failures) {
-    fmt::print("contradiction: {}\n{}replay: {}\n", failure.what, family.text(seed, failure.index),
-               replay_line(family, seed, failure.index));
+    fmt::print("contradiction: {}\n{}replay: {}\n", failure.contradiction,
+               family.text(seed, failure.index), replay_line(family, seed, failure.index));
   }
   if (result.tally.contradictions > result.failures.size()) {
     fmt::print("{} contradictions in {}, the first {} printed\n", result.tally.contradictions,
@@ -96,7 +97,7 @@ int run_self_test(const SelfTestRequest& request) {
   if (!request.replay.empty()) return replay(request);
   announce(request);
 
-  constexpr double kSecondsBetweenLines = 30;
+  constexpr double seconds_between_lines = 30;
   const bool on_terminal = isatty(STDERR_FILENO) == 1;
   const auto begin = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
@@ -114,7 +115,7 @@ int run_self_test(const SelfTestRequest& request) {
     const auto result = properties::run_family(*family, options, [&](std::uint64_t done) {
       const auto phase = fmt::format("{} {:.0f} %", family->name(), share_of(done, indices));
       progress.phase(phase);
-      if (on_terminal || elapsed() - last_line < kSecondsBetweenLines) return;
+      if (on_terminal || elapsed() - last_line < seconds_between_lines) return;
       last_line = elapsed();
       fmt::print(stderr, "self-test: {} {:.0f} s\n", phase, last_line);
     });

@@ -1,4 +1,4 @@
-// `assay shrink`: the smallest case that fails as this one does.
+// `assay shrink` looks for the smallest case that fails as this one does.
 #include <fmt/format.h>
 
 #include "properties/campaign/phases/shrink.h"
@@ -25,14 +25,15 @@ struct ShrinkRequest {
   DetectorWords detector;
 };
 
-// How the case fails.
+// Tells how the case fails.
 struct Failing {
   std::string signature;
   properties::Configuration configuration;
-  const properties::Law* law = nullptr;  // that it breaks; null: a claim
+  const properties::Law* law = nullptr;  // the law that it breaks; null if it breaks a claim
 };
 
-// The first configuration in which it breaks a claim, else a law; nothing when it holds.
+// Finds the first configuration in which the case breaks a claim, or else a law. Returns nothing
+// if it holds.
 std::optional<Failing> find_failure(const corpus::Case& c,
                                     const properties::DetectorUnderTest& detector,
                                     properties::WorkerProcess& worker) {

@@ -1,5 +1,5 @@
-// `assay verify`: certificates against the files beside them, and against the detector itself;
-// several nights are pooled.
+// `assay verify` checks certificates against the files beside them, and against the detector
+// itself. Several nights are pooled.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -19,9 +19,9 @@ namespace assay::reports {
 namespace {
 
 struct VerifyRequest {
-  std::vector<std::string> certificates;  // several: nights, pooled
-  std::optional<double> again;            // share of the trials to be run once more
-  std::optional<std::uint64_t> seed;      // of their choice; a fresh one where it is not given
+  std::vector<std::string> certificates;  // if there are several, they are nights that are pooled
+  std::optional<double> again;            // the share of the trials that is run once more
+  std::optional<std::uint64_t> seed;      // the seed of their choice; by default a fresh one
   DetectorWords detector;
   int jobs = 1;
 };
@@ -48,7 +48,8 @@ std::uint64_t fresh_seed() {
   return (std::uint64_t{device()} << bits) | device();
 }
 
-// Whoever forges a certificate must not know which trials are asked for: the seed is chosen now.
+// The seed is chosen now, because whoever forges a certificate must not know which trials are
+// asked for.
 int run_trials_again(const std::string& certificate, const VerifyRequest& request) {
   const std::filesystem::path file = certificate;
   AgainRequest asked{*request.again, request.seed ? *request.seed : fresh_seed(), request.detector,

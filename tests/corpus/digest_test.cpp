@@ -33,7 +33,7 @@ TEST(Digest, OfAFileIsThatOfItsBytes) {
   EXPECT_EQ(digest.value(), of_a_million);
   const auto none = sha256_of_file(path);
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().what, FileProblem::cannot_open);
+  EXPECT_EQ(none.error().kind, FileProblem::cannot_open);
   EXPECT_NE(none.error().message.find("assay-digest-test"), std::string::npos);
 }
 

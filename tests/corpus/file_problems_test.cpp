@@ -12,12 +12,12 @@ class FileProblems : public Scratch {};
 TEST_F(FileProblems, MissingEmptyFolder) {
   const auto missing = read_mesh(folder() / "absent.obj");
   ASSERT_FALSE(missing);
-  EXPECT_EQ(missing.error().what, FileProblem::cannot_open);
+  EXPECT_EQ(missing.error().kind, FileProblem::cannot_open);
   EXPECT_NE(missing.error().message.find("absent.obj"), std::string::npos);
-  EXPECT_EQ(mesh_problem("empty.obj", "").what, FileProblem::empty_file);
+  EXPECT_EQ(mesh_problem("empty.obj", "").kind, FileProblem::empty_file);
   const auto directory = read_mesh(folder());
   ASSERT_FALSE(directory);
-  EXPECT_EQ(directory.error().what, FileProblem::is_directory);
+  EXPECT_EQ(directory.error().kind, FileProblem::is_directory);
 }
 
 TEST_F(FileProblems, NoPermission) {
@@ -33,7 +33,7 @@ TEST_F(FileProblems, NoPermission) {
     ASSERT_EQ(seteuid(0), 0);
   }
   ASSERT_FALSE(mesh);
-  EXPECT_EQ(mesh.error().what, FileProblem::permission_denied) << mesh.error().message;
+  EXPECT_EQ(mesh.error().kind, FileProblem::permission_denied) << mesh.error().message;
 }
 
 TEST_F(FileProblems, MessagesAreOneLineWhateverThePath) {
@@ -55,15 +55,15 @@ TEST_F(FileProblems, EveryFormatCompressed) {
 TEST_F(FileProblems, DamagedCompression) {
   const std::string good = gzip(obj_tetrahedron);
   for (std::size_t size = 1; size < good.size(); ++size) {
-    EXPECT_EQ(mesh_problem("a.obj.gz", good.substr(0, size)).what, FileProblem::corrupt_gzip)
+    EXPECT_EQ(mesh_problem("a.obj.gz", good.substr(0, size)).kind, FileProblem::corrupt_gzip)
         << size;
   }
   std::string wrong_sum = good;
   wrong_sum[wrong_sum.size() - 6] ^= 1;
-  EXPECT_EQ(mesh_problem("b.obj.gz", wrong_sum).what, FileProblem::corrupt_gzip);
-  EXPECT_EQ(mesh_problem("c.obj.gz", good + "tail").what, FileProblem::corrupt_gzip);
-  EXPECT_EQ(mesh_problem("d.obj.gz", obj_tetrahedron).what, FileProblem::corrupt_gzip);
-  EXPECT_EQ(mesh_problem("e.obj.gz", gzip("")).what, FileProblem::empty_file);
+  EXPECT_EQ(mesh_problem("b.obj.gz", wrong_sum).kind, FileProblem::corrupt_gzip);
+  EXPECT_EQ(mesh_problem("c.obj.gz", good + "tail").kind, FileProblem::corrupt_gzip);
+  EXPECT_EQ(mesh_problem("d.obj.gz", obj_tetrahedron).kind, FileProblem::corrupt_gzip);
+  EXPECT_EQ(mesh_problem("e.obj.gz", gzip("")).kind, FileProblem::empty_file);
 }
 
 TEST_F(FileProblems, DecompressedSizeIsLimited) {
@@ -73,10 +73,10 @@ TEST_F(FileProblems, DecompressedSizeIsLimited) {
   EXPECT_EQ(fits.value().size(), std::size_t{1} << 20);
   const auto refused = read_bytes(path, (1 << 20) - 1);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().what, FileProblem::too_large);
+  EXPECT_EQ(refused.error().kind, FileProblem::too_large);
   const auto plain = read_bytes(write("plain", "12345"), 4);
   ASSERT_FALSE(plain);
-  EXPECT_EQ(plain.error().what, FileProblem::too_large);
+  EXPECT_EQ(plain.error().kind, FileProblem::too_large);
 }
 
 TEST_F(FileProblems, EveryProblemHasItsOwnName) {

@@ -84,9 +84,9 @@ inline std::size_t on_small_stack(const std::function<void()>& body) {
 }
 
 // Fails when `body` uses more than half of the stack: the other half is for whoever calls.
-inline void expect_enough_stack(const char* what, const std::function<void()>& body) {
+inline void expect_enough_stack(const char* measured, const std::function<void()>& body) {
   const std::size_t used = on_small_stack(body);
-  std::printf("%s: %zu KB of stack\n", what, used / 1024);
+  std::printf("%s: %zu KB of stack\n", measured, used / 1024);
   EXPECT_LT(used, given_stack_bytes / 2);
 }
 

@@ -122,7 +122,7 @@ bool is_torn(const std::string& code, const std::string& next) {
 
 struct Finding {
   std::size_t line;  // from 1
-  std::string what;
+  std::string complaint;
 };
 
 std::vector<Finding> wrecked(const Lines& lines) {
@@ -150,7 +150,7 @@ std::string filled(std::string line) {
 std::string found_in(const Lines& lines) {
   std::string out;
   for (const auto& finding : wrecked(lines)) {
-    out += std::to_string(finding.line) + " " + finding.what + "; ";
+    out += std::to_string(finding.line) + " " + finding.complaint + "; ";
   }
   return out;
 }
@@ -198,7 +198,8 @@ TEST(Comments, NoneIsFolded) {
       const Lines lines = lines_of(in);
       ++files;
       for (const auto& finding : wrecked(lines)) {
-        ADD_FAILURE() << entry.path().string() << ":" << finding.line << " " << finding.what << "\n"
+        ADD_FAILURE() << entry.path().string() << ":" << finding.line << " " << finding.complaint
+                      << "\n"
                       << lines[finding.line - 1];
       }
     }

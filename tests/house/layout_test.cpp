@@ -1,9 +1,11 @@
-// No room is crowded, nothing but a test is named like one, and no test is left out of the build.
+// No room is crowded, nothing but a test is named like one, no test is left out of the build, and
+// constants are named in one style.
 #include <gtest/gtest.h>
 
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "tests/house/tree.h"
@@ -69,6 +71,26 @@ TEST(Layout, EveryTestIsCompiled) {
     EXPECT_TRUE(compiled.contains((root / file).string())) << file << " is in no program";
   }
   EXPECT_GT(tests, 100u);
+}
+
+// Constants have names in snake_case, as variables have: `most_pieces`, and not `kMostPieces`. What
+// is found is a declaration; `rc::kNominalSize` of another library may be used.
+TEST(Layout, ConstantsAreInSnakeCase) {
+  const std::regex camel_case(R"x(\bconst(expr)?\b[^(){};="]*\bk[A-Z]\w*\s*[\[={(;,])x");
+  const auto is_found = [&](const char* line) { return std::regex_search(line, camel_case); };
+  EXPECT_TRUE(is_found("constexpr int kMost = 3;"));
+  EXPECT_TRUE(is_found("inline const Triangles kNone(0, 3);"));
+  EXPECT_FALSE(is_found("const int size = resize(rc::kNominalSize);"));
+  EXPECT_FALSE(is_found("constexpr int most = 3;"));
+  for (const auto* room : rooms) {
+    for (const auto& file : files_below(room)) {
+      if (!is_source(file) || file == "tests/house/layout_test.cpp") continue;
+      std::istringstream lines(text_of(file));
+      for (std::string line; std::getline(lines, line);) {
+        EXPECT_FALSE(is_found(line.c_str())) << file << ": " << line;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -118,8 +118,8 @@ const char* wrong_step(const StepResult& result, const StepFact& fact, const Set
 
 bool holds(const CaseFact& c, std::size_t number) {
   const Setting& setting = settings()[number];
-  const auto wrong = [&](std::size_t step, const char* what) {
-    std::printf("%s, step %zu, %s: %s\n", c.id.c_str(), step + 1, setting.name.data(), what);
+  const auto wrong = [&](std::size_t step, const char* problem) {
+    std::printf("%s, step %zu, %s: %s\n", c.id.c_str(), step + 1, setting.name.data(), problem);
     return false;
   };
   auto made = detector::Detector::create(c.triangles, c.frames.front(), setting.options);
@@ -129,12 +129,12 @@ bool holds(const CaseFact& c, std::size_t number) {
   bool with_views = setting.view_facts;
   for (std::size_t s = 0; s < results.size(); ++s) {
     const StepFact& fact = c.steps[s];
-    if (const char* what = wrong_step(results[s], fact, setting)) return wrong(s, what);
+    if (const char* problem = wrong_step(results[s], fact, setting)) return wrong(s, problem);
     const ViewFact& view = fact.views[number];
     // What is dirty rests on all steps before.
     with_views = with_views && view.known && same_places(results[s], view);
     if (!with_views) continue;
-    if (const char* what = wrong_sets(results[s], view)) return wrong(s, what);
+    if (const char* problem = wrong_sets(results[s], view)) return wrong(s, problem);
   }
   return true;
 }
@@ -142,7 +142,7 @@ bool holds(const CaseFact& c, std::size_t number) {
 int judge(const char* path) {
   const Facts facts = read_facts(path);
   for (const auto& query : facts.queries) {
-    if (const char* what = wrong_query(query)) return std::printf("%s\n", what), 1;
+    if (const char* problem = wrong_query(query)) return std::printf("%s\n", problem), 1;
   }
   for (const auto& c : facts.cases) {
     for (std::size_t i = 0; i < settings().size(); ++i) {

@@ -32,7 +32,7 @@ class Random {
 
 // A menu of coordinates that are generic, degenerate, or just beside degenerate.
 enum class Coordinates { generic, tiny_grid, grid_and_noise, ulp_neighbours, far, mixed_scales };
-constexpr int kCoordinateKinds = 6;
+constexpr int coordinate_kinds = 6;
 
 inline double random_coordinate(Random& random, Coordinates kind) {
   switch (kind) {

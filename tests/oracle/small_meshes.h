@@ -32,7 +32,7 @@ inline detector::Triangles triangles(Corners rows) {
 }
 
 // Outward, of the vertices 0 to 3.
-inline const detector::Triangles kTetrahedron =
+inline const detector::Triangles tetrahedron_triangles =
     triangles({{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
 
 struct Step {

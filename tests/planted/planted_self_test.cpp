@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
     std::printf("contradiction after %llu queries, %s:%llu:%llu\n%s\n",
                 static_cast<unsigned long long>(queries), family->name().c_str(),
                 static_cast<unsigned long long>(options.seed),
-                static_cast<unsigned long long>(failure.index), failure.what.c_str());
+                static_cast<unsigned long long>(failure.index), failure.contradiction.c_str());
     return reports::exit_unsound;
   }
   std::printf("no contradiction in %llu queries\n", static_cast<unsigned long long>(queries));

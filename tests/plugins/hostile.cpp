@@ -95,8 +95,8 @@ std::string forged_answers(const QueryRequest& request, const std::string& mode)
   if (mode == "forge-query-nan") first.first = {nan, nan};
   if (mode == "forge-query-time") first.first = {0, 2};
   if (mode == "forge-query-answer") first.answer = static_cast<Answer>(9);
-  if (mode == "forge-query-text") first.what = "fine\n\033[2Jcertified";
-  if (mode == "forge-query-long") first.what.assign(1 << 20, 'x');
+  if (mode == "forge-query-text") first.explanation = "fine\n\033[2Jcertified";
+  if (mode == "forge-query-long") first.explanation.assign(1 << 20, 'x');
   if (mode == "forge-query-number") ++reply.number;
   return encode(reply);
 }
@@ -115,10 +115,10 @@ const std::map<std::string, Forgery>& forgeries() {
        changed([](RunReply& r) { r.run.steps[0].answer = static_cast<Answer>(9); })},
       {"forge-number", changed([](RunReply& r) { ++r.number; })},
       {"forge-place", changed([](RunReply& r) { ++r.place; })},
-      {"forge-text", changed([](RunReply& r) { r.run.what = "fine\n\033[2Jcertified"; })},
-      {"forge-control", changed([](RunReply& r) { r.run.what = "\u009b2Jcertified"; })},
-      {"forge-bytes", changed([](RunReply& r) { r.run.what = "\xff"; })},
-      {"forge-long-text", changed([](RunReply& r) { r.run.what.assign(1 << 20, 'x'); })},
+      {"forge-text", changed([](RunReply& r) { r.run.explanation = "fine\n\033[2Jcertified"; })},
+      {"forge-control", changed([](RunReply& r) { r.run.explanation = "\u009b2Jcertified"; })},
+      {"forge-bytes", changed([](RunReply& r) { r.run.explanation = "\xff"; })},
+      {"forge-long-text", changed([](RunReply& r) { r.run.explanation.assign(1 << 20, 'x'); })},
       {"forge-no-interval", changed([](RunReply& r) {
          r.run.steps[0].first = {nan, nan};
        })},

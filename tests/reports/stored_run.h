@@ -58,10 +58,11 @@ struct RunToStore {
     return *this;
   }
   // A failure whose mesh is a curated case.
-  RunToStore& fail(const std::string& name, const std::string& signature, const std::string& what) {
+  RunToStore& fail(const std::string& name, const std::string& signature,
+                   const std::string& explanation) {
     const auto text = corpus::case_text(curated_case(name));
     failures.push_back({"tiny:1:broken:" + std::to_string(failures.size()), "view-point", signature,
-                        what, text, text});
+                        explanation, text, text});
     return *this;
   }
   RunToStore& meet_canary(std::optional<std::uint64_t> found_after) {

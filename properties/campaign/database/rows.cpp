@@ -162,12 +162,13 @@ void for_each_row(const Database& database, const StoreTable& table, const RowTa
     Row row;
     for (int c = 0; c < count; ++c) row.push_back(rows.text(c));
     const auto hash = row_hash(table, row), name = row_name(table, row);
-    // Told first: that it happened in this run says more than that it happened.
+    // This is reported before a hash that does not fit, because it says more: not only that
+    // somebody changed the row, but that it happened during this run.
     if (known && !known->holds(name, hash)) {
-      const char* what = known->knows(name) ? "was changed while this run was at work"
-                                            : "was not stored by this run";
+      const char* change = known->knows(name) ? "was changed while this run was at work"
+                                              : "was not stored by this run";
       throw StoreProblem(ProblemKind::not_as_stored,
-                         fmt::format("{}: {} {}", database.file(), name, what));
+                         fmt::format("{}: {} {}", database.file(), name, change));
     }
     if (rows.text(count) != hash) {
       throw StoreProblem(
@@ -182,7 +183,7 @@ bool put_row(const Database& database, const StoreTable& table, const Row& row,
              const char* on_conflict) {
   std::string places;
   for (std::size_t c = 0; c < row.size(); ++c) places += "?,";
-  // Columns take the type that their table declares.
+  // A column has the type that its table declares.
   Statement insert(database, on_conflict ? fmt::format("INSERT INTO {} VALUES({}?) ON CONFLICT{}",
                                                        table.name, places, on_conflict)
                                          : fmt::format("INSERT OR REPLACE INTO {} VALUES({}?)",
@@ -197,7 +198,8 @@ void check_rows(const Database& database, const RowTally& known) {
   for (const auto* table : store_tables())
     for_each_row(database, *table, &known, "", {}, [&](const Row&) { ++count; });
   if (count == known.size()) return;
-  // Keys are unique: what was visited is known, so some of the known ones are missing.
+  // Keys are unique and every visited row is a known one, so if the numbers differ, some of the
+  // known rows are missing.
   std::set<std::string> there;
   for (const auto* table : store_tables()) {
     for_each_row(database, *table, nullptr, "", {},
@@ -215,7 +217,7 @@ void check_tables(const Database& database, bool may_lack) {
   std::set<std::string> expected, found;
   for (const auto* table : store_tables()) expected.insert(declaration_of(*table));
   {
-    // An index that SQLite makes by itself has no text.
+    // An index that SQLite makes by itself has no SQL text, so it is left out.
     Statement texts(database, "SELECT sql FROM sqlite_master WHERE sql IS NOT NULL");
     while (texts.next()) found.insert(texts.text(0));
   }

@@ -6,10 +6,10 @@
 namespace assay::properties {
 namespace {
 
-// What a result of SQLite's means to the user of a store. What is not in the list is about the
-// rows, such as a table that is not there: somebody changed the file.
+// What a result code of SQLite means to the user of a store. A code that is not in the list is
+// about the rows: somebody changed the file, and a table is not there, for example.
 ProblemKind kind_of(int code) {
-  constexpr int primary = 0xff;  // without the further detail of extended codes
+  constexpr int primary = 0xff;  // extended codes keep the primary code in these bits
   switch (code & primary) {
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:

@@ -43,8 +43,8 @@ std::vector<const StoredFailure*> RunFindings::kinds() const {
 }
 
 std::uint64_t RunFindings::met_count(const StoredFailure& failure) const {
-  const auto found = met.find(failure.signature);
-  return found == met.end() ? 0 : found->second;
+  const auto found = times_met.find(failure.signature);
+  return found == times_met.end() ? 0 : found->second;
 }
 
 bool RunFindings::is_waived(const std::string& signature) const {

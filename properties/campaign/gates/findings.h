@@ -30,7 +30,7 @@ struct RunFindings {
   // of all shards together.
   std::optional<Shard> alone;
   Tally tally;
-  Counts met;  // how often each signature of a failure was met
+  Counts times_met;  // how often each signature of a failure was met
   // Ordered by signature; within one signature the shrunk ones first, then the shorter, then by
   // id.
   std::vector<StoredFailure> failures;

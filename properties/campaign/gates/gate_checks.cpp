@@ -14,7 +14,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-// A waiver belongs to a certificate; nothing else leaves a failure aside.
+// Only a certificate takes waivers into account. Without one no failure is left aside.
 bool is_waived(const RunFindings& f, const Asked& asked, const std::string& signature) {
   return asked.certificate && f.is_waived(signature);
 }
@@ -36,13 +36,13 @@ void check_power(const RunFindings& f, Lines& lines) {
     lines.insert(lines.end(), hidden.begin(), hidden.end());
 }
 
-// Every defect of a trial was stored as a failure.
+// Checks that every defect of a trial was stored as a failure.
 void check_tallies(const RunFindings& f, Lines& lines) {
   std::uint64_t defects = 0, met = 0;
   for (const auto& [family, stratum] : f.tally.strata) {
     for (const auto& outcomes : stratum.by_configuration) defects += outcomes.defects;
   }
-  for (const auto& [signature, count] : f.met)
+  for (const auto& [signature, count] : f.times_met)
     met += signature.starts_with(law_in_signature) ? 0 : count;
   if (defects != met)
     lines.push_back(fmt::format("{} defects in the trials, {} failures are stored", defects, met));
@@ -79,15 +79,15 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
     }
   }
   if (asked.certificate && f.planned() == 0) lines.push_back("the campaign plans no trial");
-  // Of all shards together: one of them may have stood on a machine that was short of memory.
-  constexpr std::uint64_t most_disturbed = 100;  // one trial in so many
+  // Asked of all shards together: a single one may have run on a machine short of memory.
+  constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
   if (!f.alone && most_disturbed * disturbed > trials)
     lines.push_back(
         fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
 }
 
-// Every scene was put to a plug-in that is to be put to them again and again.
+// Checks that a plug-in that has to repeat every scene was given every scene.
 void check_repetitions(const RunFindings& f, Lines& lines) {
   const auto& detector = f.run.detector;
   if (f.alone || detector.configurations.empty()) return;
@@ -113,7 +113,7 @@ GateFindings check_harness(const RunFindings& f, const Asked& asked) {
   GateFindings found;
   auto& lines = found.against;
   for (const auto& problem : f.evidence.problems) {
-    if (!problem.what.empty()) lines.push_back(problem.what);
+    if (!problem.explanation.empty()) lines.push_back(problem.explanation);
   }
   check_power(f, lines);
   if (f.laws_are_judged()) {
@@ -135,7 +135,7 @@ GateFindings check_corpus(const RunFindings& f, const Asked& asked) {
     for (const auto& failed : row.failed) {
       if (!is_waived(f, asked, failed.signature))
         found.against.push_back(
-            fmt::format("{} ({}): {}", failed.id, row.configuration, failed.what));
+            fmt::format("{} ({}): {}", failed.id, row.configuration, failed.explanation));
     }
   }
   for (const auto& waiver : f.evidence.waivers) {
@@ -149,19 +149,19 @@ GateFindings check_corpus(const RunFindings& f, const Asked& asked) {
 
 GateFindings check_claims(const RunFindings& f, const Asked& asked) {
   GateFindings found;
-  // What trials met counts, be a mesh of it stored or not; a stored failure of a trial counts, be
-  // it counted or not. What the corpus alone shows is that gate's.
+  // A signature counts if trials met it, even without a stored mesh, and if a failure of a trial
+  // is stored, even if no trial counted it. What only the corpus shows belongs to the gate corpus.
   std::set<std::string> signatures;
-  for (const auto& [signature, count] : f.met) signatures.insert(signature);
+  for (const auto& [signature, count] : f.times_met) signatures.insert(signature);
   for (const auto& failure : f.failures) {
     if (!failure.id.starts_with(corpus_in_id)) signatures.insert(failure.signature);
   }
   for (const auto& signature : signatures) {
     if (is_waived(f, asked, signature)) continue;
     const auto* shown = f.example_of(signature);
-    const auto met = f.met.find(signature);
+    const auto met = f.times_met.find(signature);
     found.against.push_back(
-        fmt::format("{}, met {} times; {}", signature, met == f.met.end() ? 0 : met->second,
+        fmt::format("{}, met {} times; {}", signature, met == f.times_met.end() ? 0 : met->second,
                     shown ? shown->id + " (" + shown->configuration + ")" : "no mesh is stored"));
   }
   for (const auto& world : f.evidence.worlds) {
@@ -185,7 +185,7 @@ GateFindings check_complete(const RunFindings& f, const Asked& asked) {
   check_repetitions(f, lines);
   for (const auto& row : f.evidence.corpus) {
     for (const auto& open : row.open)
-      lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.what));
+      lines.push_back(fmt::format("{} ({}): {}", open.id, row.configuration, open.explanation));
   }
   if (!asked.certificate) return found;
   if (f.evidence.corpus.empty()) lines.push_back("the corpus was not run");
@@ -223,7 +223,8 @@ GateFindings check_bounds(const RunFindings& f, const Asked&) {
   return found;
 }
 
-// The figures themselves stand among the times: these lines are the same from run to run.
+// The lines leave out the figures themselves, which stand among the times, so that the lines are
+// the same from run to run.
 GateFindings check_speed(const RunFindings& f, const Asked&) {
   GateFindings found;
   const auto& limits = f.run.plan.policy.speed_limits;
@@ -232,14 +233,14 @@ GateFindings check_speed(const RunFindings& f, const Asked&) {
   } else if (limits.empty()) {
     found.not_judged = "the campaign sets no limit";
   } else {
-    for (const auto& [what, limit] : limits) {
-      const auto& figures = f.evidence.speed;
-      const auto figure = std::find_if(figures.begin(), figures.end(),
-                                       [&](const SpeedFigure& one) { return one.what == what; });
-      if (figure == figures.end()) {
-        found.against.push_back(fmt::format("{} was not measured", what));
-      } else if (figure->median > limit) {
-        found.against.push_back(fmt::format("{} is above its limit of {}", what, limit));
+    for (const auto& [figure, limit] : limits) {
+      const auto& measured = f.evidence.speed;
+      const auto one = std::find_if(measured.begin(), measured.end(),
+                                    [&](const SpeedFigure& m) { return m.name == figure; });
+      if (one == measured.end()) {
+        found.against.push_back(fmt::format("{} was not measured", figure));
+      } else if (one->median > limit) {
+        found.against.push_back(fmt::format("{} is above its limit of {}", figure, limit));
       }
     }
   }

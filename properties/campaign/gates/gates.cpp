@@ -7,7 +7,7 @@
 namespace assay::properties {
 namespace {
 
-// In the order of gate_rules.
+// These are in the order of gate_rules.
 constexpr std::array<GateFindings (*)(const RunFindings&, const Asked&), gate_rules.size()> checks =
     {check_harness, check_corpus, check_claims, check_complete, check_bounds, check_speed};
 

@@ -3,7 +3,7 @@
 namespace assay::properties {
 namespace {
 
-// squared: the sum over trials of the squares of their steps.
+// `squared` is the sum over trials of the squares of their numbers of steps.
 Rate rate_of(std::uint64_t of, std::uint64_t in, std::uint64_t squared) {
   const auto all = static_cast<double>(in);
   const double independent = squared ? all * all / static_cast<double>(squared) : 0;

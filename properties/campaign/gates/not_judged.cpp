@@ -7,10 +7,10 @@
 namespace assay::properties {
 namespace {
 
-// One in so many collisions may state no time.
+// At most one collision in this many may come without a time.
 constexpr std::uint64_t seldom = 100;
 
-// Why a claim was not judged; empty: it was.
+// Says why a claim was not judged. Empty if it was judged.
 std::string reason_against(Claim claim, const Contract& contract, const StepMeasures& m) {
   switch (claim) {
     case Claim::no_spurious:

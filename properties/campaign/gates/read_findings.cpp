@@ -12,11 +12,11 @@
 namespace assay::properties {
 namespace {
 
-// A configuration is near its limit from a third of it on.
+// A configuration is near its limit if it took at least this share of it.
 constexpr double near_share = 1. / 3;
 
-// A chain: the digest so far and the next row make the next digest. Each column stands behind its
-// length, so that two rows are never one text.
+// A digest that is made as a chain: the digest so far and the next row make the next digest. The
+// length of each column stands before the column, so two different rows never give the same text.
 class RowsDigest {
  public:
   void add(const std::vector<std::string>& row) {
@@ -37,8 +37,8 @@ bool is_before(const StoredFailure& a, const StoredFailure& b) {
   return key(a) < key(b);
 }
 
-// Of "I/N"; nothing for other words. Throws StoreProblem where there is no such shard: whoever
-// looks for those that are missing counts up to N.
+// The shard of the text "I/N", or nothing if the text has another form. Throws StoreProblem if
+// there is no such shard, because whoever looks for the missing shards counts up to N.
 std::optional<Shard> shard_of(const std::string& text) {
   const auto slash = text.find('/');
   if (slash == std::string::npos) return std::nullopt;
@@ -74,7 +74,8 @@ class Reader {
     std::sort(evidence_.begin(), evidence_.end(), [](const Evidence& a, const Evidence& b) {
       return std::tie(a.kind, a.name, a.shard) < std::tie(b.kind, b.name, b.shard);
     });
-    // Shards, and what certify finds out by itself, may each hold the row of the owner's cases.
+    // The row of the owner's cases may stand both in a shard and among the checks that certify
+    // makes by itself.
     const auto is_same = [](const Evidence& a, const Evidence& b) {
       return std::tie(a.kind, a.name, a.shard, a.facts) ==
              std::tie(b.kind, b.name, b.shard, b.facts);
@@ -100,14 +101,15 @@ class Reader {
   }
 
  private:
-  // A merged store goes before the shards that it was made of.
+  // The merged store is read in place of the shards that it was made of. Throws StoreProblem if a
+  // shard has a trial that the merged store does not have.
   static void refuse_newer_shards(const std::vector<std::filesystem::path>& files,
                                   const std::filesystem::path& merged) {
     const auto whole = Store::read(merged);
     for (const auto& file : files) {
       if (file == merged) continue;
       const auto shard = Store::read(file);
-      if (!whole || !shard) continue;  // told where it is read
+      if (!whole || !shard) continue;  // the reader of the file reports it
       shard.value().for_each_trial([&](const TrialRecord& r) {
         if (whole.value().has_trial(r.id)) return;
         throw StoreProblem(ProblemKind::stale_merge,
@@ -127,7 +129,7 @@ class Reader {
     }
   }
 
-  // Of the same state of the file that is read afterwards.
+  // REQUIRES that `store` has the state of the file that is read afterwards.
   void check_against_known(const Store& store, const std::filesystem::path& file) const {
     if (known_.empty()) return;
     const auto known = known_.find(file.filename().string());
@@ -191,7 +193,7 @@ class Reader {
       rows_.add(lasting_columns(trial_table(), row_of(r)));
     });
     for (const auto& [signature, met] : store.signatures()) {
-      found_.met[signature] += met;
+      found_.times_met[signature] += met;
       rows_.add({signature, text_of_number(met)});
     }
     for (auto& failure : store.failures()) {
@@ -204,8 +206,8 @@ class Reader {
     }
   }
 
-  // Proofs that were taken over stand in every shard's store, the same in each. Throws where two
-  // differ: neither could be believed.
+  // Proofs of planted faults that were taken from another run stand in the store of every shard,
+  // and are the same in each. Throws if two of them differ, because then neither can be believed.
   bool is_taken_already(const Evidence& row, const std::filesystem::path& file) const {
     if (row.shard != power_shard) return false;
     const auto known = std::find_if(evidence_.begin(), evidence_.end(), [&](const auto& other) {
@@ -239,7 +241,7 @@ Expected<RunFindings> told(const std::filesystem::path& name, const Read& read) 
   try {
     return catch_store_problem(read);
   } catch (const std::exception& failure) {
-    // Numbers inside of a store that somebody changed.
+    // This is thrown for a number that cannot be read, in a store that somebody changed.
     return Problem{ProblemKind::damaged_store,
                    fmt::format("{}: not what a run stores: {}", name.string(), failure.what())};
   }

@@ -17,7 +17,8 @@ ShareInterval share_interval(double of, double in, double independent) {
   if (!(in > 0) || !(independent > 0)) return interval;
   const double n = std::min(independent, in), k = of / in * n;
   constexpr double each_side = 0.025;
-  // The quantiles of the beta distributions that the binomial's tails are.
+  // The tails of a binomial distribution are beta distributions, so the ends of the interval are
+  // quantiles of these.
   if (k > 0) interval.lo = boost::math::ibeta_inv(k, n - k + 1, each_side);
   if (k < n) interval.hi = boost::math::ibeta_inv(k + 1, n - k, 1 - each_side);
   return interval;

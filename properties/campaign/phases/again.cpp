@@ -16,7 +16,8 @@
 namespace assay::properties {
 namespace {
 
-// The stores that count: a merged one goes before the shards that it was made of.
+// The stores that the certificate is computed from: the merged one if there is one, else the
+// shards.
 std::vector<std::filesystem::path> counted_stores(const std::filesystem::path& folder) {
   auto files = value_or_throw(stored_shards(folder));
   const auto merged = merged_file(folder);
@@ -24,8 +25,8 @@ std::vector<std::filesystem::path> counted_stores(const std::filesystem::path& f
   return files;
 }
 
-// `chosen` of the numbers below `all`, each equally likely: Floyd's way, which asks for as many
-// random numbers as there are to choose.
+// Chooses `chosen` of the numbers below `all`, each equally likely. This is Floyd's algorithm,
+// which needs only as many random numbers as it chooses.
 std::set<std::uint64_t> choose(std::uint64_t chosen, std::uint64_t all, std::uint64_t seed) {
   Random random(seed, 0);
   std::set<std::uint64_t> numbers;
@@ -36,7 +37,7 @@ std::set<std::uint64_t> choose(std::uint64_t chosen, std::uint64_t all, std::uin
   return numbers;
 }
 
-// In the order of their families and places, store by store.
+// Draws the trials store by store, in the order of their families and places.
 std::vector<TrialRecord> draw(const std::vector<std::filesystem::path>& files,
                               const std::set<std::uint64_t>& numbers) {
   std::vector<TrialRecord> drawn;
@@ -49,7 +50,7 @@ std::vector<TrialRecord> draw(const std::vector<std::filesystem::path>& files,
   return drawn;
 }
 
-// The first thing in which a trial differs; empty: none.
+// Names the first thing in which the two trials differ. Empty if they do not differ.
 std::string difference_of_trials(const TrialRecord& stored, const TrialRecord& now,
                                  const DetectorUnderTest& detector) {
   for (std::size_t c = 0; c < detector.configurations.size(); ++c) {
@@ -60,8 +61,8 @@ std::string difference_of_trials(const TrialRecord& stored, const TrialRecord& n
       return fmt::format("{} is {} now, {} is stored", detector.configurations[c].name, letter(now),
                          letter(stored));
   }
-  const auto of = [&](const char* what, std::uint64_t there, std::uint64_t here) {
-    return fmt::format("{} {} now, {} stored", here, what, there);
+  const auto of = [&](const char* counted, std::uint64_t there, std::uint64_t here) {
+    return fmt::format("{} {} now, {} stored", here, counted, there);
   };
   if (stored.triangles != now.triangles) return of("triangles", stored.triangles, now.triangles);
   if (stored.steps != now.steps) return of("steps", stored.steps, now.steps);

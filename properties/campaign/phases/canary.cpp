@@ -10,7 +10,7 @@
 namespace assay::properties {
 
 Canary meet_canary(const CampaignRequest& request) {
-  // One that many cases show: a run in which it hides is a run that sees nothing.
+  // A planted fault that many cases show, so that a run that does not find it finds nothing.
   constexpr std::string_view canary = "pair/zero-zero-dropped";
   constexpr std::uint64_t most_cases = 400;
   Canary result{std::string(canary), text_of(request.shard), {}};
@@ -25,9 +25,10 @@ Canary meet_canary(const CampaignRequest& request) {
     const auto made = make_case(
         family, fmt::format("{}:{}.canary:{}:{}", request.plan.name, request.seed, family.name, i));
     const auto run = worker.run(made.c, {&configuration, 1});
-    if (run[0].end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, run[0].what);
+    if (run[0].end == RunEnd::not_run)
+      throw StoreProblem(ProblemKind::cannot_start, run[0].explanation);
     const auto verdict = judge_trial(made.c, judge_case(made.c), run[0], configuration, detector);
-    // A worker that dies is no sign that anything was seen.
+    // A worker that dies does not show that a defect was seen.
     if (run[0].end != RunEnd::completed || verdict.outcome != Outcome::defect) continue;
     result.found_after = i + 1;
     return result;

@@ -11,20 +11,21 @@
 namespace assay::properties {
 namespace {
 
-// Of the failures in the shards of a folder, and in its merged store.
+// The signatures of the failures in the shards of a folder and in its merged store.
 std::set<std::string> signatures_of_trials(const std::filesystem::path& out) {
   std::set<std::string> signatures;
   const auto files = stored_shards(out);
   if (!files) return signatures;
   for (const auto& file : files.value()) {
     const auto failures = read_failures(file);
-    if (!failures) continue;  // told where the stores are read for the certificate
+    if (!failures) continue;  // it is reported when the stores are read for the certificate
     for (const auto& failure : failures.value().list) signatures.insert(failure.signature);
   }
   return signatures;
 }
 
-// Of each signature the smallest mesh, by its text; of none that is told already.
+// For each signature that is not in `told`: the failure with the smallest mesh, by the length of
+// its text.
 std::map<std::string, const StoredFailure*> smallest_of(const std::vector<StoredFailure>& failures,
                                                         const std::set<std::string>& told) {
   std::map<std::string, const StoredFailure*> smallest;

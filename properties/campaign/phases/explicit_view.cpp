@@ -12,7 +12,8 @@ std::optional<corpus::Case> with_explicit_view(const corpus::Case& c,
   corpus::Case out = c;
   out.view.emplace();
   bool is_line = options.culling == detector::Culling::view_line;
-  // A primitive is a function of one frame's positions: a step that stays there shows it.
+  // A primitive depends on the positions of one frame alone, so a step that stays in that frame
+  // shows it.
   for (const auto& frame : c.frames) {
     const auto result = made.value().evaluate(frame, frame);
     if (result.primitives.empty()) return std::nullopt;
@@ -27,7 +28,7 @@ Finding finding_of(const Failure& failure) {
   Finding finding;
   finding.signature = failure.signature();
   finding.step = failure.step;
-  finding.what = failure.what;
+  finding.explanation = failure.explanation;
   if (failure.pair) finding.focus = {failure.pair->a, failure.pair->b};
   return finding;
 }

@@ -19,7 +19,7 @@ std::optional<Failure> failure_of_fault(const Fault& fault, const corpus::Case& 
   const Configuration configuration{std::string(fault.name), fault.options};
   CaseRun run;
   run.steps = run_case(c, fault);
-  if (run.steps.empty()) return std::nullopt;  // refused: such a case shows nothing
+  if (run.steps.empty()) return std::nullopt;  // a refused case shows nothing
   CaseRun again = run;
   if (fault.is_disturbed) {
     again = without_marking_counts(run_disturbed(c, fault.options, fault.stages, run.steps));
@@ -67,7 +67,8 @@ class Hunt {
   }
 
  private:
-  static constexpr std::uint64_t chunk = 64;  // cases judged between two looks at what is found
+  // This many cases are judged between two looks at what is found.
+  static constexpr std::uint64_t chunk = 64;
 
   bool over() const { return std::chrono::steady_clock::now() >= deadline_; }
 
@@ -82,7 +83,7 @@ class Hunt {
     }
   }
 
-  // The cases of a seed, families in turn.
+  // Makes the case at a place of a seed. The families take turns.
   GeneratedCase case_of(int seed, std::uint64_t place) const {
     const auto known = families();
     const Family& family = known[place % known.size()];
@@ -102,7 +103,8 @@ class Hunt {
         state.hidden += found[f] ? 0 : 1;
       }
       if (progress_) progress_(state);
-      // Equivalent and open ones must have had their share of cases too.
+      // Equivalent and open faults are not expected to be found, but they must have been tried on
+      // a fair share of the cases too.
       if (state.hidden == 0 && end >= hunt_.cases / 4) break;
     }
     for (std::size_t f = 0; f < results_.size(); ++f) {
@@ -143,7 +145,7 @@ class Hunt {
   const FaultHunt& hunt_;
   const RunDeadline deadline_;
   const OnHunt& progress_;
-  bool is_cut_ = false;  // by the deadline, before all cases were judged
+  bool is_cut_ = false;  // the deadline came before all cases were judged
   std::vector<FaultResult> results_;
 };
 

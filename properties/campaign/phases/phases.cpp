@@ -14,11 +14,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Shares of the plan's time that are over when a phase must be. Shrinking, after the trials, has
-// its own share.
+// A phase must be over when this share of the plan's time has passed. Shrinking comes after the
+// trials and has a share of its own.
 constexpr double trials_share = 0.5, faults_share = 0.9;
 
-// Of one failure, or of one planted fault.
+// The limits for shrinking a single failure or planted fault.
 constexpr ReduceLimits shrinking_of_one{60, 1'000'000};
 
 class CampaignRun {
@@ -60,7 +60,7 @@ class CampaignRun {
   }
 
  private:
-  // Of all trials that the store holds: those of an earlier call too.
+  // Notes the isolation of all trials that the store holds, including those of an earlier call.
   void note_isolation() {
     PluginIsolation now{text_of(request_.shard), name_of(request_.isolation),
                         text_of(request_.isolated)};
@@ -98,14 +98,15 @@ class CampaignRun {
                     [&](const std::string& signature) { observer_.on_shrinking(signature); });
   }
 
-  // What an earlier call of this run found out.
+  // The evidence that an earlier call of this run stored.
   EvidenceFacts stored() const {
     EvidenceFacts facts;
     for (const auto& row : store_.evidence()) facts.take(row);
     return facts;
   }
 
-  // Proofs made in the one way do not stand beside those of an earlier call, made in the other.
+  // If an earlier call of this run proved planted faults by itself, its proofs are dropped,
+  // because proofs that are taken over do not stand beside them.
   void take_power() {
     if (stored().power.empty()) drop(store_, DroppedKind::fault);
     store_.set(to_row(request_.power->source));
@@ -141,9 +142,10 @@ class CampaignRun {
       if (left <= 0) break;
       observer_.on_world(world.name);
       const auto result = prove(world, {request_.jobs, left, {}});
-      store_.set(to_row(World{world.name, text_of(request_.shard), result.classes, result.motions,
-                              result.all, result.collisions, result.complete,
-                              result.counterexample ? std::optional(result.what) : std::nullopt}));
+      store_.set(
+          to_row(World{world.name, text_of(request_.shard), result.classes, result.motions,
+                       result.all, result.collisions, result.complete,
+                       result.counterexample ? std::optional(result.explanation) : std::nullopt}));
     }
   }
 

@@ -44,7 +44,8 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
   return one;
 }
 
-// The first step in which they differ; nothing where that is not in a step.
+// The first step in which the two runs differ. Nothing if they differ in something else than a
+// step.
 std::optional<std::size_t> differing_step(const CaseRun& a, const CaseRun& b) {
   for (std::size_t s = 0; s < std::min(a.steps.size(), b.steps.size()); ++s) {
     if (!same_answers(step_alone(a, s), step_alone(b, s))) return s;
@@ -70,9 +71,9 @@ class Repetitions {
     row.triangles = static_cast<std::uint64_t>(c.triangles.rows());
     const auto seen = contracted(c, request_.detector.contract);
     if (!seen) {
-      row.what = "beyond the contract";
+      row.difference = "beyond the contract";
     } else if (hung_ >= most_hung_repetitions) {
-      row.what = fmt::format("not run: it hung on {} of them before", hung_);
+      row.difference = fmt::format("not run: it hung on {} of them before", hung_);
     } else {
       row.steps = corpus::steps_of(*seen).size();
       run_all(*seen, row);
@@ -91,7 +92,7 @@ class Repetitions {
       known = workers_.try_emplace(threads, request_.worker, request_.plugin, limits).first;
     }
     auto run = std::move(known->second.run(c, {&configuration(), 1}).front());
-    if (run.end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, run.what);
+    if (run.end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, run.explanation);
     return run;
   }
 
@@ -103,7 +104,7 @@ class Repetitions {
       row.threads.push_back(threads);
       if (run.end == RunEnd::hung || run.end == RunEnd::out_of_memory) {
         hung_ += run.end == RunEnd::hung ? 1 : 0;
-        row.what = run.what;
+        row.difference = run.explanation;
         return;
       }
       ++row.runs;
@@ -117,25 +118,26 @@ class Repetitions {
     }
   }
 
-  // A run that differs from the first, or that ended in a way that breaks a claim.
+  // Tells of a run that differs from the first one, or that ended in a way that breaks a claim.
   void tell(const corpus::Case& c, const CaseRun& first, const CaseRun& run,
             const JudgedRun& judged, Repetition& row) {
     row.broken = judged.outcome == Outcome::defect;
     const auto s = differing_step(first, run);
-    row.what = !s ? fmt::format("{}: {}", name_of(run.end), run.what)
-                  : fmt::format("step {}, run {} with {} threads: {}; run 1 with {}: {}", *s + 1,
-                                row.threads.size(), row.threads.back(), answer_of(run, *s),
-                                row.threads.front(), answer_of(first, *s));
+    row.difference =
+        !s ? fmt::format("{}: {}", name_of(run.end), run.explanation)
+           : fmt::format("step {}, run {} with {} threads: {}; run 1 with {}: {}", *s + 1,
+                         row.threads.size(), row.threads.back(), answer_of(run, *s),
+                         row.threads.front(), answer_of(first, *s));
     if (!row.broken) return;
     Failure failure;
     failure.claim = judged.broken.front();
     failure.kind = failure.claim == Claim::deterministic ? "two runs differ" : name_of(run.end);
     failure.cause = "large mesh";
-    failure.what = fmt::format("{}, {} triangles, {}", c.id, row.triangles, row.what);
+    failure.explanation = fmt::format("{}, {} triangles, {}", c.id, row.triangles, row.difference);
     auto shown =
         failing_case(s ? with_steps(c, {*s}) : c, configuration(), request_.detector, failure);
     store_.add({fmt::format("{}{}", repeated_in_id, c.id), configuration().name,
-                failure.signature(), failure.what, corpus::case_text(shown), "", true,
+                failure.signature(), failure.explanation, corpus::case_text(shown), "", true,
                 run.printed});
   }
 

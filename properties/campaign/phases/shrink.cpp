@@ -17,11 +17,13 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
   return [&](const corpus::Case& c) -> std::optional<Finding> {
     const auto seen = contracted(c, detector.contract);
     if (!seen) return std::nullopt;
-    // What the caller vouches for wrongly is no fault of the detector.
+    // If the case does not start clean although its caller vouches for that, the failure is no
+    // fault of the detector.
     const bool vouched = configuration.options.start == detector::Start::clean;
     if (detector.built_in && vouched && !starts_clean(c)) return std::nullopt;
     const auto run = worker.run(*seen, {&configuration, 1});
-    if (run[0].end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, run[0].what);
+    if (run[0].end == RunEnd::not_run)
+      throw StoreProblem(ProblemKind::cannot_start, run[0].explanation);
     const auto verdict =
         judge_trial(*seen, judge_case(*seen, detector.contract), run[0], configuration, detector);
     if (!verdict.failure) return std::nullopt;
@@ -44,17 +46,18 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
 
 namespace {
 
-// Of a failure whose shrinking had all the time that it may have.
+// The key of the note which says that the shrinking of this failure had all the time that it may
+// have.
 std::string done_note(const StoredFailure& failure) {
   return fmt::format("shrunk {} {}", failure.id, failure.configuration);
 }
 
-// Without the law that broke in it.
+// The configuration without the name of the law that broke in it.
 std::string configuration_name(const StoredFailure& failure) {
   return failure.configuration.substr(0, failure.configuration.find(law_in_configuration));
 }
 
-// As they were put to this case.
+// The configurations as they were given to this case: if it vouches for a clean start, so do they.
 std::vector<Configuration> configurations_of(const corpus::Case& failing,
                                              const DetectorUnderTest& detector) {
   const auto start = failing.options.find("start");
@@ -63,12 +66,13 @@ std::vector<Configuration> configurations_of(const corpus::Case& failing,
   return vouched ? with_clean_start(detector.configurations) : detector.configurations;
 }
 
-// Numbers of triangles and times that a case speaks of are its own.
+// Replaces the text `about` by that of the case itself, because the text names triangles and
+// times, which the shrunk case has others of.
 void tell_of_itself(corpus::Case& c, const Judge& judge) {
-  if (const auto finding = judge(c)) c.about = about_text(finding->signature, finding->what);
+  if (const auto finding = judge(c)) c.about = about_text(finding->signature, finding->explanation);
 }
 
-// A failure that was shrunk in part goes before the others of its signature.
+// Puts failures that were shrunk in part before the others of their signature.
 void order_for_shrinking(std::vector<StoredFailure>& failures) {
   std::stable_partition(failures.begin(), failures.end(),
                         [](const StoredFailure& f) { return !f.smallest.empty(); });
@@ -111,7 +115,7 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
         law ? reduce(failing.value(), judge_of_law(*law, *configuration), bounded, keep)
             : shrink_case(failing.value(), request.detector, *configuration, worker, bounded, keep);
     if (failure.smallest.empty()) {
-      // Nothing smaller was found: the mesh itself.
+      // Nothing smaller was found, so the mesh itself is the smallest.
       failure.smallest = failure.mesh;
       store.set_smallest(failure);
     }

@@ -9,18 +9,18 @@
 namespace assay::properties {
 namespace {
 
-// From a third of the limit on a trial is near it.
+// A trial is near its limit if it took at least this share of it.
 constexpr double near_share = 1. / 3;
 
 struct SlowTrial {
   std::string id, family;
-  std::size_t configuration = 0;  // the first that is undecided, or 0
+  std::size_t configuration = 0;  // the first configuration that is undecided, or 0
   bool is_undecided = false;
-  bool is_asleep = false;  // no processor time would show a smaller case to be as slow
+  bool is_asleep = false;  // it slept: processor time cannot show that a smaller case is as slow
   double seconds = 0;
 };
 
-// Undecided ones first, then the slower; equal ones by their ids.
+// Undecided trials come first, then the slower ones. Equal ones are ordered by their ids.
 bool is_before(const SlowTrial& a, const SlowTrial& b) {
   if (a.is_undecided != b.is_undecided) return a.is_undecided;
   if (a.seconds != b.seconds && !a.is_undecided) return a.seconds > b.seconds;
@@ -79,7 +79,7 @@ class SlowCases {
       store_.set(to_row(slow));
     });
     if (slow.smallest.empty() && !reduction.finding.signature.empty()) {
-      slow.smallest = slow.mesh;  // nothing smaller is as slow
+      slow.smallest = slow.mesh;  // nothing smaller was found to be as slow
       store_.set(to_row(slow));
     }
   }
@@ -107,7 +107,7 @@ Judge judge_of_slowness(const DetectorUnderTest& detector, const Configuration& 
     int slow = 0, quick = 0;
     while (slow < 2 && quick < 2) {
       const auto run = worker.run(*seen, {&configuration, 1}).front();
-      if (run.end == RunEnd::not_run) throw std::runtime_error(run.what);
+      if (run.end == RunEnd::not_run) throw std::runtime_error(run.explanation);
       const bool is_slow = run.end == RunEnd::hung && run.processor_seconds >= seconds;
       ++(is_slow ? slow : quick);
     }

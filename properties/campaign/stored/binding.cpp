@@ -32,7 +32,7 @@ BoundDetector bound(const DetectorUnderTest& detector, std::uint64_t threads) {
   return out;
 }
 
-// A file that is not there is found out by whoever runs it.
+// Gives nothing if the file is not there. Whoever runs the file will find that out.
 std::optional<std::string> digest_of(const std::filesystem::path& file) {
   const auto digest = corpus::sha256_of_file(file);
   return digest ? std::optional(digest.value()) : std::nullopt;
@@ -80,7 +80,7 @@ Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::
 }
 
 std::string generator_digest() {
-  constexpr std::uint64_t cases = 16;  // of a family
+  constexpr std::uint64_t cases = 16;  // this many cases of each family
   std::string digests;
   for (const auto known : {families(), query_families()}) {
     for (const auto& family : known) {

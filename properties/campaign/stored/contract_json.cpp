@@ -7,7 +7,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The value of an enum from 0 to `last` whose word this is.
+// Finds the value of an enum, from 0 to `last`, that has this word.
 template <class Enum>
 Enum value_named(const Json& word, Enum last) {
   const auto& text = word.get_ref<const std::string&>();

@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::string_view tag_prefix = "tag:", contact_prefix = "block:", first_prefix = "first:";
 
-std::string law_count(std::string_view law, const char* what) {
-  return fmt::format("law:{}/{}", law, what);
+std::string law_count(std::string_view law, const char* name) {
+  return fmt::format("law:{}/{}", law, name);
 }
 
 LawTally tally_of(const Counts& counts, std::string_view law) {
@@ -19,7 +19,7 @@ LawTally tally_of(const Counts& counts, std::string_view law) {
   return tally;
 }
 
-// Names without the prefix, with their counts.
+// The names that begin with the prefix, without it, and their counts.
 std::vector<std::pair<std::string, std::uint64_t>> behind(const Counts& counts,
                                                           std::string_view prefix) {
   std::vector<std::pair<std::string, std::uint64_t>> list;

@@ -10,10 +10,12 @@
 
 namespace assay::properties {
 
-// The keys of the facts, once for both directions: the names of the members. What a row's name or
-// shard says is no fact.
+// The keys of the facts are stated once for both directions, reading and writing. They are the
+// names of the members. The exception is the key "what", under which rows store a line of text.
+// What a row's name or shard says is no fact.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Canary, found_after)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HarnessProblem, what)
+void to_json(nlohmann::json& j, const HarnessProblem& x) { j = {{"what", x.explanation}}; }
+void from_json(const nlohmann::json& j, HarnessProblem& x) { j.at("what").get_to(x.explanation); }
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshCounts, triangles, vertices, steps)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShrunkFault, before, after, calls)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaultProof, law, status, curated, needed, cases, time_over,
@@ -25,14 +27,35 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(World, classes, motions, all, collisions, com
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PluginIsolation, asked, got)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SlowCase, id, configuration, undecided, seconds, limit, mesh,
                                    smallest)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Repetition, input, configuration, triangles, steps, runs,
-                                   threads, what, broken)
+void to_json(nlohmann::json& j, const Repetition& x) {
+  j = {{"input", x.input},         {"configuration", x.configuration},
+       {"triangles", x.triangles}, {"steps", x.steps},
+       {"runs", x.runs},           {"threads", x.threads},
+       {"what", x.difference},     {"broken", x.broken}};
+}
+void from_json(const nlohmann::json& j, Repetition& x) {
+  j.at("input").get_to(x.input);
+  j.at("configuration").get_to(x.configuration);
+  j.at("triangles").get_to(x.triangles);
+  j.at("steps").get_to(x.steps);
+  j.at("runs").get_to(x.runs);
+  j.at("threads").get_to(x.threads);
+  j.at("what").get_to(x.difference);
+  j.at("broken").get_to(x.broken);
+}
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Paths, out, detector, own_cases, data)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputDigests, corpus, waivers)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StoredWaiver, reason, link, expires, expired)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow::Failed, id, signature, what)
+void to_json(nlohmann::json& j, const CorpusRow::Failed& x) {
+  j = {{"id", x.id}, {"signature", x.signature}, {"what", x.explanation}};
+}
+void from_json(const nlohmann::json& j, CorpusRow::Failed& x) {
+  j.at("id").get_to(x.id);
+  j.at("signature").get_to(x.signature);
+  j.at("what").get_to(x.explanation);
+}
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow, input, configuration, cases, left_out, steps,
                                    collisions, pairs, defects, failed, open)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SelfTestRow, queries, contacts, contradictions, open, complete)
@@ -52,29 +75,16 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The kinds of rows.
-constexpr const char* canary_kind = "canary";
-constexpr const char* problem_kind = "problem";
-constexpr const char* fault_kind = "fault";
-constexpr const char* power_kind = "power";
-constexpr const char* world_kind = "world";
-constexpr const char* slow_kind = "slow";
-constexpr const char* repeated_kind = "repeated";
-constexpr const char* asked_kind = "asked";
-constexpr const char* subject_kind = "subject";
-constexpr const char* digest_kind = "digest";
-constexpr const char* waiver_kind = "waiver";
-constexpr const char* corpus_kind = "corpus";
-constexpr const char* self_test_kind = "self-test";
-constexpr const char* times_kind = "times";
+// These are the kinds of rows.
+constexpr char canary_kind[] = "canary", problem_kind[] = "problem", fault_kind[] = "fault",
+               power_kind[] = "power", world_kind[] = "world", slow_kind[] = "slow",
+               repeated_kind[] = "repeated", asked_kind[] = "asked", subject_kind[] = "subject",
+               digest_kind[] = "digest", waiver_kind[] = "waiver", corpus_kind[] = "corpus",
+               self_test_kind[] = "self-test", times_kind[] = "times";
 
-// The names of rows whose kind has few of them.
-constexpr const char* trials_name = "trials";
-constexpr const char* versions_name = "versions";
-constexpr const char* paths_name = "paths";
-constexpr const char* isolation_name = "isolation";
-constexpr const char* inputs_name = "inputs";
-constexpr const char* issued_name = "issued";
+// If a kind has few rows, these are their names.
+constexpr char trials_name[] = "trials", versions_name[] = "versions", paths_name[] = "paths",
+               isolation_name[] = "isolation", inputs_name[] = "inputs", issued_name[] = "issued";
 
 template <class T>
 Evidence row(const char* kind, const std::string& name, const std::string& shard, const T& facts,
@@ -82,7 +92,7 @@ Evidence row(const char* kind, const std::string& name, const std::string& shard
   return {kind, name, shard, progress, corpus::json_text(Json(facts))};
 }
 
-// `facts` with what the row's facts say.
+// Returns `facts` after reading into it what the facts of the row say.
 template <class T>
 T told(const Evidence& row, T facts = {}) {
   const auto read = corpus::parse_sorted_json(row.facts, row.name);
@@ -115,12 +125,13 @@ std::optional<std::uint64_t> FaultProof::median() const {
 
 Evidence to_row(const Canary& x) { return row(canary_kind, x.fault, x.shard, x); }
 Evidence to_row(const HarnessProblem& x) {
-  // A later word goes before an earlier one, and of two at one time that of a problem: it is over
-  // when a further trial is stored without one.
-  return row(problem_kind, trials_name, x.shard, x, 2 * x.trials + (x.what.empty() ? 0 : 1));
+  // A later row replaces an earlier one. If both stand at the same number of trials, the one that
+  // tells of a problem counts as later, because a problem is over when a further trial is stored
+  // without one.
+  return row(problem_kind, trials_name, x.shard, x, 2 * x.trials + (x.explanation.empty() ? 0 : 1));
 }
 Evidence to_row(const FaultProof& x) {
-  // A hunt that had its time is farther than any that was ended by it.
+  // A hunt that was not ended by the time counts as farther than any that was.
   const auto all = static_cast<std::uint64_t>(x.needed.size()) + 1;
   const auto found = static_cast<std::uint64_t>(
       std::count_if(x.needed.begin(), x.needed.end(), [](const auto& n) { return n.has_value(); }));
@@ -128,12 +139,13 @@ Evidence to_row(const FaultProof& x) {
 }
 Evidence to_row(const PowerSource& x) { return row(power_kind, x.campaign, power_shard, x); }
 Evidence to_row(const World& x) {
-  // A counterexample is farther than any number of classes that hold.
+  // A counterexample counts as farther than any number of classes that hold.
   constexpr std::uint64_t farthest = std::numeric_limits<std::int64_t>::max();
   return row(world_kind, x.world, x.shard, x, x.counterexample ? farthest : x.classes);
 }
 Evidence to_row(const SlowCase& x) {
-  // A shrunk mesh is farther than none, and of two shrunk ones the shorter.
+  // A shrunk mesh counts as farther than none, and of two shrunk meshes the shorter counts as
+  // farther.
   constexpr std::uint64_t longest = 1'000'000'000;
   const std::uint64_t progress =
       x.smallest.empty() ? 1 : longest - std::min<std::uint64_t>(x.smallest.size(), longest - 2);
@@ -152,7 +164,7 @@ Evidence to_row(const CorpusRow& x) {
   return row(corpus_kind, x.input + ", " + x.configuration, checks_shard, x);
 }
 Evidence to_row(const SelfTestRow& x) { return row(self_test_kind, x.family, checks_shard, x); }
-Evidence to_row(const SpeedFigure& x) { return row(times_kind, x.what, checks_shard, x); }
+Evidence to_row(const SpeedFigure& x) { return row(times_kind, x.name, checks_shard, x); }
 Evidence to_row(const Issued& x) { return row(times_kind, issued_name, checks_shard, x); }
 
 void EvidenceFacts::take(const Evidence& r) try {
@@ -198,7 +210,7 @@ void EvidenceFacts::take(const Evidence& r) try {
     issued = told<Issued>(r);
   } else if (r.kind == times_kind) {
     speed.push_back(told<SpeedFigure>(r));
-    speed.back().what = r.name;
+    speed.back().name = r.name;
   } else {
     throw StoreProblem(ProblemKind::damaged_store,
                        fmt::format("no run stores evidence {} {}", r.kind, r.name));

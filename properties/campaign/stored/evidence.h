@@ -30,10 +30,10 @@ struct Canary {
   std::optional<std::uint64_t> found_after;  // how many cases that took; nothing: it was not found
 };
 
-// What kept the harness itself from going on, after `trials` trials had been stored. `what` is
-// empty when nothing did.
+// What kept the harness itself from going on, after `trials` trials had been stored. `explanation`
+// is empty when nothing did.
 struct HarnessProblem {
-  std::string shard, what;
+  std::string shard, explanation;
   std::uint64_t trials = 0;
 };
 
@@ -110,8 +110,8 @@ struct Repetition {
   std::uint64_t triangles = 0, steps = 0;
   std::uint64_t runs = 0;              // runs that ended by themselves
   std::vector<std::uint64_t> threads;  // how many it might use, run by run
-  std::string what;                    // how two runs differ, or one ended early
-  bool broken = false;                 // `what` breaks a claim
+  std::string difference;              // how two runs differ, or one ended early
+  bool broken = false;                 // `difference` breaks a claim
 };
 
 // What a verb asked of a run.
@@ -150,7 +150,7 @@ inline constexpr const char* own_cases_in_id = "own/";
 // or the owner's cases.
 struct CorpusRow {
   struct Failed {
-    std::string id, signature, what;
+    std::string id, signature, explanation;
   };
   // `failed` lists the cases that do not hold, `open` those without an answer, of which nothing is
   // known.
@@ -168,7 +168,7 @@ struct SelfTestRow {
 
 // A ratio of the times of two things that were run in turn.
 struct SpeedFigure {
-  std::string what;
+  std::string name;
   double median = 0, lo = 0, hi = 0;
   std::vector<double> samples;
 };

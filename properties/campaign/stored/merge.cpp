@@ -16,12 +16,13 @@
 namespace assay::properties {
 namespace {
 
-// A row that is there already must say the same; what may differ is joined by a rule that depends
-// on neither order nor repetition (a minimum or a maximum). An update that finds a difference
-// changes no row.
+// How the rows of a table are joined. A row that is there already must say the same as the new
+// one. The columns that may differ are joined by a minimum or a maximum, because these depend
+// neither on the order nor on repetition. An update that finds a difference elsewhere changes no
+// row.
 struct JoinedTable {
   const StoreTable& table;
-  const char* what;  // of one row, for messages
+  const char* row_name;  // what a message calls one row
   const char* on_conflict;
 };
 
@@ -52,23 +53,24 @@ const std::array<JoinedTable, 4>& joined_tables() {
   return tables;
 }
 
-// Notes say that something is done: any of them will do, the smallest word is taken.
+// A note says that something is done. Any of several texts will do, so the smallest is taken.
 constexpr const char* join_of_notes = "(key) DO UPDATE SET value=min(value,excluded.value)";
 
-// The rows of one store, joined to those that are there. Throws StoreProblem.
+// Joins the rows of one store to those that are there. Throws StoreProblem.
 void join(const Database& from, const Database& into, const JoinedTable& joined) {
   const auto& table = joined.table;
   for_each_row(from, table, nullptr, "", {}, [&](const Row& row) {
     if (put_row(into, table, row, joined.on_conflict)) return;
     std::string key = row[0];
     for (std::size_t c = 1; c < table.key_columns; ++c) key += ", " + row[c];
-    throw StoreProblem(
-        ProblemKind::contradiction,
-        fmt::format("{}: {} {} differs from that of another store", from.file(), joined.what, key));
+    throw StoreProblem(ProblemKind::contradiction,
+                       fmt::format("{}: {} {} differs from that of another store", from.file(),
+                                   joined.row_name, key));
   });
 }
 
-// Rows that two stores made together have the hash of the one or of neither.
+// A row that was joined from two stores may have the hash of one of them, or of neither, so its
+// hash is computed anew.
 void renew_hashes(const Database& into, const StoreTable& table) {
   std::vector<Row> joined;
   {
@@ -83,7 +85,7 @@ void renew_hashes(const Database& into, const StoreTable& table) {
   for (const auto& row : joined) put_row(into, table, row);
 }
 
-// One merge at a time in the folder of its file.
+// Only one merge at a time may write into the folder of its file.
 FileLock lock_of_folder(const std::filesystem::path& file) {
   const auto folder = file.has_parent_path() ? file.parent_path() : ".";
   return {folder, FileLock::On::folder,
@@ -93,7 +95,7 @@ FileLock lock_of_folder(const std::filesystem::path& file) {
 class Merge {
  public:
   explicit Merge(const std::filesystem::path& building) : into_(building, Database::Mode::write) {
-    // Nothing of it is of use to anybody before it is whole.
+    // A journal is not needed, because a half-written file is of no use to anybody.
     into_.run("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; BEGIN");
     into_.run(table_declarations());
   }
@@ -101,13 +103,13 @@ class Merge {
   void add(const std::filesystem::path& file) {
     check(file);
     const Database from(file, Database::Mode::read);
-    from.run("BEGIN");  // one state of a file that may be growing
+    from.run("BEGIN");  // a shard may be growing: this keeps to one state of the file
     for (const auto& joined : joined_tables()) join(from, into_, joined);
     join_notes(from);
     from.run("COMMIT");
   }
 
-  // The bytes of a vacuumed file depend on its rows alone.
+  // The file is vacuumed, because the bytes of a vacuumed file depend on its rows alone.
   void write(const std::filesystem::path& whole) {
     put_row(into_, note_table(), {"binding", *binding_});
     for (const auto* table : store_tables()) renew_hashes(into_, *table);
@@ -147,8 +149,8 @@ class Merge {
   std::filesystem::path first_;
 };
 
-// What a merge writes before it is whole. The names are fixed, so that a merge clears away what one
-// before it left that was killed. REQUIRES the lock of their folder.
+// The files that a merge writes before it is whole. Their names are fixed, so that a merge clears
+// away what an earlier one left if it was killed. REQUIRES the lock of their folder.
 struct PartFiles {
   std::filesystem::path building, whole;
 
@@ -178,7 +180,7 @@ Expected<void> merge_stores(std::span<const std::filesystem::path> stores,
     std::vector<std::filesystem::path> files(stores.begin(), stores.end());
     std::error_code ignored;
     if (std::filesystem::exists(out, ignored)) files.push_back(out);
-    // The first conflict told is then the same in any order.
+    // The files are sorted, so that the same conflict is reported first whatever their order was.
     std::sort(files.begin(), files.end());
     const PartFiles parts(out);
     Merge merge(parts.building);

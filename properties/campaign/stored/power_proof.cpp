@@ -22,7 +22,7 @@ bool is_of_build(const RunFindings& proof, const BoundRun& build) {
          digests.generator == ours.generator;
 }
 
-// What keeps the findings from being a proof for the plan; empty: nothing.
+// Says what keeps the findings from being a proof for the plan. Empty if nothing does.
 std::string lack_of(const RunFindings& proof, const BoundRun& build, const CampaignPlan& plan) {
   if (!proof.evidence.power.empty()) return "took its own proof from another run";
   if (proof.planted() != build.planted_faults || proof.found() != build.planted_faults)

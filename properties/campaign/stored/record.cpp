@@ -102,8 +102,8 @@ void Tally::add(const TrialRecord& record) {
   disturbances += record.disturbed;
   note_slow(record);
   if (record.slowest_us < near_from_us) return;
-  near.push_back(record);
-  near.back().counts.clear();
+  near_limit.push_back(record);
+  near_limit.back().counts.clear();
 }
 
 void Tally::note_slow(const TrialRecord& record) {

@@ -64,7 +64,7 @@ struct Tally {
   std::uint64_t near_from_us = ~std::uint64_t{0};
   std::map<std::string, StratumTally, std::less<>> strata;  // by family
   Counts counts;
-  std::vector<TrialRecord> near;  // in the order of adding; without counts
+  std::vector<TrialRecord> near_limit;  // in the order of adding; without counts
   // The trials that are undecided in some configuration, up to `most_undecided` of them; and of
   // the others the slowest, the slowest first. Both without their counts.
   std::vector<TrialRecord> undecided, slowest;

@@ -20,7 +20,7 @@ Row row_of(const TrialRecord& r) {
 }
 
 Row row_of(const StoredFailure& f) {
-  return {f.id,   f.configuration, f.signature,         f.what,
+  return {f.id,   f.configuration, f.signature,         f.explanation,
           f.mesh, f.smallest,      f.flaky ? "1" : "0", f.printed};
 }
 

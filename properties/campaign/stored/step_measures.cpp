@@ -38,7 +38,7 @@ constexpr NamedMeasure named_measures[] = {
     {"measure:left-out-misses", &StepMeasures::left_out_misses},
 };
 
-// Upward, so that no time is said to be better than it is.
+// Rounds upward, so that no time is said to be better than it is.
 double to_two_digits(double share) {
   if (share <= 0) return 0;
   const double unit = std::pow(10, std::floor(std::log10(share)) - 1);
@@ -55,7 +55,7 @@ std::uint64_t sum_of(const ByHowMuch& values) {
   return sum;
 }
 
-// A quotient of the step is below 1: counts in a map of their values.
+// Reads a count whose name ends in a value, a share of the step, and adds the count to that value.
 void read_value(std::string_view name, std::string_view prefix, std::uint64_t count,
                 ByHowMuch& values) {
   const auto word = name.substr(prefix.size());
@@ -98,7 +98,7 @@ std::uint64_t StepMeasures::early_steps() const { return sum_of(early); }
 
 double quantile_of(const ByHowMuch& values, std::uint64_t all, double share) {
   if (all == 0) return 0;
-  // So many lie at or below the quantile.
+  // This many values lie at or below the quantile.
   const auto rank = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(all)));
   std::uint64_t below = all - std::min(all, sum_of(values));
   if (rank <= below) return 0;

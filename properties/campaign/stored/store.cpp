@@ -11,23 +11,23 @@
 
 namespace assay::properties {
 
-std::string about_text(const std::string& signature, const std::string& what) {
-  return signature + "; " + what;
+std::string about_text(const std::string& signature, const std::string& explanation) {
+  return signature + "; " + explanation;
 }
 
-std::string shown_what(const StoredFailure& failure) {
-  if (failure.smallest.empty()) return failure.what;
+std::string shown_explanation(const StoredFailure& failure) {
+  if (failure.smallest.empty()) return failure.explanation;
   const auto smallest = corpus::parse_case(failure.smallest, "stored failure");
   const auto head = about_text(failure.signature, "");
   const bool tells = smallest && smallest.value().about.starts_with(head);
-  return tells ? smallest.value().about.substr(head.size()) : failure.what;
+  return tells ? smallest.value().about.substr(head.size()) : failure.explanation;
 }
 namespace {
 
-// The schema that a binding names, where it is another than this build's.
+// The schema that a binding names, if it is not that of this build.
 std::optional<std::string> other_schema(const std::string& binding) {
   const auto read = corpus::parse_json(binding, "binding");
-  // Of what is no binding at all its reader tells.
+  // If the text is no binding at all, whoever reads the binding reports that.
   if (!read || !read.value().is_object() || !read.value().contains("schema")) return std::nullopt;
   const auto& schema = read.value()["schema"];
   return schema == store_schema ? std::nullopt : std::optional(corpus::json_text(schema));
@@ -44,7 +44,7 @@ FileLock lock_of_store(const std::filesystem::path& file) {
           fmt::format("{}: another run is writing it", file.string())};
 }
 
-// Before anything is known of the file: stores of older schemas have no hashes.
+// Reads the binding without a check of its hash, because a store of an older schema has no hashes.
 std::optional<std::string> unchecked_binding(const Database& db) {
   if (!Statement(db, "SELECT 1 FROM sqlite_master WHERE name='note'").next()) return std::nullopt;
   Statement query(db, "SELECT value FROM note WHERE key='binding'");
@@ -54,15 +54,15 @@ std::optional<std::string> unchecked_binding(const Database& db) {
 }  // namespace
 
 struct Store::Parts {
-  std::optional<FileLock> lock;  // outlives the database
+  std::optional<FileLock> lock;  // declared first, so that it outlives the database
   Database db;
-  std::optional<RowTally> known;  // of a store that is written
+  std::optional<RowTally> known;  // only of a store that is open for writing
 
   Parts(const std::filesystem::path& file, Database::Mode mode)
       : lock(mode == Database::Mode::write ? std::optional(lock_of_store(file)) : std::nullopt),
         db(file, mode) {}
 
-  // Looks at every row and takes it for known.
+  // Looks at every row and notes it as known.
   void get_to_know() {
     RowTally found;
     for (const auto* table : store_tables()) {
@@ -79,7 +79,8 @@ struct Store::Parts {
     for_each_row(db, table, known ? &*known : nullptr, more, bound, visit);
   }
 
-  // A row that is put is known from note() on: only a transaction that went through counts.
+  // A row that is put counts as known from note() on, which is called only after its transaction
+  // went through.
   void note(const StoreTable& table, const Row& row) {
     if (known) known->put(row_name(table, row), row_hash(table, row));
   }
@@ -110,7 +111,7 @@ Expected<Store> Store::read(const std::filesystem::path& file) {
     return Problem{ProblemKind::not_found, fmt::format("{}: no such file", file.string())};
   return catch_store_problem([&] {
     auto parts = std::make_unique<Parts>(file, Database::Mode::read);
-    // One state of the file until the store is closed.
+    // The transaction shows one state of the file until the store is closed.
     parts->db.run("BEGIN");
     const auto binding = unchecked_binding(parts->db);
     if (!binding) {
@@ -127,7 +128,8 @@ Expected<Store> Store::read(const std::filesystem::path& file) {
 Expected<Store> Store::open(const std::filesystem::path& file, const std::string& binding) {
   return catch_store_problem([&] {
     auto parts = std::make_unique<Parts>(file, Database::Mode::write);
-    // A killed process loses nothing that add() returned from; only a power cut may lose the end.
+    // With these settings a killed process loses nothing that add() returned from. Only a power
+    // cut may lose the end.
     parts->db.run("PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
     parts->db.check_whole();
     const auto bound = unchecked_binding(parts->db);
@@ -183,7 +185,7 @@ void Store::add(const TrialRecord& record, const std::vector<StoredFailure>& kep
     try {
       parts_->db.run("ROLLBACK");
     } catch (const StoreProblem&) {
-      // SQLite has rolled back by itself.
+      // SQLite has already rolled back by itself.
     }
     throw;
   }

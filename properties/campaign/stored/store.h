@@ -26,7 +26,7 @@ inline constexpr const char* store_schema = "assay-store/4";
 // A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
 struct StoredFailure {
   std::string id;  // id of the trial
-  std::string configuration, signature, what;
+  std::string configuration, signature, explanation;
   std::string mesh;
   std::string smallest;      // empty: the mesh was not shrunk
   bool flaky = false;        // two runs of the case differ, which is a failure by itself
@@ -45,10 +45,10 @@ inline constexpr std::string_view corpus_in_id = "corpus/";
 inline constexpr std::string_view repeated_in_id = "repeated/";
 
 // `about_text` is what the case file of a failure says of itself: "all-pairs: missing pair,
-// edge-edge; triangles 0 and 1 meet at 0.5". `shown_what` reads it back: it returns the part after
-// the signature, from the smallest mesh if there is one.
-std::string about_text(const std::string& signature, const std::string& what);
-std::string shown_what(const StoredFailure& failure);
+// edge-edge; triangles 0 and 1 meet at 0.5". `shown_explanation` reads it back: it returns the part
+// after the signature, from the smallest mesh if there is one.
+std::string about_text(const std::string& signature, const std::string& explanation);
+std::string shown_explanation(const StoredFailure& failure);
 
 // That a trial failed with this signature in this configuration. It is stored for every failure,
 // while the mesh is kept for a few of them only.
@@ -59,7 +59,7 @@ struct MetFailure {
 // All failures that a store holds.
 struct KeptFailures {
   std::vector<StoredFailure> list;  // by signature, then id
-  Counts met;                       // how often each signature was met, mesh kept or not
+  Counts times_met;                 // how often each signature was met, mesh kept or not
 };
 
 // What a run found out besides its trials: the canary, planted faults, worlds, ...

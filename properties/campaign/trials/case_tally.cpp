@@ -35,11 +35,12 @@ void count_blocks(const CaseRun& run, std::span<const oracle::StepJudgement> tru
 void count_laws(const LawTable& table, const Configuration& configuration, CaseTally& tally) {
   const auto all = laws();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const LawTally& met = table.tallies()[i];
-    if (met.premise == 0) continue;
-    add_law(tally.counts, all[i].name, met);
-    if (met.broken > 0) {
-      tally.broken.push_back({std::string(all[i].name), configuration.name, met.first_broken});
+    const LawTally& law_tally = table.tallies()[i];
+    if (law_tally.premise == 0) continue;
+    add_law(tally.counts, all[i].name, law_tally);
+    if (law_tally.broken > 0) {
+      tally.broken.push_back(
+          {std::string(all[i].name), configuration.name, law_tally.first_broken});
     }
   }
 }

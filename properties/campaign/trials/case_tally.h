@@ -13,7 +13,7 @@ namespace assay::properties {
 
 // A law that a case breaks.
 struct BrokenLaw {
-  std::string law, configuration, what;
+  std::string law, configuration, explanation;
 };
 
 struct CaseTally {

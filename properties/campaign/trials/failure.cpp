@@ -21,7 +21,7 @@ std::string time_text(const detector::TimeEnclosure& t) {
   return t.lo == t.hi ? fmt::format("{}", t.lo) : fmt::format("[{}, {}]", t.lo, t.hi);
 }
 
-// "collision at 0.5", "free"
+// Gives "collision at 0.5" or "free", for example.
 std::string answer_text(detector::Answer answer, const detector::TimeEnclosure& first) {
   return answer == detector::Answer::collision ? fmt::format("collision at {}", time_text(first))
                                                : name_of(answer);
@@ -32,7 +32,7 @@ std::string contact_text(const detector::PairContact& contact) {
                      time_text(contact.time), name_of(contact.feature.kind));
 }
 
-// A kind that fits the claim, and where.
+// Makes a failure of a step: it finds the kind that fits the broken claim, and the pair.
 class FailureOfStep {
  public:
   explicit FailureOfStep(const StepDiff& diff) : diff_(diff) {
@@ -54,7 +54,8 @@ class FailureOfStep {
         break;
       case Claim::candidates:
         at("missing candidate", diff.missing_candidates.front());
-        failure_.what += fmt::format(", and are none of {} candidates", diff.candidates->given);
+        failure_.explanation +=
+            fmt::format(", and are none of {} candidates", diff.candidates->given);
         break;
       default:
         failure_.kind = "error";
@@ -68,21 +69,23 @@ class FailureOfStep {
     failure_.kind = kind;
     failure_.pair = contact.pair;
     failure_.feature = name_of(contact.feature.kind);
-    failure_.what = contact_text(contact);
+    failure_.explanation = contact_text(contact);
   }
 
   void of_pair(const char* kind, const WrongTime& wrong) {
     failure_.kind = kind;
     failure_.pair = wrong.pair;
-    failure_.what = fmt::format("triangles {} and {} at {}, and not at {}", wrong.pair.a,
-                                wrong.pair.b, time_text(wrong.detector), time_text(wrong.oracle));
+    failure_.explanation =
+        fmt::format("triangles {} and {} at {}, and not at {}", wrong.pair.a, wrong.pair.b,
+                    time_text(wrong.detector), time_text(wrong.oracle));
   }
 
   void off_first_time() {
     at(diff_.late_first ? "late" : "early", *diff_.first_contact);
-    if (!diff_.first) return;  // of a stopped oracle
-    failure_.what += diff_.late_first ? fmt::format(", late by {:.3g}", diff_.first->late_by)
-                                      : fmt::format(", early by {:.3g}", diff_.first->early_by);
+    if (!diff_.first) return;  // the oracle was stopped
+    failure_.explanation += diff_.late_first
+                                ? fmt::format(", late by {:.3g}", diff_.first->late_by)
+                                : fmt::format(", early by {:.3g}", diff_.first->early_by);
   }
 
   void lost_pair() {
@@ -100,12 +103,12 @@ class FailureOfStep {
     }
     failure_.kind = diff_.answered_collision ? "answered collision" : "spurious pair";
     if (diff_.spurious.empty()) {
-      failure_.what = "no two triangles meet";
+      failure_.explanation = "no two triangles meet";
       return;
     }
     const auto& pair = diff_.spurious.front().pair;
     failure_.pair = pair;
-    failure_.what = fmt::format("triangles {} and {} do not meet", pair.a, pair.b);
+    failure_.explanation = fmt::format("triangles {} and {} do not meet", pair.a, pair.b);
   }
 
   const StepDiff& diff_;
@@ -120,7 +123,7 @@ Failure failure_of(const StepDiff& diff, const detector::StepResult& result) {
   const auto exact = diff.first_contact
                          ? answer_text(detector::Answer::collision, diff.first_contact->time)
                          : answer_text(detector::Answer::free, {});
-  failure.what +=
+  failure.explanation +=
       fmt::format("; answered {}, exact {}", answer_text(result.answer, result.first), exact);
   return failure;
 }

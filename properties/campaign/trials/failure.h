@@ -19,10 +19,10 @@ struct Failure {
   std::size_t step = 0;                        // step of the script
   std::optional<detector::TrianglePair> pair;  // the first wrong pair
   std::string configuration;
-  std::string stage;    // the stage of the built-in detector that lost the pair
-  std::string feature;  // the feature of the pair
-  std::string cause;    // only of a plug-in, whose stages nobody knows (cause.h)
-  std::string what;     // one line for people: by how much, and both answers with their times
+  std::string stage;        // the stage of the built-in detector that lost the pair
+  std::string feature;      // the feature of the pair
+  std::string cause;        // only of a plug-in, whose stages nobody knows (cause.h)
+  std::string explanation;  // one line for people: by how much, both answers and their times
 
   // Claim, kind, stage, feature, cause: what a shrunk case must keep.
   std::string signature() const;

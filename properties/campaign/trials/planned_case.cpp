@@ -18,7 +18,8 @@ double largest_of(const corpus::Case& c) {
   return largest;
 }
 
-// By 2^exponent; what the scaling would round away, or the contract does not take, becomes 0.
+// Multiplies by 2^exponent. The result is 0 if the scaling would round it, or if the contract does
+// not take it because it is below `least`.
 double scaled(double x, int exponent, double least) {
   const double y = std::ldexp(x, exponent);
   const bool is_exact = std::ldexp(y, -exponent) == x;

@@ -26,7 +26,8 @@ DetectorUnderTest built_in_detector() {
         Culling::normal_cone, Culling::bvh, Culling::none}) {
     detector.configurations.push_back({name_of(culling), {culling, Start::verified, Pairs::all}});
   }
-  // With first pairs a step ends with K, which is the same for lines.
+  // There is no configuration of first pairs for view lines, because a step with first pairs ends
+  // with K, which is found in the same way from lines.
   detector.configurations.push_back(
       {"view-point/first", {Culling::view_point, Start::verified, Pairs::first}});
   for (const auto culling : {Culling::view_point, Culling::view_line}) {
@@ -39,7 +40,7 @@ DetectorUnderTest built_in_detector() {
 
 namespace {
 
-// Adds what tells one failure of its kind from another: the stage that lost the pair.
+// Adds the stage that lost the pair, which tells one failure of this kind from another.
 void find_stage(Failure& failure, const corpus::Case& c, const corpus::CaseStep& step,
                 const StepDiff& diff) {
   const bool is_lost = std::any_of(diff.missing.begin(), diff.missing.end(),
@@ -48,7 +49,8 @@ void find_stage(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
     failure.stage = stage_that_lost(c.triangles, start_of(c, step), end_of(c, step), *failure.pair);
 }
 
-// The same of a plug-in, whose stages nobody knows: what is special about the contact.
+// Does the same for a plug-in. Nobody knows its stages, so it adds what is special about the
+// contact.
 void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep& step,
                 const oracle::StepJudgement& truth, const Contract& contract) {
   if (!failure.pair) return;
@@ -62,11 +64,13 @@ void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
                                      : cause_of(c.triangles, {x_t0, x_t1}, *contact));
 }
 
-// Of a query, whose two triangles only hold the features that were asked.
+// Rewrites the explanation of a failed query in terms of features, because the two triangles of a
+// query only hold the features that were asked.
 void name_features(Failure& failure, const detector::FourPoints& query) {
   if (failure.feature.empty()) failure.feature = query_word(query);
   constexpr std::string_view pair = "triangles 0 and 1 ";
-  if (failure.what.starts_with(pair)) failure.what.replace(0, pair.size(), "the two features ");
+  if (failure.explanation.starts_with(pair))
+    failure.explanation.replace(0, pair.size(), "the two features ");
 }
 
 }  // namespace
@@ -75,7 +79,8 @@ JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudge
                         const CaseRun& run, const Configuration& configuration,
                         const DetectorUnderTest& detector, const CaseRun* again) {
   const Claims claims = detector.claims_in(configuration);
-  // The built-in detector's steps are judged more strictly below.
+  // The steps of the built-in detector are left out here, because they are judged more strictly
+  // below.
   const auto by_claims = detector.built_in ? std::span<const oracle::StepJudgement>{} : truth;
   JudgedRun whole = judge_run(c, run, by_claims, claims, detector.contract, again);
   if (detector.built_in) {
@@ -92,7 +97,7 @@ JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudge
       judged.failure = failure_of(diff, run.steps[s]);
       if (judged.failure->kind == "error") {
         const auto error = error_of(run, s);
-        judged.failure->what = error.empty() ? whole.what : error;
+        judged.failure->explanation = error.empty() ? whole.explanation : error;
       }
       if (detector.built_in) {
         find_stage(*judged.failure, c, steps[s], diff);
@@ -109,7 +114,8 @@ JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudge
     judged.failure->claim = whole.broken.front();
     judged.failure->kind =
         whole.broken.front() == Claim::deterministic ? "two runs differ" : name_of(run.end);
-    judged.failure->what = whole.what.empty() ? judged.failure->kind : whole.what;
+    judged.failure->explanation =
+        whole.explanation.empty() ? judged.failure->kind : whole.explanation;
   }
   if (judged.failure) {
     auto& failure = *judged.failure;

@@ -22,7 +22,7 @@ namespace assay::properties {
 corpus::Case failing_case(const corpus::Case& c, const Configuration& configuration,
                           const DetectorUnderTest& detector, const Failure& failure) {
   corpus::Case out = c;
-  out.about = about_text(failure.signature(), failure.what);
+  out.about = about_text(failure.signature(), failure.explanation);
   out.source =
       fmt::format("campaign case {}, detector {}, {}", c.id, detector.name, configuration.name);
   std::replace(out.id.begin(), out.id.end(), ':', '-');
@@ -39,14 +39,14 @@ std::uint64_t microseconds_since(Clock::time_point begin) {
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - begin).count());
 }
 
-// Of triangles and frames, bit by bit: two cases of one hash count as one.
+// Hashes triangles and frames bit by bit. Two cases with the same hash count as one.
 std::uint64_t mesh_hash(const corpus::Case& c) {
   const auto bytes = [](const auto& matrix) {
     return std::string_view(reinterpret_cast<const char*>(matrix.data()),
                             sizeof(*matrix.data()) * static_cast<std::size_t>(matrix.size()));
   };
   std::uint64_t hash = Random::hash(bytes(c.triangles));
-  // Each link of the chain is a bijection of what came before, mixed by a multiplication.
+  // Each link maps the hash so far one to one, and mixes it by a multiplication.
   for (const auto& frame : c.frames) {
     hash = (hash ^ Random::hash(bytes(frame))) * 0x9e3779b97f4a7c15u;
     hash ^= hash >> 32;
@@ -59,7 +59,7 @@ struct PlannedTrial {
   std::uint64_t index;
 };
 
-// Families in turn, so that a run that ends early has judged all of them.
+// The families take turns, so that a run that ends early has judged all of them.
 std::vector<PlannedTrial> planned_trials(const CampaignRequest& request,
                                          const std::set<std::string>* only) {
   const auto& plan = request.plan;
@@ -98,13 +98,13 @@ class Trials {
   }
 
  private:
-  // Every 16th trial is run twice, for the claim `deterministic`.
+  // Every 16th trial is run twice, to judge the claim `deterministic`.
   static constexpr std::uint64_t repeat_every = 16;
-  static constexpr std::uint64_t meshes_kept = 3;  // of a signature
+  static constexpr std::uint64_t meshes_kept = 3;  // this many meshes of each signature are stored
 
   void work() {
     WorkerProcess worker(request_.worker, request_.plugin, request_.worker_limits());
-    // Whatever goes wrong in one thread ends all of them.
+    // If something goes wrong in one thread, all of them end.
     try {
       while (const PlannedTrial* trial = next_trial()) judge(*trial, worker);
     } catch (const StoreProblem& failure) {
@@ -135,10 +135,11 @@ class Trials {
     return trial_id(request_.plan, request_.seed, std::string(trial.family->name), trial.index);
   }
 
-  // A trial in the making: its case, what the oracle and the detector say of it, what it showed.
+  // A trial that is being made: its case, what the oracle and the detector say of it, and what it
+  // showed.
   struct Trial {
     GeneratedCase made;
-    corpus::Case seen;  // what the detector's contract has of it, where it takes it
+    corpus::Case seen;  // the case as the detector's contract has it, if it takes it
     bool is_within = true;
     std::vector<Configuration> configurations;
     std::vector<oracle::StepJudgement> truth;
@@ -184,12 +185,13 @@ class Trials {
     return trial;
   }
 
-  // Notes what disturbed the runs and how long they took. Throws where there is no worker.
+  // Notes what disturbed the runs and how long they took. Throws if there is no worker.
   std::vector<CaseRun> run(Trial& trial, std::span<const Configuration> configurations,
                            WorkerProcess& worker) const {
     auto runs = worker.run(trial.seen, configurations);
     for (const auto& one : runs) {
-      if (one.end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, one.what);
+      if (one.end == RunEnd::not_run)
+        throw StoreProblem(ProblemKind::cannot_start, one.explanation);
       trial.record.disturbed += one.disturbances;
       trial.record.slowest_us = std::max(trial.record.slowest_us,
                                          static_cast<std::uint64_t>(1e6 * one.processor_seconds));
@@ -208,17 +210,19 @@ class Trials {
       count_left_out(0, 0, judged.left_out_misses, trial.record.counts);
     }
     if (!judged.failure) return;
-    // A failure is run twice before it is reported; a difference is itself a failure.
+    // A failing case is run again before it is reported. If the two runs differ, that is a failure
+    // by itself.
     const bool flaky = !same_answers(trial.runs[i], run(trial, {&configuration, 1}, worker)[0]);
     const auto failing =
         failing_case(trial.seen, configuration, request_.detector, *judged.failure);
     trial.failures.push_back({trial.record.id, configuration.name,
                               judged.failure->signature() + (flaky ? " (flaky)" : ""),
-                              judged.failure->what, corpus::case_text(failing), "", flaky,
+                              judged.failure->explanation, corpus::case_text(failing), "", flaky,
                               printed_of(trial.runs[i], again)});
   }
 
-  // What differs between two runs may be told by the second alone.
+  // Two runs may differ in whether something was printed. If the first printed nothing, the text
+  // of the second is taken.
   static const std::string& printed_of(const CaseRun& run, const CaseRun* again) {
     return run.printed.empty() && again ? again->printed : run.printed;
   }
@@ -244,18 +248,19 @@ class Trials {
   static StoredFailure broken_law(const corpus::Case& c, const BrokenLaw& broken,
                                   std::span<const Configuration> configurations) {
     corpus::Case failing = c;
-    failing.about = fmt::format("breaks {}; {}", broken.law, broken.what);
+    failing.about = fmt::format("breaks {}; {}", broken.law, broken.explanation);
     failing.source = fmt::format("campaign case {}, {}", c.id, broken.configuration);
     for (const auto& configuration : configurations) {
       if (configuration.name == broken.configuration)
         failing.options = options_text(configuration.options);
     }
-    // The id stays: laws that choose at random, or look at some of the cases, go by it.
-    // The store's key is case and configuration: a case may break a law and a claim.
+    // The case keeps its id, because laws that choose at random, or look at some of the cases
+    // only, go by it. The configuration is extended by the law, because the key of the store is
+    // case and configuration, and a case may break both a law and a claim.
     return {c.id,
             fmt::format("{}{}{}", broken.configuration, law_in_configuration, broken.law),
             fmt::format("{}{}", law_in_signature, broken.law),
-            broken.what,
+            broken.explanation,
             corpus::case_text(failing),
             "",
             false};
@@ -269,7 +274,8 @@ class Trials {
       met.push_back({failure.configuration, failure.signature});
       if (met_[failure.signature]++ < meshes_kept) kept.push_back(failure);
     }
-    // At once: a run that is killed counts nothing twice when it goes on.
+    // The trial and its failures are stored in one transaction, so that nothing is counted twice
+    // when a killed run goes on.
     store_.add(trial.record, kept, met);
     ++end_.trials;
     ++state_.done;

@@ -23,7 +23,7 @@ void turn_faces(Random& random, Draft& d) {
   }
 }
 
-// Three to six triangles at one edge, fanned outward.
+// Puts three to six triangles at one edge, fanned outward.
 void add_leaves(Random& random, Draft& d) {
   const Face f = any_of(random, d.faces);
   for (int n = random.between(1, 4); n > 0; --n) {
@@ -39,7 +39,8 @@ void add_leaves(Random& random, Draft& d) {
   }
 }
 
-// Two corners' middle, or a corner once more, as the third corner: no area at the start.
+// Adds triangles that have no area at the start. Their third corner is the middle of the other
+// two, or one of them once more.
 void add_zero_area(Random& random, Draft& d) {
   const Face f = any_of(random, d.faces);
   const Point &a = at(d.rest(), f[0]), &b = at(d.rest(), f[1]);
@@ -47,7 +48,8 @@ void add_zero_area(Random& random, Draft& d) {
   d.faces.push_back({f[0], f[1], third});
 }
 
-// Some triangles around a vertex take a copy of it: a seam that opens when the copies part.
+// Some triangles around a vertex take a copy of it. This makes a seam, which opens when the copies
+// part.
 void open_seam(Random& random, Draft& d) {
   const std::int32_t v = any_of(random, d.faces)[0];
   const auto copy = d.vertex(at(d.rest(), v));
@@ -97,7 +99,9 @@ Draft broken_shape(Random& random, int size) {
     const Damage& damage = any_of(random, damages);
     damage.apply(random, d);
     d.tag(std::string("broken:") + damage.name);
-    drop_invalid_faces(d);  // at once: the face that lost faces leave may not be one of these
+    // Invalid faces are dropped at once, because a later damage may cut away all faces but one,
+    // and that one must not be an invalid face.
+    drop_invalid_faces(d);
   }
   return d;
 }

@@ -7,7 +7,7 @@
 namespace assay::properties {
 namespace {
 
-// `b`'s vertices follow `a`'s.
+// Joins two drafts. The vertices of `b` follow those of `a`.
 Draft joined(Draft a, const Draft& b) {
   const auto offset = a.vertices();
   a.second_piece = offset;
@@ -22,14 +22,14 @@ void scale_and_move(Draft& d, double scale, const Point& by) {
   for (auto& p : d.rest()) p = scale * p + by;
 }
 
-// The least and the greatest x.
+// The least and the greatest x of the draft.
 std::array<double, 2> extent(const Draft& d) {
   const auto [low, high] = std::minmax_element(
       d.rest().begin(), d.rest().end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
   return {(*low)[0], (*high)[0]};
 }
 
-// Side by side along x with a gap, from a hair to half a unit.
+// Two pieces stand side by side along x, with a gap between a hair and half a unit.
 Draft two_pieces(Random& random, int size) {
   Draft a = simple_shape(random, size / 2), b = simple_shape(random, size / 2);
   const double gap = random.between(1, 32) / 64.0;
@@ -53,7 +53,7 @@ Draft nested(Random& random, int size, bool inward) {
   return d;
 }
 
-// The highest vertex along x of one is the lowest of the other.
+// The highest vertex of one piece along x is the lowest of the other.
 Draft sharing_a_vertex(Random& random, int size) {
   Draft a = simple_shape(random, size / 2), b = simple_shape(random, size / 2);
   std::int32_t high = 0, low = 0;
@@ -72,7 +72,7 @@ Draft sharing_a_vertex(Random& random, int size) {
   return d;
 }
 
-// Two tetrahedra at an edge, beside or within each other.
+// Two tetrahedra share an edge. They lie beside each other, or one within the other.
 Draft sharing_an_edge(Random& random, int) {
   Draft d;
   const double side = random.below(3) == 0 ? 1 : -1;
@@ -84,7 +84,7 @@ Draft sharing_an_edge(Random& random, int) {
                       {side * 1.25, side * 0.25, 0}});
   d.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
              {0, 4, 1}, {0, 1, 5}, {0, 5, 4}, {1, 4, 5}};
-  // The order above is outward for one turn of the axes only.
+  // The order above is outward for one orientation of the axes only.
   Point centre = mean({d.rest()[0], d.rest()[1], d.rest()[2], d.rest()[3]});
   const auto& x = d.rest();
   if (dot(x[0] - centre, cross(x[2] - x[0], x[1] - x[0])) < 0) {

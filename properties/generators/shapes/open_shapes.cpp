@@ -11,7 +11,7 @@ namespace {
 using corpus::cos_turn;
 using corpus::sin_turn;
 
-// All triangles around a vertex, or one triangle. At least one triangle stays.
+// Cuts away all triangles around a vertex, or one triangle. At least one triangle stays.
 void cut_hole(Random& random, Draft& d) {
   const Face face = any_of(random, d.faces);
   const std::int32_t v = face[0];
@@ -32,14 +32,15 @@ Draft with_holes(Random& random, Draft d) {
   const int most = d.faces.size() < 8 ? 1 : d.faces.size() < 20 ? 2 : 4;
   const int holes = random.between(1, most);
   for (int i = 0; i < holes; ++i) cut_hole(random, d);
-  // Two holes can take a small piece away as a whole and leave a closed one.
+  // Two holes can take a small piece away as a whole, so that a closed one is left. Then one
+  // triangle is removed from it.
   if (is_cycle(d.faces)) d.faces.pop_back();
   drop_unused_vertices(d);
   d.tag("holes:" + std::to_string(holes));
   return d;
 }
 
-// rows x columns of quads; `place` puts (i,j) into space.
+// Makes rows x columns of quads. `place` puts (i,j) into space.
 template <class Place>
 Draft grid(int rows, int columns, bool around, const Place& place) {
   Draft d;
@@ -57,7 +58,7 @@ Draft grid(int rows, int columns, bool around, const Place& place) {
   return d;
 }
 
-// {rows, columns} with 2 rows columns about size.
+// Chooses {rows, columns} so that 2 rows columns is about size.
 std::array<int, 2> shape_of_grid(int size, int least_columns) {
   int columns = least_columns;
   while (2 * (columns + 1) * (columns + 1) <= size) ++columns;
@@ -93,7 +94,7 @@ Draft tube(Random& random, int size) {
   return d;
 }
 
-// A ribbon around the z axis that goes outward: over itself after one turn.
+// A ribbon around the z axis that goes outward, and so lies over itself after one turn.
 Draft spiral(Random& random, int size) {
   const int columns = std::max(5, size / 2);
   const double turns = 1.125 + random.unit();
@@ -108,7 +109,7 @@ Draft spiral(Random& random, int size) {
   return d;
 }
 
-// Two holes of one triangle each that meet at a vertex only: its loop passes there twice.
+// Two holes of one triangle each that meet at a vertex only. The loop passes that vertex twice.
 Draft loop_twice_through_a_vertex(Random& random, int size) {
   Draft d = star_shape(random, std::max(size, 8));
   const Face first = any_of(random, d.faces);
@@ -137,7 +138,7 @@ Draft open_star_shape(Random& random, int size) {
 }
 
 Draft open_shape(Random& random, int size) {
-  // What stands here twice is made twice as often.
+  // A shape that stands here twice is made twice as often.
   constexpr Draft (*shapes[])(Random&, int) = {
       sheet,           sheet,           tube,     spiral,  loop_twice_through_a_vertex,
       open_star_shape, open_star_shape, cut_open, cut_open};

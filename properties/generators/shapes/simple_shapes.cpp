@@ -13,7 +13,8 @@ namespace {
 using corpus::cos_turn;
 using corpus::sin_turn;
 
-// Rings around the z axis from the bottom pole to the top one; radius[i] and height[i] of ring i.
+// Rings around the z axis from the bottom pole to the top one. `rings` gives the radius and the
+// height of each.
 Draft spindle(int sides, const std::vector<std::array<double, 2>>& rings, double pole) {
   Draft d;
   d.frames.emplace_back();
@@ -40,7 +41,8 @@ Draft spindle(int sides, const std::vector<std::array<double, 2>>& rings, double
   return d;
 }
 
-// 2 m n triangles with n rings of m vertices: n a little larger than half of m.
+// Chooses the numbers for 2 m n triangles with n rings of m vertices, where n is a little larger
+// than half of m.
 std::array<int, 2> rings_and_sides(int size) {
   int rings = 1;
   while (4 * (rings + 1) * (rings + 1) <= size) ++rings;
@@ -79,7 +81,7 @@ Draft capsule(Random& random, int size) {
   return spindle(sides, rings, half + 0.25);
 }
 
-// Splits each triangle in four; new vertices go to the unit sphere.
+// Splits each triangle in four and moves the new vertices to the unit sphere.
 Draft split_sphere(Random& random, int size) {
   Draft d = random.below(2) == 0 ? tetrahedron(random, 4) : spindle(4, {{{1, 0}}}, 1);
   while (static_cast<int>(d.faces.size()) * 4 <= std::max(size, 16)) {
@@ -100,7 +102,7 @@ Draft split_sphere(Random& random, int size) {
   return d;
 }
 
-// Hollows and tips in turn.
+// Makes a star, in which hollows and tips alternate.
 Draft star(Random& random, int size) {
   Draft d = sphere(random, std::max(size, 12));
   for (auto& p : d.rest()) p = (random.below(2) == 0 ? 0.5 : 1.0) * p;
@@ -146,11 +148,11 @@ constexpr Shape simple_shapes[] = {
     {"torus", torus, 18},
 };
 
-// Other proportions, a place for each vertex a little beside its own.
+// Changes the proportions, and moves each vertex a little from its place.
 void vary(Random& random, Draft& d) {
   Point stretch;
   for (double& s : stretch) s = 0.5 + random.unit();
-  // Beyond this share of the least edge, neighbours could pass each other.
+  // With a larger share of the least edge, neighbours could pass each other.
   const double jitter = random.below(3) == 0 ? 0 : 0.25 / std::sqrt(d.faces.size());
   for (auto& p : d.rest()) {
     for (std::size_t k = 0; k < 3; ++k) p[k] = stretch[k] * (p[k] + jitter * random.signed_unit());
@@ -165,7 +167,8 @@ void vary(Random& random, Draft& d) {
 Draft simple_shape(Random& random, int size) {
   std::vector<const Shape*> fitting;
   for (const auto& shape : simple_shapes) {
-    // A tetrahedron is 4 triangles whatever was wanted.
+    // A tetrahedron has 4 triangles whatever size was wanted, so it is chosen for small sizes
+    // only.
     if (shape.least <= size && (size <= 12 || shape.least > 4)) fitting.push_back(&shape);
   }
   const Shape& shape = *any_of(random, fitting);

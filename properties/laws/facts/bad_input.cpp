@@ -17,7 +17,7 @@ using detector::InputError;
 using detector::Positions;
 using detector::Triangles;
 
-// Empty when the mesh is refused for that reason.
+// Empty if the mesh is refused for that reason.
 std::string create_wrong(const CaseFacts& facts, const Triangles& triangles, const Positions& x,
                          InputError wanted) {
   const auto made =

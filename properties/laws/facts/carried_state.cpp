@@ -16,7 +16,7 @@ std::size_t component_of(const CaseFacts& facts, std::size_t triangle) {
   return at(facts.component_of(static_cast<std::int32_t>(triangle)));
 }
 
-// Every triangle of S is positive where the step starts.
+// Whether every triangle of S is positive where the step starts.
 bool is_positive_at_start(CaseFacts& facts, std::size_t s, std::size_t component) {
   auto still = facts.result(s).primitives[component];
   still.q0.t1 = still.q0.t0;

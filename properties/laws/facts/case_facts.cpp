@@ -103,9 +103,9 @@ bool CaseFacts::is_trusted(std::size_t s) {
   if (options_.start != detector::Start::clean) return true;
   auto& trusted = facts_[s].trusted;
   if (trusted) return *trusted;
-  // What was vouched for wrongly at one start is carried on to the steps after it.
+  // If a caller vouched wrongly for one start, the steps that continue from it are wrong too.
   if (known_from_[s]) return *(trusted = is_trusted(*known_from_[s]));
-  // A step without views tells no apexes: of an unclosed mesh there is no saying then.
+  // A step without views does not tell its apexes, so nothing can be said of an unclosed mesh.
   if (!surface_.is_closed() && !has_views(s)) return *(trusted = false);
   const auto& clean = layers_at_start(s).clean;
   trusted = std::all_of(clean.begin(), clean.end(), [](std::uint8_t c) { return c != 0; });

@@ -54,7 +54,7 @@ class PatchFinder {
     return {motion_.path(corners[0]), motion_.path(corners[1]), motion_.path(corners[2])};
   }
 
-  // Children come after their node.
+  // A node stands before its children, so the walk goes backward.
   void merge_cones() {
     for (auto node = static_cast<std::int32_t>(cones_.size()); node-- > 0;) {
       const auto child = tree_.child(node);
@@ -63,7 +63,7 @@ class PatchFinder {
     }
   }
 
-  // The direction for which L13's premise is proved, if it is.
+  // The direction for which the premise of L13 is proved, if there is one.
   std::optional<int> certified(DirectionSet cone, Contour contour) {
     if (cone == 0 || contour.empty()) return std::nullopt;
     const int bit = detector::nearest_direction(cone, moving_.area(contour));

@@ -36,9 +36,10 @@ bool has_coincident_vertices(const CaseFacts& facts, std::size_t s) {
 
 namespace {
 
-// The area vector in doubles is farther from 0 than its rounding errors: of each of two products
-// 3 units of 2^-53 (two differences, one product), of their difference 2 more; twice that for what
-// is of second order. False where it is not, or where a product overflowed or vanished.
+// Whether the area vector, computed in doubles, is farther from 0 than its rounding errors. Each
+// of two products has an error of 3 units of 2^-53 (two differences and one product), and their
+// difference has 2 more. The bound is twice that, to cover errors of second order. The answer is
+// false if the vector is nearer to 0, or if a product overflowed or vanished.
 bool surely_has_area(const detector::Positions& x, const std::array<std::int32_t, 3>& v) {
   constexpr double error = 16 * 0x1p-53;
   const Eigen::RowVector3d a = x.row(v[1]) - x.row(v[0]), b = x.row(v[2]) - x.row(v[0]);

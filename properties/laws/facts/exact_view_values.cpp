@@ -96,7 +96,8 @@ Region ExactView::region_of(const ExactPoint& x) const {
 bool ExactView::has_zero_area() const { return dot(normal_, normal_) == 0; }
 
 ExactInteger ExactView::by_clamp(const ExactPoint& x) const {
-  // f0 and f1 are the same for every point of the triangle's plane, so a corner serves.
+  // f0 and f1 are the same for every point of the plane of the triangle, so they are computed at a
+  // corner.
   const ExactInteger f0 = dot(triangle_[0] - q0_, normal_), f1 = dot(triangle_[0] - q1_, normal_);
   const ExactInteger s = std::clamp<ExactInteger>(axial(x), 0, length2_);
   return (length2_ - s) * f0 + s * f1;
@@ -111,7 +112,7 @@ ExactInteger ExactView::by_region(const ExactPoint& x) const {
     case Region::r2:
       break;
   }
-  // |d|^2 times the way from the foot q0 + s d to x.
+  // This is |d|^2 times the vector from the foot q0 + s d to x.
   const ExactInteger s = axial(x);
   ExactPoint from_foot = x - q0_;
   for (std::size_t k = 0; k < 3; ++k) from_foot[k] = length2_ * from_foot[k] - s * d_[k];

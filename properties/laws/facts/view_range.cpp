@@ -17,7 +17,8 @@ Vector at(const MovingPoint& p, double t) {
   return (1 - t) * from + t * to;
 }
 
-// (x - n(x)).N times the constant |d|^2 for a segment: the clamp form of L1.
+// (x - n(x)).N, times the constant |d|^2 if the primitive is a segment. This is the clamp form of
+// L1.
 double view_value(const Vector& x, const Vector& q0, const Vector& q1, const Vector& normal) {
   const Vector along = q1 - q0;
   const double length2 = along.squaredNorm();

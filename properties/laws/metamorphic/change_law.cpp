@@ -14,8 +14,9 @@ using detector::ViewSign;
 
 namespace {
 
-// Two layer classes of a component are of one size: which is the common one is then decided by the
-// order of triangles (L9), at this start or one that the state comes from.
+// Whether two layer classes of a component have the same size. The order of triangles then decides
+// which is the common one (L9). This is asked of the start of the step, and of those from which
+// its state comes.
 bool common_layer_is_tied(CaseFacts& facts, std::size_t s) {
   for (std::optional<std::size_t> start = s; start; start = facts.known_from(*start)) {
     const auto& layers = facts.layers_at_start(*start);
@@ -55,7 +56,8 @@ std::string compare_sets(const StepResult& base, const StepResult& other, bool s
   return sizes == wanted ? "" : "the sizes of the view sets differ";
 }
 
-// `exact_start`: the results rest on the case's own places, which the oracle's layers are of.
+// `exact_start` says that the results rest on the positions of the case itself. The layers of the
+// oracle are those of these positions.
 std::string compare_step(CaseFacts& facts, std::size_t s, const StepResult& base,
                          const StepResult& other, const Change& change, bool exact_start) {
   if (other.problem) return "refused: " + other.problem->message;

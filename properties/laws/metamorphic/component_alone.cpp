@@ -11,7 +11,8 @@
 namespace assay::properties {
 namespace {
 
-// Vertices keep their numbers; those of other components are used by nothing.
+// Takes out one component. Vertices keep their numbers, but no triangle uses those of other
+// components.
 PinnedRun taken_out(const CaseFacts& facts, const PinnedRun& run, std::size_t component) {
   const auto& mesh = facts.surface().mesh;
   const auto& own = mesh.components[component];

@@ -45,7 +45,8 @@ PinnedRun on_a_grid(PinnedRun run) {
   const int unit = std::max(exponent_above(run) - bits, least_exponent);
   move_points(run, [&](detector::Point p) {
     for (double& c : p) {
-      // Below a denormal's unit all doubles are multiples already; c / unit stays below 2^30.
+      // The unit is not below 2^-1074, because all doubles are multiples of that. c / unit stays
+      // below 2^30.
       c = std::ldexp(std::nearbyint(std::ldexp(c, -unit)), unit);
     }
     return p;

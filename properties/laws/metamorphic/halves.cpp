@@ -43,13 +43,14 @@ detector::Positions middle(const detector::Positions& a, const detector::Positio
   return m;
 }
 
-// The paths in a half: from the start to the middle, or from there to the end.
+// The path in one half: from the start to the middle, or from there to the end.
 MovingPoint half_path(const MovingPoint& path, int half, bool& exact) {
   const Point m = middle(path, exact);
   return half == 0 ? MovingPoint{path.t0, m} : MovingPoint{m, path.t1};
 }
 
-// A step that is not committed cannot be halved: its first half would have to be.
+// Halves every step that is committed. Another step cannot be halved, because its first half would
+// have to be committed.
 Halved halved(const PinnedRun& whole) {
   Halved halves{whole, {}, true};
   PinnedRun& run = halves.run;
@@ -85,8 +86,9 @@ Halved halved(const PinnedRun& whole) {
   return halves;
 }
 
-// Whether t of the whole is u of that half. 2t is exact and 2t - 1 too, for t >= 1/2; a time that
-// no double equals has a closer enclosure in the second half, inside of the one computed.
+// Whether time t of the whole step is time u of that half. Both 2t and, for t >= 1/2, 2t - 1 are
+// exact. A time that no double equals has a closer enclosure in the second half, which lies inside
+// of the one that is computed here.
 bool corresponds(const TimeEnclosure& t, const TimeEnclosure& u, int half) {
   const TimeEnclosure wanted = {2 * t.lo - half, 2 * t.hi - half};
   if (t.lo == t.hi) return u == wanted;
@@ -144,7 +146,8 @@ void check_halves(CaseFacts& facts, LawTally& tally) {
   const Halved halves = halved(whole);
   if (!halves.exact) return;
   auto options = facts.options();
-  // Nobody vouches for places that were rounded, and a start that is not clean is not made up for.
+  // The middle positions may be rounded, so nobody can vouch for a clean start there. The start is
+  // verified instead.
   if (options.start == detector::Start::clean) options.start = detector::Start::verified;
   auto player = PinnedPlayer::make(whole, options, facts.stages_of());
   auto half_player = PinnedPlayer::make(halves.run, options, facts.stages_of());

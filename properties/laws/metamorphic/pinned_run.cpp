@@ -13,7 +13,8 @@ namespace {
 
 using EdgeSet = std::vector<std::array<std::int32_t, 2>>;
 
-// Undirected and sorted: the same for a loop begun elsewhere or run backwards.
+// The edges are undirected and sorted, so they are the same for a loop that begins elsewhere or
+// runs backward.
 EdgeSet edges_of(const detector::Loop& loop) {
   EdgeSet edges;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -24,7 +25,7 @@ EdgeSet edges_of(const detector::Loop& loop) {
   return edges;
 }
 
-// For each loop of a surface its place among `wanted`, each used once.
+// For each loop of a surface, its place among `wanted`. Each place is used once.
 std::optional<std::vector<std::size_t>> match(const std::vector<detector::Loop>& loops,
                                               const std::vector<detector::Loop>& wanted) {
   if (loops.size() != wanted.size()) return std::nullopt;
@@ -42,7 +43,7 @@ std::optional<std::vector<std::size_t>> match(const std::vector<detector::Loop>&
 
 }  // namespace
 
-// All but the apexes' places is the business of the handler given.
+// Pins the places of the apexes. Everything else is left to the handler that is given.
 class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
  public:
   explicit PinnedBoundary(std::shared_ptr<const BoundaryHandler> otherwise)
@@ -59,7 +60,7 @@ class PinnedPlayer::PinnedBoundary : public detector::BoundaryHandler {
                                                 const detector::StopFunction&) const override {
     return std::vector<detector::ApexRule>(surface.loops.size());
   }
-  // Before the first step, where view primitives are chosen, no apex is pinned yet.
+  // Before the first step, when view primitives are chosen, no apex is pinned yet.
   std::vector<MovingPoint> place_apexes(const detector::Surface& surface,
                                         const std::vector<detector::ApexRule>& rules,
                                         const detector::SteppedMesh& motion) const override {
@@ -95,7 +96,7 @@ std::optional<PinnedRun> pinned_run(const CaseFacts& facts) {
   }
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     if (!facts.has_views(s)) return std::nullopt;
-    // The other run, of view-line, asks for layers where this one did not.
+    // The other run, of view-line, would ask for layers where this one did not.
     const auto& doubts = facts.result(s).doubts;
     const bool any_dirty = std::any_of(doubts.begin(), doubts.end(), [](std::uint8_t marks) {
       return (marks & detector::doubt::dirty) != 0;

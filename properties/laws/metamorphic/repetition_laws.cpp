@@ -1,4 +1,4 @@
-// The same step asked for in another way.
+// The same step, asked for in another way.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,9 +25,9 @@ void check_repeated_call(CaseFacts& facts, LawTally& tally) {
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     const StepResult once = player->evaluate(s), again = player->evaluate(s);
     player->commit(s, again);
-    std::string what = difference(once, again);
-    if (what.empty()) what = difference(facts.result(s), once);
-    note(facts, s, what.empty() ? holds() : what + " differs", tally);
+    std::string differing = difference(once, again);
+    if (differing.empty()) differing = difference(facts.result(s), once);
+    note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
   }
 }
 
@@ -40,24 +40,25 @@ void check_evaluate_changes_nothing(CaseFacts& facts, LawTally& tally) {
     player->evaluate(s, facts.x_t0(s), facts.x_t0(s));
     const StepResult result = player->evaluate(s);
     player->commit(s, result);
-    const std::string what = difference(facts.result(s), result);
-    note(facts, s, what.empty() ? holds() : what + " differs", tally);
+    const std::string differing = difference(facts.result(s), result);
+    note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
   }
 }
 
-// The first step again, after the last one.
+// Plays the first step again, after the last one.
 void check_reset(CaseFacts& facts, LawTally& tally) {
   const auto run = pinned_run(facts);
   auto player = run ? PinnedPlayer::make(*run, facts.options(), facts.stages_of()) : std::nullopt;
   if (!player) return;
   player->play();
   player->detector().reset();
-  const std::string what = difference(facts.result(0), player->evaluate(0));
-  note(facts, 0, what.empty() ? holds() : what + " differs", tally);
+  const std::string differing = difference(facts.result(0), player->evaluate(0));
+  note(facts, 0, differing.empty() ? holds() : differing + " differs", tally);
 }
 
-// Another detector, made from the positions that the case ends with, so that it has chosen other
-// apexes and primitives, and in the middle of something else: a step evaluated and not committed.
+// Makes another detector from the positions with which the case ends, so that it has chosen other
+// apexes and primitives. It is in the middle of something else: a step is evaluated and not
+// committed.
 std::optional<detector::Detector> busy_detector(const CaseFacts& facts) {
   const auto& frames = facts.source().frames;
   auto made = detector::assemble(facts.source().triangles, frames.back(), facts.options(),
@@ -67,7 +68,8 @@ std::optional<detector::Detector> busy_detector(const CaseFacts& facts) {
   return std::move(made.value());
 }
 
-// The same with a primitive too few among those that view-auto has chosen since.
+// Restores the same state with one primitive too few among those that view-auto has chosen since.
+// This has to be refused.
 bool is_taken_with_one_too_few(const detector::SavedState& saved, detector::Detector& detector) {
   detector::StateFields fields = saved.fields();
   if (!fields.committed || fields.anchors.empty()) return false;
@@ -89,7 +91,7 @@ std::string goes_on(const CaseFacts& facts, std::size_t s, const detector::Saved
   if (busy->state().bytes() != saved.bytes()) return "the restored state";
   other.detector() = std::move(*busy);
   StepResult result = other.play(s);
-  // The trees are shaped by other positions.
+  // The counts may differ, because the trees are shaped by other positions.
   result.counts = facts.result(s).counts;
   return difference(facts.result(s), result);
 }
@@ -101,16 +103,16 @@ void check_restored_state(CaseFacts& facts, LawTally& tally) {
   auto player = make(), other = make();
   if (!player || !other) return;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
-    std::string what = goes_on(facts, s, player.value().detector().state(), other.value());
+    std::string differing = goes_on(facts, s, player.value().detector().state(), other.value());
     player.value().play(s);
     const auto expected = player.value().detector().state().bytes();
-    if (what.empty() && other.value().detector().state().bytes() != expected)
-      what = "the state after the step";
-    note(facts, s, what.empty() ? holds() : what + " differs", tally);
+    if (differing.empty() && other.value().detector().state().bytes() != expected)
+      differing = "the state after the step";
+    note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
   }
 }
 
-// Positions as they may stand among other numbers of the caller.
+// Positions that stand among other numbers of the caller.
 struct WideRows {
   Eigen::Matrix<double, Eigen::Dynamic, 5, Eigen::RowMajor> rows;
   explicit WideRows(const detector::Positions& x)
@@ -132,8 +134,8 @@ void check_row_stride(CaseFacts& facts, LawTally& tally) {
     const bool is_answered =
         result.answer == detector::Answer::free || result.answer == detector::Answer::collision;
     if (facts.script(s).commit && is_answered) made.value().commit();
-    const std::string what = difference(facts.result(s), result);
-    note(facts, s, what.empty() ? holds() : what + " differs", tally);
+    const std::string differing = difference(facts.result(s), result);
+    note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
   }
 }
 
@@ -147,12 +149,12 @@ void check_threads(CaseFacts& facts, LawTally& tally) {
   if (!alone || !shared) return;
   for (std::size_t s = 0; s < facts.steps(); ++s) {
     alone.value().play(s);
-    std::string what = difference(facts.result(s), shared.value().play(s));
-    if (what.empty() &&
+    std::string differing = difference(facts.result(s), shared.value().play(s));
+    if (differing.empty() &&
         alone.value().detector().state().bytes() != shared.value().detector().state().bytes()) {
-      what = "the state after the step";
+      differing = "the state after the step";
     }
-    note(facts, s, what.empty() ? holds() : what + " differs", tally);
+    note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
   }
 }
 
@@ -170,8 +172,8 @@ void check_equal_ends(CaseFacts& facts, LawTally& tally) {
   if (!player) return;
   const auto results = player->play();
   for (std::size_t s = 0; s < facts.steps(); ++s) {
-    const std::string what = difference(facts.result(s), results[s]);
-    note(facts, s, what.empty() ? holds() : what + " differs", tally);
+    const std::string differing = difference(facts.result(s), results[s]);
+    note(facts, s, differing.empty() ? holds() : differing + " differs", tally);
   }
 }
 
@@ -180,31 +182,31 @@ constexpr Law repetition_law_table[] = {
      "A step in two halves, the state carried (all coordinates rounded to a grid before, so that "
      "the middle is exact), has the pairs of the whole, each at its time; of first contacts the "
      "first time.",
-     "nothing", check_halves, dear},
+     "nothing", check_halves, one_case_in_16},
     {"Change_EqualEndsAreAPoint", "change",
      "A segment whose ends coincide gives the result of the point, to the last bit.", "nothing",
-     check_equal_ends, dear},
+     check_equal_ends, one_case_in_16},
     {"Change_RepeatedCall", "change",
      "The same step evaluated again, by this detector or another one, gives the same bytes.",
-     "nothing", check_repeated_call, dear},
+     "nothing", check_repeated_call, one_case_in_16},
     {"Change_EvaluateChangesNothing", "change",
      "Steps that are evaluated and not committed leave no trace in the results that follow.",
-     "nothing", check_evaluate_changes_nothing, dear},
+     "nothing", check_evaluate_changes_nothing, one_case_in_16},
     {"Change_ResetStartsAnew", "change",
      "After a reset the first step gives the same bytes as it did at first.", "nothing",
-     check_reset, dear},
+     check_reset, one_case_in_16},
     {"Change_RowStride", "change",
      "Positions that stand in wider rows give the same bytes as packed ones.", "nothing",
-     check_row_stride, dear},
+     check_row_stride, one_case_in_16},
     {"Change_ThreadsDoNotShow", "change",
      "A detector of three threads gives the same bytes as one of one thread, counts and state too.",
-     "nothing", check_threads, dear},
+     "nothing", check_threads, one_case_in_16},
     {"Change_RestoredStateGoesOn", "change",
      "A state that went through bytes into another detector of the mesh, made from other positions "
      "and in the middle of another step, gives the results and the states that would have come, "
      "and "
      "no evaluation outlives it.",
-     "nothing", check_restored_state, dear},
+     "nothing", check_restored_state, one_case_in_16},
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 using detector::MovingPoint;
 using detector::PairContact;
 
-// Bits, so that -0 differs from 0.
+// Compares bits, so that -0 differs from 0.
 bool same(const MovingPoint& a, const MovingPoint& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 bool same(const detector::ViewPrimitive& a, const detector::ViewPrimitive& b) {

@@ -1,5 +1,5 @@
-// Smaller meshes that stay closed where they are closed: see passes.h. All but the cuts are
-// identifications of vertices (merge_vertices), under which a cycle stays a cycle.
+// Smaller meshes that stay closed where they are closed; passes.h tells what each pass does. All
+// passes but the cuts identify vertices (merge_vertices), under which a cycle stays a cycle.
 #include <algorithm>
 
 #include "properties/reducer/case_edits.h"
@@ -13,8 +13,9 @@ bool offer_merge(ReductionSearch& search, const Numbers& targets) {
   return search.offer(merge_vertices(search.best(), targets));
 }
 
-// The vertices outside the focus in groups of those within `radius` edges of a centre, which comes
-// first; each vertex in one group, groups of one left out.
+// Groups the vertices outside the focus. A group holds a centre, which comes first, and vertices
+// within `radius` edges of it. Each vertex is in one group at most, and groups of a single vertex
+// are left out.
 std::vector<std::vector<std::int32_t>> balls(const Rings& rings, int radius) {
   std::vector<std::uint8_t> taken(rings.distance.size(), 0);
   std::vector<std::vector<std::int32_t>> all;
@@ -39,7 +40,7 @@ std::vector<std::vector<std::int32_t>> balls(const Rings& rings, int radius) {
   return all;
 }
 
-// Largest loop of which every corner is tried as the place of the fan.
+// In loops of up to this length every corner is tried as the place of the fan.
 constexpr std::size_t most_corners = 12;
 
 }  // namespace
@@ -51,7 +52,7 @@ void cone_outside(ReductionSearch& search) {
     for (const auto v : rings.far_first) {
       if (rings.distance[at(v)] > ring) outside.push_back(v);
     }
-    // The apex: the farthest, the nearest, and some between.
+    // Tried as apexes are the farthest vertex, the nearest, and some between.
     const std::size_t stride = std::max<std::size_t>(1, outside.size() / 6);
     for (std::size_t i = 0; i < outside.size(); i += stride) {
       Numbers targets = in_order(vertex_count(search.best()));
@@ -99,7 +100,8 @@ void collapse_to_parents(ReductionSearch& search) {
 }
 
 void collapse_edges(ReductionSearch& search) {
-  // Vertices that share no edge may be merged too; where there are few this is cheap to try.
+  // Vertices that share no edge may be merged too. If there are few vertices, this is cheap to
+  // try.
   constexpr std::size_t few = 16;
   for (std::size_t i = 0; i < vertex_count(search.best()) && !search.ended();) {
     const Rings rings = rings_of(search);
@@ -136,7 +138,7 @@ void merge_twice(ReductionSearch& search) {
 }
 
 void remove_and_close(ReductionSearch& search) {
-  // The star of a vertex, closed by a fan from any vertex of its rim.
+  // Removes the star of a vertex, and closes the hole by a fan from a vertex of its rim.
   for (std::size_t i = 0; i < vertex_count(search.best()) && !search.ended();) {
     const auto v = rings_of(search).far_first[i];
     const auto triangles = triangles_of(search.best());

@@ -1,9 +1,9 @@
-// Out of a local minimum: see passes.h.
+// The pass that leads out of a local minimum (passes.h).
 //
-// Walks at random among cases of any size that fail alike, and from each tries the cheapest steps
-// down; between, merges two vertices of the best case and changes some coordinates at the same
-// time, or puts a small sphere in its place. The random numbers come from the number of calls made
-// so far, so the same reduction walks the same way.
+// It walks at random among cases of any size that fail alike, and from each tries the cheapest
+// steps down. Between walks it merges two vertices of the best case and changes some coordinates
+// at the same time, or puts a small sphere in the place of the mesh. The random numbers depend on
+// the number of calls made so far, so the same reduction walks the same way.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ namespace {
 
 using corpus::Case;
 
-// Calls without success; fewer where each takes long.
+// After this many calls without success the pass ends. There are fewer calls if each takes long.
 std::uint64_t call_budget(const MeshSize& size) {
   constexpr std::uint64_t of_small = 6000, least = 500, small = 60;
   return std::max(least, of_small * small / std::max(small, size.triangles * size.steps));
@@ -34,7 +34,8 @@ class Escape {
   void run() {
     const std::uint64_t budget = call_budget(search_.size());
     const std::uint64_t end = search_.calls() + budget;
-    // Proposals that the cache answers cost no call; they end the walk too.
+    // Proposals that the cache answers cost no call. They are counted by `rounds`, so that they
+    // end the walk too.
     for (std::uint64_t rounds = 0; rounds < budget && search_.calls() < end; ++rounds) {
       if (search_.ended() || walk() || merge_and_change() || change_small_sphere()) return;
     }
@@ -43,7 +44,7 @@ class Escape {
  private:
   int index_below(std::size_t n) { return random_.below(static_cast<int>(n)); }
 
-  // A coordinate of the size of those that the case has.
+  // A coordinate about as large as those that the case has.
   double some_number() {
     const double most = std::max(2., std::min(9., std::round(largest_)));
     const double step = largest_ > 9 || largest_ < 2 ? largest_ / most : 1;
@@ -83,7 +84,8 @@ class Escape {
     }
   }
 
-  // A little up or down: where a failure needs just this motion, other places are out of reach.
+  // Changes a coordinate a little up or down. If a failure needs just this motion, larger changes
+  // would lose it.
   void nudge(double& x) {
     const double share = 1 << random_.below(5);
     const double most = std::max(1., std::round(largest_ / (4 * share)));
@@ -103,13 +105,13 @@ class Escape {
     for (auto& place : end) place[k] = value;
   }
 
-  // As it is, or seen from a place that suits the smaller mesh.
+  // Offers the case as it is, or seen from a place that suits the smaller mesh.
   bool offer_seen_anew(const Case& c) {
     if (c.triangles.rows() == 0) return false;
     return search_.offer(c) || search_.offer(seen_from_its_middle(c));
   }
 
-  // All cheap ways down from a case that fails alike.
+  // Tries all cheap ways down from a case that fails alike.
   bool descend(const Case& c) {
     const auto n = vertex_count(c);
     constexpr std::size_t few = 12;
@@ -140,7 +142,7 @@ class Escape {
     return false;
   }
 
-  // All spheres over all vertices but one.
+  // Tries all spheres over all vertices but one.
   bool spheres_without_one(const Case& c) {
     const auto n = static_cast<std::int32_t>(vertex_count(c));
     for (std::int32_t left_out = 0; n > 4 && left_out < n; ++left_out) {
@@ -186,7 +188,8 @@ class Escape {
     return false;
   }
 
-  // Fewer vertices than now, at random places: in reach where a small mesh fails often.
+  // Tries spheres of fewer vertices than now, at random places. This succeeds if a small mesh
+  // often fails.
   bool change_small_sphere() {
     const Case& best = search_.best();
     const int most = static_cast<int>(std::min<std::size_t>(vertex_count(best), 7)) - 1;
@@ -215,7 +218,7 @@ class Escape {
 }  // namespace
 
 void escape(ReductionSearch& search) {
-  // Nothing that is closed has fewer triangles than a tetrahedron; dropping faces was tried.
+  // No closed mesh has fewer triangles than a tetrahedron, and dropping faces was tried before.
   if (search.size().triangles <= 4 && search.size().steps == 1) return;
   Escape(search).run();
 }

@@ -1,4 +1,4 @@
-// Fewer triangles, whether or not the mesh stays closed: see passes.h.
+// Passes that drop triangles, whether or not the mesh stays closed (passes.h).
 #include <algorithm>
 
 #include "detector/mesh/topology.h"
@@ -11,7 +11,7 @@ namespace {
 
 using detector::make_topology;
 
-// Triangles, those farthest from the focus first.
+// The triangles, those farthest from the focus first.
 std::vector<std::int32_t> far_triangles_first(const ReductionSearch& search) {
   const Rings rings = rings_of(search);
   const auto triangles = triangles_of(search.best());

@@ -1,11 +1,11 @@
-// Vertices that rest: see passes.h.
+// Passes that let vertices rest (passes.h).
 #include "properties/reducer/passes/passes.h"
 #include "properties/reducer/rings.h"
 
 namespace assay::properties {
 namespace {
 
-// Those that move between any two frames, far ones first.
+// The vertices that move between any two frames, far ones first.
 std::vector<std::int32_t> moving_vertices(const ReductionSearch& search) {
   const auto& frames = search.best().frames;
   std::vector<std::int32_t> moving;
@@ -23,7 +23,7 @@ std::vector<std::int32_t> moving_vertices(const ReductionSearch& search) {
 
 void freeze_vertices(ReductionSearch& search) {
   const auto size = [&] { return moving_vertices(search).size(); };
-  // Throughout, at the place of one frame.
+  // Each vertex is tried at rest throughout, at its place in one frame.
   for (std::size_t f = 0; f < search.best().frames.size(); ++f) {
     if (size() == 0) return;
     try_halves(search, size, [&](std::size_t begin, std::size_t end) {
@@ -36,7 +36,7 @@ void freeze_vertices(ReductionSearch& search) {
       return search.offer(still);
     });
   }
-  // From one frame to the next, at either place.
+  // Then it is tried at rest from one frame to the next, at either place.
   for (std::size_t f = 0; search.best().frames.size() > 2 && f + 1 < search.best().frames.size();
        ++f) {
     for (const auto v : moving_vertices(search)) {

@@ -1,4 +1,4 @@
-// Simpler coordinates: see passes.h.
+// Passes that make coordinates simpler (passes.h).
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -38,12 +38,14 @@ void translate(ReductionSearch& search) {
 }
 
 void round_all(ReductionSearch& search) {
-  // All axes alike, then each by itself: a linear map keeps contacts, and signs seen from a point.
+  // All axes are scaled alike, then each by itself. A linear map keeps contacts, and signs that
+  // are seen from a point.
   for (int axis = -1; axis < 3; ++axis) {
     Case c = search.best();
     const double largest = largest_magnitude(c, axis);
     if (largest == 0) continue;
-    // Integers up to each of these; what is no smaller than now is not judged.
+    // Integers up to each of these limits are tried. A proposal that is no smaller than now is not
+    // judged.
     for (const double limit :
          {1.,    2.,    3.,     4.,  5.,  6.,     7.,     8.,     9.,     12.,    16.,
           20.,   24.,   32.,    48., 64., 99.,    128.,   256.,   512.,   999.,   2048.,
@@ -93,7 +95,7 @@ void simplify_together(ReductionSearch& search) {
       const auto& group =
           groups[static_cast<std::size_t>(random.below(static_cast<int>(groups.size())))];
       const auto values = simpler_values(*group.front());
-      // A small integer may be no simpler by itself: the sum decides.
+      // A small integer may be no simpler by itself, so the sum decides.
       const double value =
           values.empty() || random.below(3) == 0
               ? random.between(-9, 9)

@@ -1,4 +1,4 @@
-// Canonical numbering: see passes.h.
+// The pass that gives the mesh its canonical numbering (passes.h).
 #include <algorithm>
 
 #include "properties/reducer/case_edits.h"
@@ -9,7 +9,7 @@ namespace {
 
 using corpus::Case;
 
-// Vertices numbered in the order in which the triangles name them.
+// Numbers the vertices in the order in which the triangles name them.
 Case with_vertices_by_use(const Case& c) {
   std::vector<std::int32_t> number(static_cast<std::size_t>(c.frames.front().rows()), -1);
   std::int32_t used = 0;
@@ -51,7 +51,7 @@ void canonical_order(ReductionSearch& search) {
   const auto all = [](const Case& c) {
     return with_sorted_triangles(with_lowest_corners_first(with_vertices_by_use(c)));
   };
-  // Where the failure depends on the order, as much of it as it allows.
+  // If the failure depends on the order, as much of the canonical order is taken as it allows.
   if (search.replace(all(search.best()))) return;
   search.replace(with_vertices_by_use(search.best()));
   search.replace(with_lowest_corners_first(search.best()));

@@ -2,7 +2,7 @@
 
 namespace assay::properties {
 
-// Cheap large reductions come first.
+// Passes that reduce much at little cost come first.
 std::span<const Pass> shortening_passes() {
   static constexpr Pass passes[] = {
       {"drop later steps", drop_later_steps},

@@ -1,7 +1,8 @@
-// Triangulated spheres over a few of the case's own vertices: see passes.h.
+// Passes that try triangulated spheres over a few vertices of the case itself (passes.h).
 //
 // The four moving points of a contact, taken as a tetrahedron, have the same contact at the same
-// time: where the failure lies in how a contact is looked for, this is often the whole reduction.
+// time. So if the failure lies in how a contact is looked for, a tetrahedron is often the whole
+// reduction.
 #include <algorithm>
 
 #include "properties/reducer/case_edits.h"
@@ -19,8 +20,8 @@ Corners sorted(Corners corners) {
   return corners;
 }
 
-// Calls `take` with each subset of `count` of the first `pool` places, ascending; ends when it
-// returns true.
+// Calls `take` with each subset of `count` of the first `pool` places, in ascending order. Ends
+// when `take` returns true.
 template <class Take>
 bool any_subset(std::size_t pool, std::size_t count, Take take) {
   std::vector<std::size_t> chosen(count);
@@ -44,7 +45,8 @@ bool holds_all(const SphereMesh& mesh, const std::vector<Corners>& wanted) {
 
 void try_spheres(ReductionSearch& search, bool of_pair_only) {
   constexpr std::size_t largest_pool = 8;
-  // From here on there are too many, and only those that hold the reported triangles are tried.
+  // From this number of vertices on there are too many spheres, and only those that hold the
+  // reported triangles are tried.
   constexpr std::size_t many = 6;
   Rings rings = rings_of(search);
   const corpus::Case start = search.best();
@@ -82,7 +84,8 @@ void try_spheres(ReductionSearch& search, bool of_pair_only) {
           }
           const corpus::Case small = with_triangles(start, mesh);
           if (search.offer(small)) return true;
-          // The view of the large mesh need not suit the small one.
+          // The view of the large mesh need not suit the small one, so the small one is also tried
+          // with a view of its own.
           if (n < many && search.offer(seen_from_its_middle(small))) return true;
         }
       }

@@ -1,4 +1,4 @@
-// Fewer steps: see passes.h.
+// Passes that drop steps (passes.h).
 #include "properties/reducer/case_edits.h"
 #include "properties/reducer/passes/passes.h"
 #include "properties/reducer/rings.h"

@@ -1,4 +1,4 @@
-// A simpler view primitive: see passes.h.
+// Passes that make the view primitive simpler (passes.h).
 #include "properties/reducer/passes/passes.h"
 
 namespace assay::properties {
@@ -18,7 +18,7 @@ Places fixed(const Places& places, std::size_t frame) {
   return places.empty() ? places : Places(places.size(), places[frame]);
 }
 
-// Everything moved so that `origin` comes to (0,0,0).
+// Moves everything so that `origin` comes to (0,0,0).
 Case moved(const Case& c, const detector::Point& origin) {
   Case result = c;
   const auto move = [&](Places& places) {

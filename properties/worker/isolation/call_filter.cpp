@@ -15,11 +15,12 @@ class Filter {
  public:
   Filter() : context_(::seccomp_init(SCMP_ACT_ALLOW), ::seccomp_release) {
     ok_ = context_ != nullptr;
-    // The caller has set it; setting it here would hide a caller that has not.
+    // no_new_privs must have been set by the caller. Setting it here would hide that a caller
+    // forgot to.
     if (ok_) ::seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_NNP, 0);
   }
 
-  // A name that this machine's processor does not have is passed over.
+  // A call that the processor of this machine does not have is passed over.
   template <class... Condition>
   void refuse(const char* name, int error, Condition... condition) {
     const int call = ::seccomp_syscall_resolve_name(name);
@@ -35,7 +36,7 @@ class Filter {
 };
 
 constexpr const char* forbidden[] = {
-    // Other processes.
+    // Calls that reach other processes.
     "ptrace",
     "process_vm_readv",
     "process_vm_writev",
@@ -47,14 +48,14 @@ constexpr const char* forbidden[] = {
     "kcmp",
     "move_pages",
     "migrate_pages",
-    // Who it is.
+    // Calls that change who the process is.
     "setuid",
     "setreuid",
     "setresuid",
     "setuid32",
     "setreuid32",
     "setresuid32",
-    // The world around it.
+    // Calls that reach the world around the process.
     "socket",
     "connect",
     "bind",
@@ -114,7 +115,8 @@ bool filter_calls(bool alone) {
   for (const char* name : {"io_uring_setup", "io_uring_enter", "io_uring_register"}) {
     filter.refuse(name, ENOSYS);
   }
-  // New namespaces; clone3 hides its flags from a filter, and the C library then takes clone.
+  // Calls that make new namespaces. clone3 hides its flags from a filter, so it is refused as a
+  // whole; the C library then uses clone.
   filter.refuse("clone3", ENOSYS);
   for (const scmp_datum_t flag : {CLONE_NEWUSER, CLONE_NEWPID, CLONE_NEWNS, CLONE_NEWNET,
                                   CLONE_NEWIPC, CLONE_NEWUTS, CLONE_NEWCGROUP}) {
@@ -129,7 +131,8 @@ bool filter_calls(bool alone) {
       filter.refuse(name, EPERM, SCMP_A0(SCMP_CMP_NE, self));
     }
     filter.refuse("tkill", EPERM);
-    // 0 names the caller. Of threads it can only tell itself: pinning another one is refused too.
+    // 0 names the calling thread, which may do this to itself only. So pinning another thread is
+    // refused too.
     for (const char* name : {"prlimit64", "sched_setaffinity", "sched_setscheduler",
                              "sched_setparam", "sched_setattr"}) {
       filter.refuse(name, EPERM, SCMP_A0(SCMP_CMP_NE, 0));

@@ -13,9 +13,10 @@
 namespace assay::properties {
 namespace {
 
-// The headers of a system may be older than its kernel: what they do not name yet stands here.
-constexpr std::uint64_t truncate_right = 1ULL << 14;  // from version 3 on
-constexpr std::uint64_t ioctl_right = 1ULL << 15;     // from version 5 on
+// The headers of a system may be older than its kernel. So the rights that they may not name yet
+// stand here.
+constexpr std::uint64_t truncate_right = 1ULL << 14;  // from version 3 of Landlock on
+constexpr std::uint64_t ioctl_right = 1ULL << 15;     // from version 5 of Landlock on
 constexpr std::uint64_t read_rights =
     LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
 constexpr std::uint64_t write_rights =
@@ -45,7 +46,7 @@ class Descriptor {
   int number_;
 };
 
-// What is not there needs no rule.
+// A path that does not exist needs no rule.
 bool allow(int rules, const std::string& path, std::uint64_t rights) {
   const Descriptor place(::open(path.c_str(), O_PATH | O_CLOEXEC));
   if (place.number() < 0) return true;
@@ -56,7 +57,7 @@ bool allow(int rules, const std::string& path, std::uint64_t rights) {
   return ::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
 }
 
-// Landlock knows no exceptions from a rule, so each folder of / gets its own.
+// Landlock has no exceptions from a rule, so each folder of / gets a rule of its own.
 bool allow_reading_all_but_proc(int rules) {
   const std::unique_ptr<DIR, int (*)(DIR*)> root(::opendir("/"), ::closedir);
   if (!root) return false;

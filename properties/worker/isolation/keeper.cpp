@@ -24,10 +24,10 @@
 namespace assay::properties {
 namespace {
 
-// The plug-in's process may take so long to end by itself when the host is gone.
+// The process of the plug-in may take this long to end by itself when the host is gone.
 constexpr int last_words_ms = 100;
 
-// Sends all of it; false when the other end is gone.
+// Sends all of the bytes. Returns false if the other end is gone.
 bool pass_on(int socket, const char* bytes, std::size_t size) {
   while (size > 0) {
     const ssize_t sent = ::send(socket, bytes, size, MSG_NOSIGNAL);
@@ -41,7 +41,7 @@ bool pass_on(int socket, const char* bytes, std::size_t size) {
 
 enum class Passed { all, from_is_closed, to_is_closed };
 
-// What there is to read at once.
+// Passes on what can be read at once.
 Passed pass_on_all(int from, int to) {
   std::array<char, 1 << 16> bytes;
   for (;;) {
@@ -53,7 +53,7 @@ Passed pass_on_all(int from, int to) {
   }
 }
 
-// A report, with the process that sent it as this process sees it.
+// A report, together with the process that sent it, as this process sees it.
 struct Received {
   ChildReport report;
   pid_t sender = 0;
@@ -92,7 +92,8 @@ std::optional<Received> receive_report(int socket, int flags) {
 
 class Keeper {
  public:
-  // printed: what the plug-in prints is read there; -1: nowhere.
+  // `printed` is the descriptor from which the text that the plug-in prints is read, or -1 if it
+  // is not read.
   Keeper(Channel host, int plugin, int reports, int printed, pid_t child)
       : host_(std::move(host)),
         plugin_(plugin),
@@ -103,13 +104,14 @@ class Keeper {
   }
 
   [[noreturn]] void run() {
-    // Without a report the plug-in's process has ended already.
+    // If there is no report, the process of the plug-in has ended already.
     if (const auto ready = receive_report(reports_, 0)) {
       const KeeperHello hello = {wire_version(), ready->report.isolation, ready->sender};
       host_.send(encode(hello));
     }
     for (;;) {
-      // Where the system has no such descriptor for a process, it is looked at now and then.
+      // A system without descriptors of processes cannot report the end of one, so the process is
+      // looked at now and then.
       constexpr int now_and_then_ms = 20;
       std::array<pollfd, 4> watched = {{{host_.descriptor(), POLLIN, 0},
                                         {plugin_, POLLIN, 0},
@@ -141,8 +143,9 @@ class Keeper {
     printed_ = -1;
   }
 
-  // At once, for the host may end this process; of one that floods, only when it replies or ends.
-  // Nothing waits here: the host's pipe holds more than this.
+  // Tells the text at once, because the host may end this process. If the plug-in floods it, only
+  // what comes with a reply or at the end is told. The write does not wait, because the pipe of
+  // the host holds more than this.
   void tell_words(bool is_last) {
     hear();
     constexpr std::size_t most_at_once = 8 * longest_printed;
@@ -159,21 +162,21 @@ class Keeper {
     if (passed != Passed::from_is_closed) return;
     ::shutdown(host_.descriptor(), SHUT_WR);
     ::close(plugin_);
-    plugin_ = -1;  // poll passes over it
+    plugin_ = -1;  // poll ignores a negative descriptor
   }
 
-  // The host is gone.
+  // Called when the host is gone.
   void leave() {
     if (plugin_ >= 0) ::shutdown(plugin_, SHUT_WR);
     pollfd end = {ended_, POLLIN, 0};
     ::poll(&end, 1, last_words_ms);
-    if (!has_ended()) ::_exit(EXIT_SUCCESS);  // which ends the plug-in's processes too
+    if (!has_ended()) ::_exit(EXIT_SUCCESS);  // this ends the processes of the plug-in too
     this->end();
   }
 
   [[noreturn]] void end() {
     tell_words(true);
-    if (plugin_ >= 0) pass_on_all(plugin_, host_.descriptor());  // its last reply
+    if (plugin_ >= 0) pass_on_all(plugin_, host_.descriptor());  // the last reply of the plug-in
     int status = 0;
     while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
     }
@@ -184,7 +187,7 @@ class Keeper {
   Channel host_;
   int plugin_, reports_, printed_;
   LastWords words_;
-  std::size_t told_ = 0;  // bytes of them since the host's last message
+  std::size_t told_ = 0;  // bytes of the text that were told since the host's last message
   pid_t child_;
   int ended_;
 };
@@ -193,7 +196,7 @@ class Keeper {
 
 void keep(Channel host, const KeptPlugin& kept, const std::function<int(Channel)>& serve) {
   const pid_t parent = ::getppid();
-  // Before anything else may be opened under this number.
+  // This is asked before anything else may be opened under this number.
   const bool is_silent =
       kept.mode != IsolationMode::none && ::fcntl(printed_descriptor, F_GETFD) >= 0;
   std::array<int, 2> channel, reports;
@@ -208,7 +211,8 @@ void keep(Channel host, const KeptPlugin& kept, const std::function<int(Channel)
   ::setsockopt(reports[0], SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
   if (kept.mode != IsolationMode::none) become_limitable();
   const bool in_new_world = kept.mode != IsolationMode::none && begin_new_world();
-  // Another set of rights makes the system forget this; the host may have died by now.
+  // Entering a new world changes the rights of the process, and the system then forgets this
+  // setting. So it is made again; the host may have died by now.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(EXIT_SUCCESS);
   const ChildEnds ends = {channel[1], reports[1], printed[1]};

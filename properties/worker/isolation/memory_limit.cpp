@@ -18,7 +18,7 @@ bool limit_memory(std::uint64_t bytes) {
   return ::setrlimit(RLIMIT_AS, &limit) == 0;
 }
 
-// Where the system has no such file, or keeps it shut, it chooses by itself.
+// If the system has no such file, or keeps it closed, it chooses by itself which process to end.
 void end_first_without_memory() {
   constexpr std::string_view first_of_all = "1000";
   const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);

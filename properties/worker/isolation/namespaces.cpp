@@ -29,13 +29,13 @@ bool enter() {
   if (::unshare(CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWIPC | CLONE_NEWNET) != 0) {
     return false;
   }
-  // It stays the same user, for whom no other user is there.
+  // In the new namespace the process stays the same user, and there is no other user.
   return write_to("/proc/self/setgroups", "deny") &&
          write_to("/proc/self/uid_map", user + " " + user + " 1") &&
          write_to("/proc/self/gid_map", group + " " + group + " 1");
 }
 
-// Where an attempt fails half way there is no way back, so another process tries it first.
+// If an attempt fails half way there is no way back, so another process tries it first.
 bool is_allowed() {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(enter() ? 0 : 1);
@@ -45,14 +45,14 @@ bool is_allowed() {
   return child > 0 && status == 0;
 }
 
-// "nobody", by convention.
+// The user "nobody", by convention.
 constexpr uid_t not_root = 65534;
 
 }  // namespace
 
 void become_limitable() {
-  // Refused where that user is not known: in a world in which root is not the system's root either,
-  // and not exempt.
+  // The call is refused if that user is not known. That is so in a namespace in which root is not
+  // the root of the system either, and so is not exempt from limits.
   constexpr auto as_it_is = static_cast<uid_t>(-1);
   if (::getuid() == 0) (void)!::setresuid(not_root, as_it_is, as_it_is);
 }
@@ -60,10 +60,10 @@ void become_limitable() {
 bool begin_new_world() { return is_allowed() && enter(); }
 
 bool show_new_world() {
-  // What is mounted from now on does not show outside.
+  // From now on mounts are not visible outside.
   if (::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return false;
   constexpr unsigned long flags = MS_NOSUID | MS_NODEV | MS_NOEXEC;
-  // Shared memory of its own, for libraries that count their threads there.
+  // It gets shared memory of its own, because some libraries count their threads there.
   ::mount("shm", shared_memory, "tmpfs", flags, nullptr);
   return ::mount("proc", "/proc", "proc", flags, nullptr) == 0 ||
          ::mount("none", "/proc", "tmpfs", flags | MS_RDONLY, nullptr) == 0;
@@ -71,7 +71,7 @@ bool show_new_world() {
 
 bool drop_capabilities() {
   for (int right = 0; ::prctl(PR_CAPBSET_READ, right, 0, 0, 0) >= 0; ++right) {
-    ::prctl(PR_CAPBSET_DROP, right, 0, 0, 0);  // what may not be dropped is not there
+    ::prctl(PR_CAPBSET_DROP, right, 0, 0, 0);  // a right that may not be dropped is not there
   }
   ::prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
   __user_cap_header_struct header = {_LINUX_CAPABILITY_VERSION_3, 0};

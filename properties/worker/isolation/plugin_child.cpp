@@ -20,11 +20,11 @@
 namespace assay::properties {
 namespace {
 
-void report(int socket, const ChildReport& what) {
-  ::send(socket, &what, sizeof what, MSG_NOSIGNAL);
+void report(int socket, const ChildReport& child_report) {
+  ::send(socket, &child_report, sizeof child_report, MSG_NOSIGNAL);
 }
 
-// Closes every descriptor but the standard ones and the two of `ends`.
+// Closes every descriptor except the standard ones and the two of `ends`.
 void close_all_but(const ChildEnds& ends) {
   const auto low = static_cast<unsigned>(std::min(ends.channel, ends.reports));
   const auto high = static_cast<unsigned>(std::max(ends.channel, ends.reports));
@@ -34,7 +34,8 @@ void close_all_but(const ChildEnds& ends) {
   ::close_range(high + 1, last, 0);
 }
 
-// What it prints goes to the keeper: a line on the user's terminal could be taken for the host's.
+// Lets the plug-in print into a pipe to the keeper, because a line on the terminal of the user
+// could be taken for one of the host.
 void print_into(int pipe) {
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   ::dup2(nowhere, STDIN_FILENO);
@@ -43,7 +44,8 @@ void print_into(int pipe) {
   ::close(nowhere);
 }
 
-// So many processes and threads at most, so that it leaves the machine some.
+// The plug-in may have at most this many processes and threads, so that it leaves some to the
+// machine.
 constexpr rlim_t most_processes = 512;
 
 void limit(const KeptPlugin& kept) {
@@ -63,7 +65,8 @@ Isolation shut_in(const KeptPlugin& kept, bool in_new_world) {
   isolation.files = fence_files(folders, !in_new_world);
   const bool has_dropped = drop_capabilities();
   isolation.calls = filter_calls(!in_new_world) && has_dropped;
-  // In a world that it shares, /proc is behind the fence and the filter stops the rest.
+  // If the plug-in has no world of its own, /proc is behind the fence and the filter stops every
+  // other way to other processes.
   isolation.processes = in_new_world || (isolation.files && isolation.calls);
   return isolation;
 }
@@ -74,7 +77,7 @@ void become_plugin(const KeptPlugin& kept, const ChildEnds& ends, bool in_new_wo
                    const std::function<int(Channel)>& serve) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (kept.mode != IsolationMode::none) {
-    ::setsid();  // it has no terminal
+    ::setsid();  // it gets no terminal
     print_into(ends.printed);
     ::setenv("TMPDIR", kept.scratch.c_str(), 1);
   }
@@ -89,7 +92,7 @@ void become_plugin(const KeptPlugin& kept, const ChildEnds& ends, bool in_new_wo
   try {
     code = serve(Channel(ends.channel));
   } catch (const std::exception&) {
-    ::abort();  // as one that nobody catches
+    ::abort();  // ends as an exception that nobody catches does
   }
   ::exit(code);
 }
@@ -100,7 +103,7 @@ void begin_with_plugin(const KeptPlugin& kept, const ChildEnds& ends,
   const bool is_alone = show_new_world();
   const pid_t plugin = ::fork();
   if (plugin == 0) become_plugin(kept, ends, is_alone, serve);
-  // The plug-in is the same user in the same world, and is to find nothing here.
+  // The plug-in is the same user in the same world, and must not be able to read this process.
   ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
   ::close(ends.channel);
   if (ends.printed >= 0) ::close(ends.printed);

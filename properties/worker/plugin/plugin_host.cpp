@@ -20,7 +20,7 @@ using detector::StepResult;
 
 namespace {
 
-// The steps of one case through one handle.
+// Runs the steps of one case through one handle.
 class PluginRun {
  public:
   PluginRun(const assay_detector_api& api, assay_handle* handle, std::int32_t triangle_count,
@@ -30,7 +30,8 @@ class PluginRun {
         triangle_count_(triangle_count),
         reports_pairs_(reports_pairs) {}
 
-  // The candidate pairs of a step, or why there are none, as below.
+  // The candidate pairs of a step, or why there are none: out_of_memory, step_failed or
+  // broken_result.
   Expected<std::vector<detector::TrianglePair>> candidates(const detector::Positions& x_t0,
                                                            const detector::Positions& x_t1) {
     assay_candidates raw = {};
@@ -40,7 +41,7 @@ class PluginRun {
     return candidate_pairs(raw, triangle_count_);
   }
 
-  // The result of a step, or why it has none: out_of_memory, step_failed, broken_result.
+  // The result of a step, or why it has none: the same reasons.
   Expected<StepResult> step(const detector::Positions& x_t0, const detector::Positions& x_t1,
                             bool commit) {
     const auto evaluated =
@@ -64,7 +65,7 @@ class PluginRun {
   }
 
  private:
-  // Whether the call did its work.
+  // Says why the call did not do its work, if it did not.
   Expected<void> called(const char* function, std::int32_t code) const {
     if (code == ASSAY_OK) return boost::outcome_v2::success();
     if (code == ASSAY_OUT_OF_MEMORY) return Problem{ProblemKind::out_of_memory, "out of memory"};
@@ -81,17 +82,17 @@ class PluginRun {
 
 Expected<PluginHost> PluginHost::open(const std::filesystem::path& library, std::uint32_t threads,
                                       const std::string& called) {
-  const auto problem = [&](ProblemKind kind, const std::string& what) {
+  const auto problem = [&](ProblemKind kind, const std::string& explanation) {
     return Problem{kind, line_of(called.empty() ? library.c_str() : called.c_str()) + ": " +
-                             line_of(what.c_str())};
+                             line_of(explanation.c_str())};
   };
   std::error_code ignored;
   if (!std::filesystem::exists(library, ignored))
     return problem(ProblemKind::not_found, "no such file");
-  // A pipe would be waited for.
+  // Only a regular file is opened, because opening a pipe would wait.
   if (!std::filesystem::is_regular_file(library, ignored))
     return problem(ProblemKind::not_a_plugin, "not a detector plug-in: not a file");
-  // With a slash in it, so that no search path is asked.
+  // An absolute path has a slash in it, so that no search path is asked.
   const auto path = std::filesystem::absolute(library, ignored);
   void* loaded = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!loaded) {
@@ -128,10 +129,11 @@ std::vector<QueryAnswer> PluginHost::ask(std::span<const detector::FourPoints> q
         table_.query(query.first_group == 1 ? ASSAY_QUERY_VERTEX_FACE : ASSAY_QUERY_EDGE_EDGE,
                      x_t0.data(), x_t1.data(), &raw);
     answers.push_back(query_answer(code, raw));
-    auto& what = answers.back().what;
-    if (code != ASSAY_OK && code != ASSAY_OUT_OF_MEMORY) what = text_of_code(table_, "query", code);
+    auto& explanation = answers.back().explanation;
+    if (code != ASSAY_OK && code != ASSAY_OUT_OF_MEMORY)
+      explanation = text_of_code(table_, "query", code);
     if (code == ASSAY_OK && raw.answer == ASSAY_ERROR) {
-      if (auto text = text_of_error(table_); !text.empty()) what = std::move(text);
+      if (auto text = text_of_error(table_); !text.empty()) explanation = std::move(text);
     }
   }
   return answers;
@@ -157,9 +159,9 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
   clock.created();
   if (code == ASSAY_OUT_OF_MEMORY) return out_of_memory();
   if (code != ASSAY_OK || !handle) {
-    std::string what = line_of(message);
-    if (what.empty()) what = text_of_code(table_, "create", code);
-    return {RunEnd::refused, std::move(what), {}};
+    std::string explanation = line_of(message);
+    if (explanation.empty()) explanation = text_of_code(table_, "create", code);
+    return {RunEnd::refused, std::move(explanation), {}};
   }
   PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
                    description_.contract.reports_pairs);
@@ -176,7 +178,8 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
           problem.kind == ProblemKind::out_of_memory ? Answer::undecided : Answer::error;
       note_error(run, run.steps.size() - 1, line_of(problem.message.c_str()));
     };
-    // Before the step is evaluated: nothing may stand between that and its commit.
+    // The candidates are asked for before the step is evaluated, because nothing may stand between
+    // that and its commit.
     std::optional<Problem> without_candidates;
     if (parts.candidates) {
       auto pairs = plugin.candidates(x_t0, x_t1);

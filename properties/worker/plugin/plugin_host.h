@@ -26,8 +26,8 @@ class PluginHost {
   const PluginDescription& description() const { return description_; }
 
   // Runs a case as run_case does. If a result breaks the header's rules (an index out of range, an
-  // invalid interval), its step is an error; `what` tells errors. Coordinates are rounded as the
-  // contract says. The caller has to leave out the steps that the contract leaves out.
+  // invalid interval), its step is an error; `explanation` tells errors. Coordinates are rounded
+  // as the contract says. The caller has to leave out the steps that the contract leaves out.
   CaseRun run(const corpus::Case& c, bool is_timed = false) const;
 
   // Answers each query, by the same rules. REQUIRES that the plug-in has this part, and queries as

@@ -14,16 +14,16 @@ using detector::TimeEnclosure;
 namespace {
 
 bool is_interval(const TimeEnclosure& time) {
-  return 0 <= time.lo && time.lo <= time.hi && time.hi <= 1;  // no NaN passes
+  return 0 <= time.lo && time.lo <= time.hi && time.hi <= 1;  // false for a NaN
 }
 
-// Nothing when the pair is none of this mesh.
+// Returns false if the numbers are no pair of triangles of this mesh.
 bool read_pair(const std::int32_t* raw, std::int32_t triangle_count, detector::TrianglePair& pair) {
   pair = {std::min(raw[0], raw[1]), std::max(raw[0], raw[1])};
   return 0 <= pair.a && pair.a < pair.b && pair.b < triangle_count;
 }
 
-// Which rule is broken; empty: none.
+// Says which rule is broken; empty if none is.
 std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
                        std::vector<PairContact>& pairs) {
   if (raw.pair_count > 0 && !raw.pairs) return "pairs are counted but not given";
@@ -49,7 +49,8 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
   return "";
 }
 
-// REQUIRES that the plug-in does not call it an error. Which rule is broken; empty: none.
+// REQUIRES that the plug-in does not call it an error. Says which rule is broken; empty if none
+// is.
 std::string read_result(const assay_result& raw, std::int32_t triangle_count,
                         detector::StepResult& result) {
   switch (raw.answer) {
@@ -100,8 +101,8 @@ QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw) {
 
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
                                                               std::int32_t triangle_count) {
-  const auto broken = [](std::string what) {
-    return Problem{ProblemKind::broken_result, std::move(what)};
+  const auto broken = [](std::string explanation) {
+    return Problem{ProblemKind::broken_result, std::move(explanation)};
   };
   if (raw.pair_count > 0 && !raw.pairs) return broken("candidates are counted but not given");
   std::vector<detector::TrianglePair> pairs;

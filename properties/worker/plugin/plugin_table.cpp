@@ -12,11 +12,13 @@ namespace {
 
 constexpr std::uint32_t first_version = 1;
 
-// What every version has: up to destroy, and up to margin.
+// The members that every version has: the table up to destroy, the description up to margin.
 constexpr std::size_t first_table_bytes = offsetof(assay_detector_api, use_threads);
 constexpr std::size_t first_description_bytes = offsetof(assay_description, start);
 
-Problem broken(std::string what) { return {ProblemKind::broken_plugin, std::move(what)}; }
+Problem broken(std::string explanation) {
+  return {ProblemKind::broken_plugin, std::move(explanation)};
+}
 
 std::string gap_in(const assay_detector_api& table) {
   if (!table.describe) return "a function is missing in its table: describe";
@@ -42,10 +44,10 @@ bool read_word(std::int32_t raw, Enum last, Enum& value) {
   return true;
 }
 
-// What the description does not say sensibly; empty: nothing.
+// Says what in the description makes no sense; empty if all of it does.
 std::string read_contract(const assay_description& raw, Contract& contract) {
-  const auto unknown = [](const char* what, std::int32_t value) {
-    return std::string("unknown ") + what + " " + std::to_string(value);
+  const auto unknown = [](const char* field, std::int32_t value) {
+    return std::string("unknown ") + field + " " + std::to_string(value);
   };
   if (!read_word(raw.adjacency, Adjacency::no_shared_vertex, contract.adjacency))
     return unknown("adjacency", raw.adjacency);

@@ -26,7 +26,8 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
   return parts;
 }
 
-// Where the package may be: built; around the programs, as pip has it; installed by CMake.
+// The places where the package may be: in the build folder, around the programs (as pip puts it),
+// or where CMake installs it.
 std::vector<std::filesystem::path> places_beside(const std::filesystem::path& programs) {
   std::vector<std::filesystem::path> places = {programs / "python" / "assay", programs / ".."};
   std::error_code none;
@@ -37,8 +38,8 @@ std::vector<std::filesystem::path> places_beside(const std::filesystem::path& pr
   return places;
 }
 
-Problem not_here(std::string_view word, const std::string& what) {
-  return {ProblemKind::not_found, std::string(word) + ": " + what};
+Problem not_here(std::string_view word, const std::string& reason) {
+  return {ProblemKind::not_found, std::string(word) + ": " + reason};
 }
 
 constexpr const char* no_word = "not a detector in Python: python:MODULE:CLASS is wanted";

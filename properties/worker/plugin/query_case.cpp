@@ -58,7 +58,7 @@ std::optional<detector::FourPoints> query_of(const corpus::Case& c) {
 
 CaseRun run_of(QueryAnswer answer) {
   CaseRun run;
-  run.what = std::move(answer.what);
+  run.explanation = std::move(answer.explanation);
   auto& step = run.steps.emplace_back();
   step.answer = answer.answer;
   step.first = answer.first;

@@ -22,7 +22,7 @@ namespace assay::properties {
 struct QueryAnswer {
   detector::Answer answer = detector::Answer::error;
   detector::TimeEnclosure first;  // only with a collision
-  std::string what;               // only with an error: one line
+  std::string explanation;        // only with an error: one line
 };
 
 corpus::Case case_of_query(const detector::FourPoints& query, std::string id);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace detector;
 
-// As the detector sorts triangles before its search.
+// Sorts triangles into types as the detector does before its search.
 std::vector<TriangleType> types_of(const StepResult& result, std::size_t triangles) {
   std::vector<TriangleType> types;
   for (std::size_t t = 0; t < triangles; ++t) {
@@ -45,7 +45,7 @@ void measure_marking(const BenchSettings& settings, BenchReport& report) {
       StepResult result;
       const double step_ns =
           ns_of([&] { result = detector.step(scene.frames[at], scene.frames[at + 1]); });
-      if (result.counts.search.box_tests == 0) continue;  // free: nothing is marked
+      if (result.counts.search.box_tests == 0) continue;  // the step is free, so nothing is marked
       const auto types = types_of(result, detector.topology().triangles.size());
       MarkingCounts counts;
       const double ns = ns_of([&] { Marking().bring_to(types, tree, marks, counts); });

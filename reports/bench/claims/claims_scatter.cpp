@@ -18,13 +18,13 @@ namespace {
 
 using namespace detector;
 
-// The first two are what the others are compared with.
+// The first two are those with which the others are compared.
 constexpr Culling cullings[] = {Culling::bvh, Culling::normal_cone, Culling::view_point,
                                 Culling::view_line, Culling::view_auto};
 constexpr std::size_t yardsticks = 2;
 
-// Steps as a user makes them, state carried from one to the next, each evaluated `rounds` times by
-// every culling in turn before it is committed.
+// Makes steps as a user does, carrying the state from one to the next. Each step is evaluated
+// `rounds` times by every culling in turn before it is committed.
 void add_points(const std::string& name, const corpus::Sequence& scene, Start start, int rounds,
                 BenchReport& report) {
   std::vector<Detector> detectors;
@@ -76,7 +76,7 @@ std::vector<ScatterPoint> points_of(const BenchReport& report, const std::string
   return points;
 }
 
-// Only view-auto promises never to be slower than bvh: it falls back to it.
+// Only view-auto promises never to be slower than bvh, because it falls back to bvh.
 void add_worst(const std::string& culling, const std::string& over,
                const std::vector<ScatterPoint>& points, BenchReport& report) {
   const auto worst = std::max_element(
@@ -91,8 +91,8 @@ void add_worst(const std::string& culling, const std::string& over,
                          points.size(), slow, worst->scene, 100 * worst->share));
 }
 
-// Over the steps of each scene: how a user's whole sequence fares. Of a single step over its
-// rounds.
+// Adds the median over the steps of each scene, which shows how the whole sequence of a user
+// fares. If a scene has a single step, the median is over its rounds.
 void add_medians(const std::string& culling, const std::string& over,
                  const std::vector<ScatterPoint>& points, BenchReport& report) {
   for (auto p = points.begin(); p != points.end();) {
@@ -131,7 +131,8 @@ void measure_break_even(const BenchSettings& settings, Progress& progress, Bench
     const std::string name(info.name);
     progress.phase("break-even, " + name);
     constexpr int frames = 21;
-    // Where holes are, whether a start is clean depends on where the apexes are put.
+    // If a mesh has holes, it depends on the places of the apexes whether a start is clean. So it
+    // is verified.
     const Start start = info.closed ? Start::clean : Start::verified;
     add_points(name, bench_scene(name, settings.triangles(5'120), frames), start,
                settings.rounds(5), report);
@@ -147,7 +148,7 @@ void measure_break_even(const BenchSettings& settings, Progress& progress, Bench
     for (const std::string culling : {"view-point", "view-line", "view-auto"}) {
       const auto points = points_of(report, culling, over);
       add_worst(culling, over, points, report);
-      // A step that fell back has no share.
+      // A step of view-auto that fell back to bvh has no share.
       if (culling != "view-auto") {
         add_break_even(culling, over, points, report);
       } else {

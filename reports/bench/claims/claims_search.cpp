@@ -48,7 +48,7 @@ struct NodePair {
   std::int32_t a, b;
 };
 
-// Node pairs that a descent tests, in its order; at most `most`.
+// The node pairs that a descent tests, in its order, but at most `most`.
 std::vector<NodePair> tested_pairs(const BoundingVolumeTree& tree, std::size_t most) {
   std::vector<NodePair> tested, stack = {{BoundingVolumeTree::root, BoundingVolumeTree::root}};
   while (!stack.empty() && tested.size() < most) {
@@ -75,7 +75,7 @@ TriangleType type_of(ViewSign sign) {
                                       : TriangleType::zero;
 }
 
-// The same node pairs, each once by its boxes and once by the flags below it.
+// Compares two ways to look at the same node pairs: by their boxes, and by the flags below them.
 void compare_a_look(const NamedStep& named, int rounds, BenchReport& report) {
   const auto& [name, step] = named;
   TimedStep views(name, step.triangles, step.frames, bench_options(Culling::view_point), report);

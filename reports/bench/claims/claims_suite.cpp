@@ -1,4 +1,4 @@
-// Suite `claims`: what the thesis says of costs, and what whole steps take.
+// Suite `claims` checks what the thesis says of costs, and measures what whole steps take.
 #include "reports/bench/claims/claims_parts.h"
 #include "reports/bench/contact_step.h"
 #include "reports/bench/real_sequences.h"

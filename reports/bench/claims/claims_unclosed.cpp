@@ -1,4 +1,5 @@
-// Public sequences of unclosed meshes: what view-auto tests, and how long it takes, beside bvh.
+// On public sequences of unclosed meshes: what view-auto tests and how long it takes, compared
+// with bvh.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,16 +16,16 @@ namespace {
 
 using namespace detector;
 
-// What a sequence comes to.
+// What was counted and measured over a sequence.
 struct Played {
   std::vector<StepResult> steps;
-  double ns = 0;  // of all steps, without what preprocessing takes
+  double ns = 0;  // of all steps, without preprocessing
   std::uint64_t candidates = 0;
   std::size_t steps_with_views = 0, most_against_all = 0;
 };
 
-// From a new detector of default options, as `assay check` plays it: start verified, all pairs,
-// exact. Each step committed.
+// Plays the sequence through a new detector with default options, as `assay check` does: the start
+// is verified, all pairs are asked for, and arithmetic is exact. Each step is committed.
 Played play(const corpus::Sequence& sequence, Culling culling) {
   Options options;
   options.culling = culling;
@@ -67,7 +68,7 @@ void compare(const std::string& name, const corpus::Sequence& sequence, int roun
       fmt::format("unclosed, {}: candidates over bvh's, view-auto", name), "times",
       exactly(static_cast<double>(of_auto.candidates) / static_cast<double>(of_bvh.candidates)), {},
       fmt::format("{} over {}", of_auto.candidates, of_bvh.candidates));
-  // Where views do not pay, looking is all that they may cost.
+  // If views do not pay, they may cost no more than a look at whether they do.
   report.add(fmt::format("unclosed, {}: time over bvh's, view-auto", name), "times",
              ratio_of(samples[0], samples[1]), wanted::view_auto_over_bvh);
 }

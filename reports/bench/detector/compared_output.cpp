@@ -23,7 +23,7 @@ std::string ms_text(const std::optional<ComparedTime>& time, Estimate ComparedTi
   return time ? fmt::format("{:.3g}", ((*time).*whose).value) : "-";
 }
 
-// "2: 0.01": steps, and by how much at worst.
+// Gives "2: 0.01", for example: the number of steps that are off, and by how much at worst.
 std::string off_text(const FirstTimesOff& off) {
   return off.steps == 0 ? "0" : fmt::format("{}: {:.1g}", off.steps, off.worst);
 }

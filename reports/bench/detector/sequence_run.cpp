@@ -77,8 +77,8 @@ ComparedSequence ComparedWorkers::compare(const SequenceToCompare& sequence,
     out.ended = "beyond the contract";
     return out;
   }
-  // A plug-in that takes any start has to look at it: so does the built-in detector then. A gap in
-  // the sequence is a new start, of which nobody says that it is clean.
+  // A plug-in that takes any start has to look at it, and then so does the built-in detector. A
+  // gap in the sequence makes a new start, and nobody says that it is clean.
   const bool vouches = contract.start != properties::StartRule::any;
   const auto start = vouches && sequence.starts_clean && out.left_out == 0
                          ? detector::Start::clean

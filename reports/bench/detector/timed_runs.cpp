@@ -18,7 +18,7 @@ double TimedRuns::run_once(properties::WorkerProcess& worker, const corpus::Case
   }
   auto run = std::move(worker.run(c, {&configuration, 1}).front());
   if (run.end != properties::RunEnd::completed || !run.times) {
-    ended = fmt::format("{}: {}", name_of(run.end), run.what);
+    ended = fmt::format("{}: {}", name_of(run.end), run.explanation);
     if (!first) first = std::move(run);
     return 0;
   }

@@ -1,4 +1,5 @@
-// Suite `elementary`: the elementary test, its answers against labels and its times.
+// Suite `elementary` compares the answers of the elementary test with labels, and measures its
+// times.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,8 +26,9 @@ std::string rungs_of(const std::vector<FourPoints>& queries) {
                      rungs.filter, rungs.fixed, rungs.unbounded);
 }
 
-// Mean us a query of each arithmetic, in turn. Bounds are asked of exact.
-void time_means(const std::string& what, const std::vector<FourPoints>& queries, Want want,
+// The mean time of a query in each arithmetic, in microseconds, measured in turn. Only exact
+// arithmetic is held against the bound.
+void time_means(const std::string& label, const std::vector<FourPoints>& queries, Want want,
                 Wanted bound, int rounds, const std::string& note, BenchReport& report) {
   std::vector<Measurement> measurements;
   for (const auto arithmetic : every_arithmetic) {
@@ -39,14 +41,15 @@ void time_means(const std::string& what, const std::vector<FourPoints>& queries,
   const auto samples = interleave(rounds, measurements);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const bool exact = every_arithmetic[i] == Arithmetic::exact;
-    report.add(fmt::format("{}, {}", what, name_of(every_arithmetic[i])), "us",
+    report.add(fmt::format("{}, {}", label, name_of(every_arithmetic[i])), "us",
                scaled(median_of(samples[i]), 1e-3 / static_cast<double>(queries.size())),
                wanted_if(exact, bound), exact ? note + "; " + rungs_of(queries) : "");
   }
 }
 
-// Answers against labels. Exact arithmetic claims no wrong answer, bounded no miss.
-void score(const std::string& what, const LabelledSet& set, BenchReport& report) {
+// Compares answers with labels. Exact arithmetic claims that no answer is wrong, bounded
+// arithmetic that it misses nothing.
+void score(const std::string& label, const LabelledSet& set, BenchReport& report) {
   for (const auto arithmetic : every_arithmetic) {
     std::size_t alarms = 0, misses = 0;
     for (std::size_t i = 0; i < set.queries.size(); ++i) {
@@ -55,14 +58,14 @@ void score(const std::string& what, const LabelledSet& set, BenchReport& report)
       misses += !contact && set.truths[i];
     }
     const bool exact = arithmetic == Arithmetic::exact, bounded = arithmetic == Arithmetic::bounded;
-    report.add(fmt::format("wrong answers, {}, {}", what, name_of(arithmetic)), "",
+    report.add(fmt::format("wrong answers, {}, {}", label, name_of(arithmetic)), "",
                exactly(static_cast<double>(alarms + misses)), wanted_if(exact, at_most(0)),
                fmt::format("{} false alarms, {} misses of {} queries", alarms, misses,
                            set.queries.size()));
     if ((exact && alarms > 0) || ((exact || bounded) && misses > 0)) {
       report.wrong_answers.push_back(
           fmt::format("{} against the labels of {}: {} false alarms, {} misses",
-                      name_of(arithmetic), what, alarms, misses));
+                      name_of(arithmetic), label, alarms, misses));
     }
   }
 }
@@ -75,7 +78,7 @@ std::vector<FourPoints> hits_of(const std::vector<FourPoints>& queries) {
   return hits;
 }
 
-void time_hits(const std::string& what, const std::vector<FourPoints>& queries, int rounds,
+void time_hits(const std::string& label, const std::vector<FourPoints>& queries, int rounds,
                BenchReport& report) {
   const auto hits = hits_of(queries);
   if (hits.empty()) return;
@@ -86,17 +89,18 @@ void time_hits(const std::string& what, const std::vector<FourPoints>& queries, 
   }
   if (wide > 0) {
     report.wrong_answers.push_back(
-        fmt::format("{}: {} times are wider than adjacent doubles", what, wide));
+        fmt::format("{}: {} times are wider than adjacent doubles", label, wide));
   }
-  time_means("a hit with its time, " + what, hits, Want::first_time, wanted::hit_with_its_time_us,
+  time_means("a hit with its time, " + label, hits, Want::first_time, wanted::hit_with_its_time_us,
              rounds, fmt::format("{} hits", hits.size()), report);
 }
 
-// ms of one query: the least of three times where it is short. In processor time, whose clock takes
-// 0.2 us to read: of use from some microseconds on.
+// The milliseconds that one query takes. If it is short, it is measured three times and the least
+// counts. This is processor time, whose clock takes 0.2 us to read, so it is of use from some
+// microseconds on.
 double ms_of_one(const FourPoints& query, Arithmetic arithmetic) {
   constexpr int repetitions = 3;
-  constexpr double long_enough_ns = 1e6;  // what takes longer is measured well enough by one run
+  constexpr double long_enough_ns = 1e6;  // a longer query is measured well enough by one run
   double least = 1e300;
   for (int i = 0; i < repetitions && (i == 0 || least < long_enough_ns); ++i) {
     const double begin = processor_ns();
@@ -106,7 +110,7 @@ double ms_of_one(const FourPoints& query, Arithmetic arithmetic) {
   return 1e-6 * least;
 }
 
-void time_tails(const std::string& what, const std::vector<FourPoints>& queries, Wanted bound,
+void time_tails(const std::string& label, const std::vector<FourPoints>& queries, Wanted bound,
                 BenchReport& report) {
   for (const auto arithmetic : every_arithmetic) {
     std::vector<double> ms;
@@ -117,7 +121,7 @@ void time_tails(const std::string& what, const std::vector<FourPoints>& queries,
     }
     const bool exact = arithmetic == Arithmetic::exact;
     report.add(
-        fmt::format("p99.9 of one query, {}, {}", what, name_of(arithmetic)), "ms",
+        fmt::format("p99.9 of one query, {}, {}", label, name_of(arithmetic)), "ms",
         exactly(quantile(ms, 0.999)), wanted_if(exact, bound),
         fmt::format("p99 {:.3g}, max {:.3g}, mean {:.3g} of {} queries{}", quantile(ms, 0.99),
                     quantile(ms, 1), sum / static_cast<double>(ms.size()), ms.size(),
@@ -125,27 +129,27 @@ void time_tails(const std::string& what, const std::vector<FourPoints>& queries,
   }
 }
 
-void labelled(const std::string& what, const std::optional<LabelledSet>& set, Wanted bound,
+void labelled(const std::string& label, const std::optional<LabelledSet>& set, Wanted bound,
               int rounds, const std::string& path, BenchReport& report) {
   if (!set) {
-    report.add_no_data(what, path);
+    report.add_no_data(label, path);
     return;
   }
-  score(what, *set, report);
+  score(label, *set, report);
   std::size_t hits = 0;
   for (const bool truth : set->truths) hits += truth;
-  time_means("yes/no, " + what, set->queries, Want::yes_no, bound, rounds,
+  time_means("yes/no, " + label, set->queries, Want::yes_no, bound, rounds,
              fmt::format("{} queries, {} hits", set->queries.size(), hits), report);
-  time_hits(what, set->queries, rounds, report);
+  time_hits(label, set->queries, rounds, report);
 }
 
 void rod_twist_candidates(const BenchSettings& settings, int rounds, BenchReport& report) {
-  const std::string what = "candidates of rod-twist";
+  const std::string label = "candidates of rod-twist";
   const std::string folder = settings.file("scalable-ccd/rod-twist/frames/");
   const std::vector<std::filesystem::path> files = {folder + "3036.ply", folder + "3037.ply"};
   std::error_code ignored;
   if (!std::filesystem::exists(files[0], ignored) || !std::filesystem::exists(files[1], ignored)) {
-    report.add_no_data("yes/no, " + what, folder);
+    report.add_no_data("yes/no, " + label, folder);
     return;
   }
   const auto step = corpus::read_sequence(files);
@@ -153,12 +157,12 @@ void rod_twist_candidates(const BenchSettings& settings, int rounds, BenchReport
   constexpr double most = 100'000;
   const auto candidates =
       mesh_candidates(step.value(), static_cast<std::size_t>(most * settings.scale));
-  time_means("yes/no, " + what, candidates.queries, Want::yes_no, wanted::yes_no_of_a_candidate_us,
+  time_means("yes/no, " + label, candidates.queries, Want::yes_no, wanted::yes_no_of_a_candidate_us,
              rounds,
              fmt::format("{} of {} feature pairs whose moving boxes meet",
                          candidates.queries.size(), candidates.all),
              report);
-  time_hits(what, candidates.queries, rounds, report);
+  time_hits(label, candidates.queries, rounds, report);
 }
 
 }  // namespace
@@ -175,10 +179,10 @@ BenchReport elementary_suite(const BenchSettings& settings, Progress& progress) 
   labelled("hand-made queries", hand_made_queries(settings), wanted::yes_no_of_a_hand_made_query_us,
            rounds, settings.file("sample-queries"), report);
   progress.phase("random exponents");
-  const auto some = static_cast<std::size_t>(20'000 * settings.scale);
-  time_tails("exponents within 2^+-100", random_exponents(some, -100, 100),
+  const auto query_count = static_cast<std::size_t>(20'000 * settings.scale);
+  time_tails("exponents within 2^+-100", random_exponents(query_count, -100, 100),
              wanted::slow_query_of_usual_numbers_ms, report);
-  time_tails("exponents over all doubles", random_exponents(some, -1074, 1022),
+  time_tails("exponents over all doubles", random_exponents(query_count, -1074, 1022),
              wanted::slow_query_of_any_numbers_ms, report);
   progress.phase("slowest queries");
   time_slow_queries(settings, report);

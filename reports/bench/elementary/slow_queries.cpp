@@ -15,8 +15,8 @@ namespace {
 constexpr std::uint64_t seed = 1;
 constexpr double queries_of_a_kind = 250'000;
 
-// `time` takes the index of a query, answers it and says how many ns that took. Slow ones are
-// measured three times, and the least counts.
+// `time` takes the index of a query, answers the query and says how many ns that took. Slow
+// queries are measured three times, and the least counts.
 template <class Time>
 void add_tail(const char* kind, std::uint64_t first, Time time, const BenchSettings& settings,
               BenchReport& report) {

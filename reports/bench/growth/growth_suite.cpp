@@ -1,4 +1,4 @@
-// Suite `growth`: time and memory from a thousand to a million triangles.
+// Suite `growth` measures time and memory from a thousand to a million triangles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,16 +17,16 @@ using namespace detector;
 
 constexpr int full_sizes[] = {1'000, 5'000, 25'000, 100'000, 400'000, 1'000'000};
 
-// Times of one kind of work by mesh size.
+// The times of one kind of work, by the size of the mesh.
 struct Growth {
-  std::string what;
+  std::string label;
   std::vector<double> sizes = {}, ms = {};
   std::vector<Estimate> estimates = {};
 
   void add(double triangles, const std::vector<double>& ns, const std::string& note,
            BenchReport& report) {
     const Estimate estimate = scaled(median_of(ns), 1e-6);
-    report.add(fmt::format("{}, {} triangles", what, triangles), "ms", estimate, {}, note);
+    report.add(fmt::format("{}, {} triangles", label, triangles), "ms", estimate, {}, note);
     sizes.push_back(triangles);
     ms.push_back(estimate.value);
     estimates.push_back(estimate);
@@ -34,11 +34,11 @@ struct Growth {
 
   void add_points(BenchReport& report) const {
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-      report.growth.push_back({what, sizes[i], estimates[i]});
+      report.growth.push_back({label, sizes[i], estimates[i]});
     }
   }
 
-  // Wanted: an exponent no larger than that of n log n over the same sizes.
+  // What is wanted is an exponent no larger than that of n log n over the same sizes.
   void judge(BenchReport& report) const {
     if (sizes.size() < 2) return;
     std::vector<double> n_log_n;
@@ -48,7 +48,7 @@ struct Growth {
       least = std::min(least, ms[i] / n_log_n[i]);
       largest = std::max(largest, ms[i] / n_log_n[i]);
     }
-    report.add(what + ": exponent of growth", "", exactly(growth_exponent(sizes, ms)),
+    report.add(label + ": exponent of growth", "", exactly(growth_exponent(sizes, ms)),
                at_most(growth_exponent(sizes, n_log_n)),
                fmt::format("wanted: that of n log n; time/(n log n) varies {:.2f} times",
                            largest / least));
@@ -64,10 +64,10 @@ int repetitions(int triangles) {
   return std::clamp(work / triangles, 3, 15);
 }
 
-// Below this many triangles pages are too coarse a measure.
+// With fewer triangles than this, pages are too coarse a measure of memory.
 constexpr int least_for_memory = 20'000;
 
-void measure_memory(const std::string& what, const corpus::Sequence& step, BenchReport& report) {
+void measure_memory(const std::string& label, const corpus::Sequence& step, BenchReport& report) {
   const auto bytes = peak_memory_of([&] {
     auto made =
         Detector::create(step.triangles, step.frames[0], bench_options(Culling::view_point));
@@ -75,11 +75,11 @@ void measure_memory(const std::string& what, const corpus::Sequence& step, Bench
     keep(result);
   });
   if (!bytes) {
-    report.add_no_data("memory, " + what, "/proc/self");
+    report.add_no_data("memory, " + label, "/proc/self");
     return;
   }
   const auto triangles = static_cast<double>(step.triangles.rows());
-  report.add(fmt::format("memory, {}, {} triangles", what, triangles), "bytes/triangle",
+  report.add(fmt::format("memory, {}, {} triangles", label, triangles), "bytes/triangle",
              exactly(*bytes / triangles), wanted::memory_bytes_a_triangle,
              "highest over preprocessing and a step");
 }

@@ -1,4 +1,4 @@
-// Suite `harness`: what judging costs, of the oracle by itself and of campaigns.
+// Suite `harness` measures what judging costs, for the oracle by itself and for campaigns.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -18,7 +18,7 @@
 namespace assay::reports {
 namespace {
 
-// The oracle works in threads, so that its time is that of the wall.
+// The oracle works in threads, so its time is taken by the clock on the wall.
 double wall_seconds_of(const std::function<void()>& work) {
   const auto begin = std::chrono::steady_clock::now();
   work();
@@ -34,7 +34,8 @@ void judge_rod_twist(const corpus::Sequence& step, const BenchSettings& settings
         oracle::judge_step({step.frames[0], step.frames[1]}, step.triangles, {jobs, {}});
     pairs = judgement.pairs.size();
   };
-  // The memory first: what is freed is given back to the system then, and none is kept for reuse.
+  // The memory is measured first, because what is freed then goes back to the system, and none is
+  // kept for reuse.
   const auto bytes = peak_memory_of(judge);
   const auto samples = interleave(settings.rounds(5), {[&] { return wall_seconds_of(judge); }});
   report.add("oracle, rod-twist step", "s", bootstrap_median(samples[0]),
@@ -70,11 +71,12 @@ void ask_simulation_queries(const BenchSettings& settings, BenchReport& report) 
 }
 
 struct Trials {
-  std::vector<double> steps, seconds;  // a case each
+  std::vector<double> steps, seconds;  // an entry for each case
   std::size_t defects = 0, most_triangles = 0;
 };
 
-// As a campaign judges its trials, but for the pipe to the process that its detector runs in.
+// Judges cases as a campaign judges its trials, but without the pipe to the process in which its
+// detector runs.
 Trials judge_cases(const properties::Family& family, int cases) {
   const auto detector = properties::built_in_detector();
   Trials out;

@@ -16,7 +16,8 @@ namespace {
 using detector::FeatureKind;
 using detector::PairContact;
 
-// So many eighths of the way from a double to the next, where 62 bits hold it.
+// The time that lies this many eighths of the way from a double to the next, if 62 bits can hold
+// it.
 std::optional<oracle::RationalTime> between(double lo, double hi, int eighths) {
   constexpr int bits = 62;
   const double from = std::ldexp(lo, bits), way = std::ldexp(hi - lo, bits - 3);
@@ -26,9 +27,10 @@ std::optional<oracle::RationalTime> between(double lo, double hi, int eighths) {
       std::int64_t{1} << bits};
 }
 
-// The fraction of the least denominator between two neighbouring doubles of (0, 1): what a time of
-// small whole numbers is, such as 1/3. By continued fractions, in long doubles: where these end it
-// is some other fraction, and then it witnesses nothing.
+// The fraction with the least denominator between two neighbouring doubles of (0, 1). If the exact
+// time is a fraction of small whole numbers, such as 1/3, this is it. It is computed by continued
+// fractions in long doubles. If these do not suffice, the result is some other fraction, which
+// then witnesses nothing.
 oracle::RationalTime simplest_between(double lo, double hi) {
   constexpr std::int64_t largest = std::int64_t{1} << 30;
   std::int64_t p0 = 0, q0 = 1, p1 = 1, q1 = 0;
@@ -51,8 +53,8 @@ class StepWitness {
   StepWitness(const corpus::Case& c, const corpus::CaseStep& step, bool takes_triangles)
       : c_(c), motion_{start_of(c, step), end_of(c, step)}, takes_triangles_(takes_triangles) {}
 
-  // Whether the contact's features, or its triangles, meet at some time before `told`, or, where
-  // nothing was told, at all.
+  // Whether the features of the contact, or its triangles, meet at some time before `told`. If no
+  // time was told, whether they meet at all.
   bool meets_before(const PairContact& contact, std::optional<double> told) const {
     const double end = told.value_or(1), first = contact.time.hi;
     if (by_referee(contact.feature, told ? std::nextafter(end, 0.) : 1)) return true;
@@ -80,7 +82,7 @@ class StepWitness {
 
   using Query = std::variant<detector::VertexFace, detector::EdgeEdge>;
 
-  // Nothing for a contact of whole triangles.
+  // Returns nothing for a contact of whole triangles.
   std::optional<Query> query_of(const detector::Feature& feature) const {
     const auto& v = feature.vertices;
     if (feature.kind == FeatureKind::vertex_face)
@@ -90,7 +92,7 @@ class StepWitness {
     return std::nullopt;
   }
 
-  // Whether it proves a contact of these features up to a time.
+  // Whether the referee proves a contact of these features up to a time.
   bool by_referee(const detector::Feature& feature, double until) const {
     const auto query = query_of(feature);
     if (!query || until <= 0) return false;
@@ -99,14 +101,15 @@ class StepWitness {
            detector::Decision::yes;
   }
 
-  // Whether it proves a contact of these features between two times.
+  // Whether the bracket proves a contact of these features between two times.
   bool by_bracket(const detector::Feature& feature, double from, double until) const {
     const auto query = query_of(feature);
     if (!query || from < 0 || from >= until) return false;
     return std::visit([&](const auto& q) { return oracle::meet_between(q, from, until); }, *query);
   }
 
-  // The features alone are triangles that have become a point, a segment, or are one.
+  // Asks whether the triangles meet at this time, if triangles are taken, or else whether the
+  // features do. A feature is given as a triangle too, which may be a point or a segment.
   bool meet_at(const PairContact& contact, const oracle::StaticTime& time) const {
     if (takes_triangles_ && oracle::triangles_meet(motion_, c_.triangles, contact.pair, time))
       return true;

@@ -63,8 +63,8 @@ PeerCounts counts_of(const PeerSubject& subject, const corpus::Case& seen,
     const bool confirmed = is_confirmed(seen, s, diff, run.steps[s], subject.contract);
     ++counts.unsafe;
     counts.confirmed += confirmed ? 1 : 0;
-    const char* what = diff.answered_free ? "missed" : diff.late_first ? "late" : "pairs missing";
-    unsafe.push_back({subject.name, seen.id, s, what, confirmed});
+    const char* defect = diff.answered_free ? "missed" : diff.late_first ? "late" : "pairs missing";
+    unsafe.push_back({subject.name, seen.id, s, defect, confirmed});
   }
   return counts;
 }

@@ -53,7 +53,7 @@ struct PeerCounts {
 struct UnsafeAnswer {
   std::string detector, case_id;
   std::size_t step = 0;  // number among the steps that the contract takes
-  std::string what;      // "missed", "late", "pairs missing"
+  std::string defect;    // "missed", "late", "pairs missing"
   bool is_confirmed = false;
 };
 

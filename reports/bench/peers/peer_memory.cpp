@@ -8,7 +8,7 @@ namespace assay::reports {
 namespace {
 
 corpus::Case step_of_a_scene(int triangles) {
-  constexpr int frames = 101;  // so that a step moves little
+  constexpr int frames = 101;  // this many, so that a step moves little
   auto scene = bench_scene("bend", triangles, frames);
   corpus::Case c;
   c.triangles = std::move(scene.triangles);

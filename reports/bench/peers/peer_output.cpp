@@ -22,7 +22,8 @@ std::string time_text(const std::optional<Estimate>& over) {
   return over ? fmt::format("{:.3g} [{:.2g}, {:.2g}]", over->value, over->lo, over->hi) : "-";
 }
 
-// "a t p": a collision or not, when first, which pairs.
+// Gives "a t p", or a part of it: the detector says whether there is a collision, when the first
+// is, and which pairs are in contact.
 std::string letters_of(const PeerRow& row) {
   std::string letters = "a";
   letters += row.answers.find("time") == std::string::npos ? "  " : " t";
@@ -32,7 +33,7 @@ std::string letters_of(const PeerRow& row) {
 
 std::string text_of(const PeerRow& row) {
   const auto& c = row.counts;
-  // In brackets: nothing that it promised.
+  // A count stands in brackets if the detector promised nothing about it.
   const auto asked = [&](std::uint64_t count) {
     return row.claims_soundness || count == 0 ? fmt::format("{}", count)
                                               : fmt::format("({})", count);
@@ -94,7 +95,7 @@ std::string unconfirmed_text(std::span<const UnsafeAnswer> answers) {
   for (const auto& one : answers) {
     if (!one.is_confirmed)
       text += fmt::format("by the oracle alone: {}, case {}, step {}: {}\n", one.detector,
-                          one.case_id, one.step + 1, one.what);
+                          one.case_id, one.step + 1, one.defect);
   }
   return text;
 }
@@ -105,7 +106,7 @@ Json to_json(std::span<const UnsafeAnswer> answers) {
     list.push_back({{"detector", one.detector},
                     {"case", one.case_id},
                     {"step", one.step + 1},
-                    {"what", one.what},
+                    {"what", one.defect},
                     {"confirmed", one.is_confirmed}});
   }
   return list;

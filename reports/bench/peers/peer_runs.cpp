@@ -21,10 +21,10 @@ bool same_steps(const corpus::Case& a, const corpus::Case& b) {
 
 }  // namespace
 
-// Subjects that are put the same question: the same steps, and the same features of them.
+// Subjects that are asked the same question: the same steps, and the same features in them.
 struct PeerRuns::Group {
   corpus::Case c;
-  properties::Contract contract;  // of the first of them
+  properties::Contract contract;  // that of the first subject
   std::vector<std::size_t> subjects;
   std::uint64_t left_out = 0;
 };
@@ -87,7 +87,7 @@ void PeerRuns::run_group(const ErrorFamily& family, const TimedCase& timed, cons
                          std::vector<PeerCase>& out, std::vector<std::string>& wrong,
                          std::vector<UnsafeAnswer>& unsafe, const std::function<void()>& tick) {
   auto& workers = workers_for(family);
-  // A gap in the sequence is a new start, of which nobody says that it is clean.
+  // A gap in the sequence makes a new start, and nobody says that it is clean.
   const auto start = group.left_out == 0 ? timed.start : detector::Start::verified;
   const bool has_reference = group.subjects.front() == 0;
   std::vector<std::size_t> subjects = group.subjects;
@@ -109,7 +109,7 @@ void PeerRuns::run_group(const ErrorFamily& family, const TimedCase& timed, cons
   }
   interleave(family.rounds, measurements);
   const auto rounds = static_cast<std::size_t>(family.rounds);
-  for (auto& run : runs) {  // one that was run once tells its only time in each round
+  for (auto& run : runs) {  // a run that was made only once tells its time in each round
     if (run.is_once) run.ms_a_step.resize(rounds, run.ms_a_step.front());
   }
   tick();

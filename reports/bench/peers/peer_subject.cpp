@@ -14,7 +14,7 @@ namespace {
 using detector::Arithmetic;
 using detector::Culling;
 
-// What corpus/peers has adapters for, and what each is built with.
+// The detectors for which corpus/peers has adapters, and what each is built with.
 struct KnownPeer {
   const char *file, *needs;
 };
@@ -67,7 +67,7 @@ void add_library(const std::filesystem::path& file, Peers& peers) {
   peers.subjects.push_back(std::move(subject));
 }
 
-// Known ones in the order of their list, others behind them by name.
+// Known detectors stand in the order of their list. Others stand behind them, by name.
 std::size_t place_of(const std::filesystem::path& file) {
   const auto* known = std::find_if(std::begin(known_peers), std::end(known_peers),
                                    [&](const KnownPeer& peer) { return file.stem() == peer.file; });

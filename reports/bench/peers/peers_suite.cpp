@@ -1,4 +1,4 @@
-// Suite `peers`: the detectors of others that are there beside the built-in one.
+// Suite `peers` compares those detectors of others that are there with the built-in one.
 #include <algorithm>
 
 #include "reports/bench/peers/peer_memory.h"
@@ -8,7 +8,7 @@
 namespace assay::reports {
 namespace {
 
-// With --quick, of the public sequences the two of fewest triangles.
+// With --quick, keeps only the two public sequences of fewest triangles.
 void keep_smallest_sequences(std::vector<ErrorFamily>& families, BenchReport& report) {
   std::vector<std::pair<Eigen::Index, std::string>> sizes;
   for (const auto& family : families) {

@@ -17,7 +17,8 @@ namespace {
 
 using namespace detector;
 
-// What takes so many times what another variant takes is no choice: a few rounds tell how far off.
+// A variant that takes this many times as long as another one is no choice, and a few rounds
+// suffice to tell how far off it is.
 constexpr double far_off = 3;
 constexpr int rounds_of_far_off = 2;
 
@@ -47,15 +48,15 @@ class Play {
 
  private:
   void compare(std::size_t s, const SequenceVariant& variant, StepResult& result) {
-    const std::string what = fmt::format("{}, step {}", name_, s + 1);
+    const std::string label = fmt::format("{}, step {}", name_, s + 1);
     const auto hash = result_hash(result);
     const auto [known, is_new] = hashes_.try_emplace({s, variant.culling}, hash);
     if (!is_new && known->second != hash)
-      report_.wrong_answers.push_back(what + ": the same culling gives another result");
+      report_.wrong_answers.push_back(label + ": the same culling gives another result");
     if (first_.size() == s) {
       first_.push_back(std::move(result));
     } else {
-      check_same_pairs(what, first_[s], result, report_);
+      check_same_pairs(label, first_[s], result, report_);
     }
   }
 

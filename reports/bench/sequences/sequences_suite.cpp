@@ -1,4 +1,4 @@
-// Suite `sequences`: whole sequences by each culling, and by several threads.
+// Suite `sequences` times whole sequences with each culling, and with several threads.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,13 +52,13 @@ std::vector<SequenceVariant> variants_of(std::uint32_t cores) {
           {Culling::automatic, cores}};
 }
 
-// Of the rounds in which both were played.
+// The ratio over the rounds in which both were played.
 Estimate ratio_in_common(const std::vector<double>& a, const std::vector<double>& b) {
   const std::size_t rounds = std::min(a.size(), b.size());
   return ratio_of(std::span(a).first(rounds), std::span(b).first(rounds));
 }
 
-// All cullings over bvh, for whoever wants to choose by himself.
+// Adds the times of all cullings over that of bvh, for users who want to choose by themselves.
 void add_table_rows(const Played& played, BenchReport& report) {
   for (std::size_t i = 0; i < played.variants.size(); ++i) {
     const auto& variant = played.variants[i];

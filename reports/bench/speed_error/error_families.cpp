@@ -50,8 +50,9 @@ ErrorFamily generated_family(const properties::Family& family, const BenchSettin
           }};
 }
 
-// Four strengths from the weakest to the strongest, a case of each kind. Crowds beyond some hundred
-// triangles, of which each meets each, are left out: one such step takes seconds.
+// Takes four strengths from the weakest to the strongest, and a case of each kind. Crowds of more
+// than some hundred triangles, in which each meets each, are left out, because one such step takes
+// seconds.
 ErrorFamily hard_family(const corpus::HardFamily& family, const BenchSettings& settings) {
   return {std::string(family.name), "hard", settings.rounds(5), [&family, settings] {
             constexpr Eigen::Index most_triangles = 600;

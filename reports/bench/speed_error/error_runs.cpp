@@ -15,7 +15,7 @@ namespace {
 
 using namespace detector;
 
-// A step that takes the oracle longer is timed and not judged.
+// A step that takes the oracle longer than this is timed and not judged.
 constexpr std::chrono::seconds oracle_limit{20};
 
 oracle::StepJudgement judge(const corpus::Case& c, const corpus::CaseStep& step) {
@@ -95,7 +95,8 @@ class CaseRun {
   void compare_with(const oracle::StepJudgement& truth, const StepResult& result, JudgedStep& out) {
     out.judged = truth.complete;
     if (!out.judged) return;
-    // What exact arithmetic would claim is asked of all: without that, doubles claim no pair.
+    // All arithmetics are asked for what exact arithmetic would claim. Otherwise doubles, which
+    // claim no pair, could miss none.
     const auto diff = properties::compare(
         result, truth, properties::claims_of({.pairs = out.variant.pairs}), {}, timed_.c.triangles);
     out.contact = truth.answer == Answer::collision;
@@ -112,12 +113,12 @@ class CaseRun {
     }
   }
 
-  void complain(std::size_t index, std::size_t v, const char* what) {
-    complain(index, variants_[v], what);
+  void complain(std::size_t index, std::size_t v, const char* complaint) {
+    complain(index, variants_[v], complaint);
   }
-  void complain(std::size_t index, const Variant& variant, const char* what) {
+  void complain(std::size_t index, const Variant& variant, const char* complaint) {
     wrong_.push_back(fmt::format("{}, case {}, step {}, {}: {}", family_.name, timed_.c.id,
-                                 index + 1, name_of(variant), what));
+                                 index + 1, name_of(variant), complaint));
   }
 
   const ErrorFamily& family_;

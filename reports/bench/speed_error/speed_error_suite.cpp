@@ -1,4 +1,4 @@
-// Suite `speed-error`: what each arithmetic and culling costs, and what it gets wrong.
+// Suite `speed-error` measures what each arithmetic and culling costs, and what it gets wrong.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::size_t time_errors(const ErrorCounts& errors) {
   return errors.late.steps + errors.early.steps;
 }
 
-// What each arithmetic gets wrong, whatever the culling and the pairs asked for.
+// Adds what each arithmetic gets wrong, over all cullings and kinds of pairs.
 void add_errors(std::span<const VariantSummary> variants, BenchReport& report) {
   for (const auto arithmetic : every_arithmetic) {
     std::size_t judged = 0, answers = 0, missing = 0, spurious = 0, times = 0, missed = 0, late = 0;
@@ -34,8 +34,8 @@ void add_errors(std::span<const VariantSummary> variants, BenchReport& report) {
     }
     const bool exact = arithmetic == Arithmetic::exact,
                proved = exact || arithmetic == Arithmetic::bounded;
-    const auto add = [&](const char* what, std::size_t count, bool claimed, std::string note) {
-      report.add(fmt::format("{}, {}", what, properties::name_of(arithmetic)), "",
+    const auto add = [&](const char* label, std::size_t count, bool claimed, std::string note) {
+      report.add(fmt::format("{}, {}", label, properties::name_of(arithmetic)), "",
                  exactly(static_cast<double>(count)), wanted_if(claimed, at_most(0)),
                  std::move(note));
     };
@@ -49,7 +49,7 @@ void add_errors(std::span<const VariantSummary> variants, BenchReport& report) {
   }
 }
 
-// Families in which an arithmetic has no wrong answer, no wrong pair and no late time.
+// Names the families in which an arithmetic has no wrong answer, no wrong pair and no late time.
 void add_families_without_error(std::span<const FamilySummary> families, BenchReport& report) {
   for (const auto arithmetic :
        {Arithmetic::bounded, Arithmetic::double_precision, Arithmetic::single_precision}) {
@@ -77,7 +77,8 @@ void add_ratios(std::span<const FamilySummary> families, BenchReport& report) {
   for (const auto& family : families) {
     if (family.variant != chosen) continue;
     const std::string& name = family.family;
-    // A tiny mesh is no place to judge times: a step is over in some microseconds.
+    // Times are judged on large meshes only, because a step of a tiny one is over in some
+    // microseconds.
     const bool large = family.kind == "scene" || family.kind == "real";
     const std::string note = fmt::format("{:.0f} ns a triangle", family.ns_a_triangle.value);
     report.add("auto over bvh, " + name, "times", family.over_reference,

@@ -19,7 +19,7 @@ properties::Numbers numbers_of(Eigen::Index rows) {
 
 properties::Numbers reordered(Random& random, Eigen::Index rows) {
   auto order = properties::shuffled(random, numbers_of(rows));
-  // The order of few may have stayed.
+  // If there are few numbers, shuffling may have left their order as it was. Then it is reversed.
   if (order == numbers_of(rows)) std::reverse(order.begin(), order.end());
   return order;
 }
@@ -43,7 +43,8 @@ std::optional<ChangedCase> permuted(const corpus::Case& c) {
   return out;
 }
 
-// Every vertex and end of the view primitive, in every frame; nothing where `move` is not exact.
+// Moves every vertex and every end of the view primitive, in every frame. Returns nothing if
+// `move` is not exact.
 std::optional<ChangedCase> moved(const corpus::Case& c, const MoveCoordinate& move,
                                  const MoveCoordinate& back) {
   ChangedCase out{c, numbers_of(c.triangles.rows())};
@@ -86,14 +87,15 @@ std::optional<ChangedCase> scaled(const corpus::Case& c) {
       [&](double x, std::size_t) { return std::ldexp(x, -exponent); });
 }
 
-// The sum is exact where both ways back to its terms are: x + d - d == x and x + d - x == d.
+// The sum is exact if both ways back to its terms are: x + d - d == x and x + d - x == d.
 std::optional<ChangedCase> translated(const corpus::Case& c) {
   Random random(c.id);
   const double largest = c.frames[0].cwiseAbs().maxCoeff();
   if (!(largest > 0)) return std::nullopt;
   const int sign[] = {random.one_in(2) ? 1 : -1, random.one_in(2) ? 1 : -1,
                       random.one_in(2) ? 1 : -1};
-  // Three different multiples of one power of two, from well above the mesh down to its last bits.
+  // The shift has three different multiples of one power of two. They reach from well above the
+  // mesh down to its last bits.
   const int top = std::ilogb(largest) + 2;
   for (int exponent = top; exponent > top - 60; --exponent) {
     const double unit = std::ldexp(1, exponent);

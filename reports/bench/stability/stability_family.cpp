@@ -69,7 +69,7 @@ class FamilyRun {
     }
   }
 
-  // Returns whether the oracle finds what the case was built for.
+  // Adds a case. Returns whether the oracle finds in it what it was built for.
   bool add(const corpus::Case& c) {
     HardTruth truth(c);
     std::vector<detector::StepResult> originals;
@@ -78,7 +78,7 @@ class FamilyRun {
       add_outcome(judge_hard_case(originals.back(), truth), c.id, results_[i]);
       add_rungs(originals.back(), results_[i]);
     }
-    // Crowds take their time: they are run as they are.
+    // Crowds of more triangles than this take long, so they are run as they are and not changed.
     constexpr Eigen::Index most_triangles_changed = 600;
     if (c.triangles.rows() > most_triangles_changed) return truth.agrees_with_construction();
     for (std::size_t k = 0; k < case_changes().size(); ++k) {

@@ -74,7 +74,7 @@ namespace {
 
 double ulp_of(double t) { return std::nextafter(t, 2) - t; }
 
-// t* is lo where lo == hi, else between the two: an error is measured from the nearer end.
+// t* is lo if lo == hi, else it lies between the two. So an error is measured from the nearer end.
 void judge_first_time(const detector::TimeEnclosure& ours, const detector::TimeEnclosure& truth,
                       HardOutcome& outcome) {
   outcome.late = ours.lo > truth.lo;

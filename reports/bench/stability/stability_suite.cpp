@@ -1,4 +1,5 @@
-// Suite `stability`: where each arithmetic breaks, family by family of the corpus's hard cases.
+// Suite `stability` finds where each arithmetic breaks, in each family of hard cases of the
+// corpus.
 #include "reports/bench/stability/stability_suite.h"
 
 #include <fmt/format.h>
@@ -37,7 +38,7 @@ std::string break_text(const corpus::HardFamily& family, const FamilyStability& 
                      knob_text(family, std::prev(before)->strength));
 }
 
-// Largest and median of the late and of the early first times.
+// Gives the largest and the median error of the late and of the early first times.
 std::string time_text(const StabilityCell& all) {
   std::string text;
   for (const int side : {1, -1}) {
@@ -60,40 +61,40 @@ void add_family_rows(const corpus::HardFamily& family, std::span<const Stability
                      const std::vector<FamilyStability>& found, BenchReport& report) {
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     const auto all = found[i].total();
-    const std::string what = fmt::format("{}, {}", family.name, subjects[i].name);
+    const std::string label = fmt::format("{}, {}", family.name, subjects[i].name);
     const std::string note =
         fmt::format("breaks: {}; of {} steps {} missed, {} late, {} spurious, {} wrong V+ or V-{}",
                     break_text(family, found[i]), all.cases, all.missed, all.late, all.spurious,
                     all.wrong_signs, time_text(all));
     if (subjects[i].arithmetic == Arithmetic::exact) {
-      report.add(what + ": wrong", "steps", exactly(all.cases - all.exactly_right), at_most(0),
+      report.add(label + ": wrong", "steps", exactly(all.cases - all.exactly_right), at_most(0),
                  note);
       if (!found[i].first_wrong.empty()) {
-        report.wrong_answers.push_back(what + ": first wrong in " + found[i].first_wrong);
+        report.wrong_answers.push_back(label + ": first wrong in " + found[i].first_wrong);
       }
     }
     if (subjects[i].arithmetic == Arithmetic::bounded) {
-      report.add(what + ": missed, late, wrong V+ or V-", "steps",
+      report.add(label + ": missed, late, wrong V+ or V-", "steps",
                  exactly(all.missed + all.late + all.wrong_signs), at_most(0));
       for (const auto& id : {found[i].first_missed, found[i].first_late}) {
-        if (!id.empty()) report.wrong_answers.push_back(what + ": missed or late in " + id);
+        if (!id.empty()) report.wrong_answers.push_back(label + ": missed or late in " + id);
       }
     }
     if (subjects[i].arithmetic != Arithmetic::exact) {
-      report.add(what + ": right", "%", exactly(percent(all.right, all.cases)), {}, note);
+      report.add(label + ": right", "%", exactly(percent(all.right, all.cases)), {}, note);
     }
     report.heat.insert(report.heat.end(), found[i].cells.begin(), found[i].cells.end());
   }
 }
 
-// Which rung settled the elementary tests and the view tests of one family.
-void add_rung_rows(const std::string& what, const FamilyStability& found, BenchReport& report) {
+// Adds which rung settled the elementary tests and the view tests of one family.
+void add_rung_rows(const std::string& label, const FamilyStability& found, BenchReport& report) {
   const auto& r = found.rungs;
   const auto tests = static_cast<double>(r.total());
   const auto share = [&](std::uint64_t n) { return percent(static_cast<double>(n), tests); };
   if (tests > 0) {
     report.add(
-        what + ": elementary tests settled by the filter", "%", exactly(share(r.filter)), {},
+        label + ": elementary tests settled by the filter", "%", exactly(share(r.filter)), {},
         fmt::format("of {}; axis {:.1f} %, fixed {:.1f} %, unbounded {:.1f} %, left open {:.1f} %",
                     r.total(), share(r.axis), share(r.fixed), share(r.unbounded), share(r.open)));
   }
@@ -101,7 +102,7 @@ void add_rung_rows(const std::string& what, const FamilyStability& found, BenchR
   const auto views = static_cast<double>(v.lanes + v.filter + v.exact + v.open);
   if (views > 0) {
     const auto of_views = [&](std::uint64_t n) { return percent(static_cast<double>(n), views); };
-    report.add(what + ": view tests settled by lanes or filter", "%",
+    report.add(label + ": view tests settled by lanes or filter", "%",
                exactly(of_views(v.lanes + v.filter)), {},
                fmt::format("of {}; integers {:.1f} %, left open {:.1f} %", views, of_views(v.exact),
                            of_views(v.open)));
@@ -125,17 +126,17 @@ void add_survival_rows(std::span<const StabilitySubject> subjects, const Surviva
     for (std::size_t i = 0; i < subjects.size(); ++i) {
       const auto& [changed, same] = all[i][k];
       const bool must = subjects[i].arithmetic == Arithmetic::exact;
-      const std::string what =
+      const std::string label =
           fmt::format("answers that survive {}, {}", case_changes()[k].name, subjects[i].name);
       report.add(
-          what, "%", exactly(percent(same, changed)), wanted_if(must, at_least(100)),
+          label, "%", exactly(percent(same, changed)), wanted_if(must, at_least(100)),
           fmt::format("{} of {} changed steps{}", same, changed, must ? ", times included" : ""));
-      if (must && same < changed) report.wrong_answers.push_back(what + ": not all");
+      if (must && same < changed) report.wrong_answers.push_back(label + ": not all");
     }
   }
 }
 
-// What is said of all families together.
+// Collects what is said of all families together.
 class AllFamilies {
  public:
   explicit AllFamilies(std::span<const StabilitySubject> subjects)

@@ -1,4 +1,4 @@
-// Suite `view`: what the view test and a free step take, and how tight the view sets are.
+// Suite `view` measures what the view test and a free step take, and how tight the view sets are.
 #include "reports/bench/view/view_parts.h"
 
 namespace assay::reports {

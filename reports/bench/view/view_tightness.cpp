@@ -35,7 +35,8 @@ Shares shares_of(const std::vector<ViewSign>& signs) {
   return shares;
 }
 
-// Of all steps of a scene, from the detector's own primitives (placed once, at the first frame).
+// The shares in all steps of a scene, seen from the primitives that the detector itself placed at
+// the first frame.
 std::vector<Shares> shares_over(const corpus::Sequence& scene, Culling culling) {
   auto made = Detector::create(scene.triangles, scene.frames[0], bench_options(culling));
   if (!made) throw UnusableData(made.error().message);
@@ -46,7 +47,7 @@ std::vector<Shares> shares_over(const corpus::Sequence& scene, Culling culling) 
   return out;
 }
 
-// Every coordinate moves a little on its own, so that nothing is degenerate.
+// Moves every coordinate a little on its own, so that nothing is degenerate.
 corpus::Sequence generic(corpus::Sequence scene) {
   properties::Random random(20112, 0);
   for (auto& frame : scene.frames) {
@@ -57,7 +58,8 @@ corpus::Sequence generic(corpus::Sequence scene) {
 }
 
 struct Beyond {
-  std::size_t triangles = 0, exact = 0, bounded = 0;  // V0 beyond the oracle's
+  // `exact` and `bounded` count the triangles in V0 that the oracle does not have there.
+  std::size_t triangles = 0, exact = 0, bounded = 0;
 };
 
 void compare_with_oracle(const std::string& name, const corpus::Sequence& scene, std::size_t step,

@@ -16,7 +16,7 @@ using namespace detector;
 struct ViewStep {
   Topology mesh;
   Positions x_t0, x_t1;
-  std::vector<ViewPrimitive> primitives;  // by component: the detector's own
+  std::vector<ViewPrimitive> primitives;  // by component, as the detector placed them
 };
 
 ViewStep view_step(const corpus::Sequence& sequence, std::size_t step, Culling culling,
@@ -27,7 +27,8 @@ ViewStep view_step(const corpus::Sequence& sequence, std::size_t step, Culling c
           detector.result().primitives};
 }
 
-// The same mesh with its vertices in random order: each triangle then reads three places far apart.
+// The same mesh with its vertices in random order, so that each triangle reads three places that
+// are far apart.
 corpus::Sequence shuffled(const corpus::Sequence& in) {
   properties::Random random(20111, 0);
   const auto to = properties::shuffled(
@@ -46,8 +47,8 @@ const char* name_of(InstructionSet set) {
   return properties::word_of({"baseline", "avx2", "avx512"}, set);
 }
 
-// bound: asked of the instruction set that this machine chooses.
-void compare(const std::string& what, const ViewStep& step, Wanted bound, int rounds,
+// `bound` is asked of the instruction set that this machine chooses.
+void compare(const std::string& label, const ViewStep& step, Wanted bound, int rounds,
              BenchReport& report) {
   std::vector<SweptBox> boxes(step.mesh.triangles.size());
   std::vector<InstructionSet> sets;
@@ -74,25 +75,25 @@ void compare(const std::string& what, const ViewStep& step, Wanted bound, int ro
   }
   const auto samples = interleave(rounds, measurements);
   const double a_triangle = 1 / static_cast<double>(boxes.size());
-  report.add("writing swept boxes, " + what, "ns/triangle",
+  report.add("writing swept boxes, " + label, "ns/triangle",
              scaled(median_of(samples[0]), a_triangle), {},
              fmt::format("{} triangles", boxes.size()));
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const bool chosen = sets[i] == best_instruction_set();
-    report.add(fmt::format("view test over boxes, {}, {}", what, name_of(sets[i])), "times",
+    report.add(fmt::format("view test over boxes, {}, {}", label, name_of(sets[i])), "times",
                ratio_of(samples[i + 1], samples[0]), wanted_if(chosen, bound),
                fmt::format("{:.2f} ns a triangle{}", median_of(samples[i + 1]).value * a_triangle,
                            chosen ? "; chosen here" : ""));
     if (signs[i] != signs[0]) {
-      report.wrong_answers.push_back(
-          fmt::format("{}: signs of {} differ from those of the baseline", what, name_of(sets[i])));
+      report.wrong_answers.push_back(fmt::format(
+          "{}: signs of {} differ from those of the baseline", label, name_of(sets[i])));
     }
   }
 }
 
-void add_whole_step(const std::string& what, const std::vector<double>& samples,
+void add_whole_step(const std::string& label, const std::vector<double>& samples,
                     const StepResult& result, bool full_size, BenchReport& report) {
-  report.add("free step, " + what, "ms", scaled(median_of(samples), 1e-6),
+  report.add("free step, " + label, "ms", scaled(median_of(samples), 1e-6),
              wanted_if(full_size, wanted::free_step_ms),
              fmt::format("{} triangles, {}", result.signs.size(),
                          result.counts.free_components == 1 ? "free by L5" : "NOT free by L5"));

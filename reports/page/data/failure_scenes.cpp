@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// As SceneMaker takes it.
+// The detector in the form that SceneMaker takes. Nothing if the library of a plug-in is not
+// known.
 std::optional<DetectorWords> detector_at_hand(const properties::RunFindings& findings) {
   if (!findings.run.detector.built_in && findings.library.empty()) return std::nullopt;
   return detector_of(findings);
@@ -45,7 +46,7 @@ class FailureList {
   Json other(const properties::StoredFailure& failure) const {
     return {{"id", failure.id},
             {"configuration", failure.configuration},
-            {"what", shown_what(failure)},
+            {"what", shown_explanation(failure)},
             {"replay", replay_of(failure)}};
   }
 
@@ -73,7 +74,7 @@ class FailureList {
     }
     if (scene->failure) {
       json["stage"] = scene->failure->stage.empty() ? Json() : Json(scene->failure->stage);
-      json["now"] = scene->failure->what;
+      json["now"] = scene->failure->explanation;
     }
     json["scene"] = scene_json(*scene);
     json["svg"] = mesh_svg(*scene, failure.signature);

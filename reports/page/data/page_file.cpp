@@ -10,7 +10,7 @@ namespace assay::reports {
 std::string script_safe(const nlohmann::ordered_json& data) {
   const std::string text =
       data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
-  // In JSON these stand within strings only, where \u means the same.
+  // In JSON these characters stand within strings only, and there \u means the same.
   static const std::map<char, std::string_view> written = {
       {'<', "\\u003c"}, {'>', "\\u003e"}, {'&', "\\u0026"}};
   return replaced(text, written);

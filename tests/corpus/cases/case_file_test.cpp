@@ -75,10 +75,10 @@ TEST_F(CaseFile, WhatCouldNotBeReadIsNotWritten) {
   c.frames[1](0, 0) = std::numeric_limits<double>::infinity();
   const auto infinite = write_case(folder() / "a.json", c);
   ASSERT_FALSE(infinite);
-  EXPECT_EQ(infinite.error().what, FileProblem::malformed);
+  EXPECT_EQ(infinite.error().kind, FileProblem::malformed);
   c = full_case();
   c.triangles(0, 0) = 4;
-  EXPECT_EQ(write_case(folder() / "a.json", c).error().what, FileProblem::index_out_of_range);
+  EXPECT_EQ(write_case(folder() / "a.json", c).error().kind, FileProblem::index_out_of_range);
   EXPECT_FALSE(std::filesystem::exists(folder() / "a.json"));
 }
 
@@ -129,14 +129,14 @@ TEST_F(CaseFile, ARefusedMeshMayBeACase) {
   c.triangles.resize(1, 3);
   c.triangles << 0, 1, 1;
   c.frames = {detector::Positions::Zero(3, 3)};
-  EXPECT_EQ(parse_case(case_text(c), "x").error().what, FileProblem::repeated_index);
+  EXPECT_EQ(parse_case(case_text(c), "x").error().kind, FileProblem::repeated_index);
   c.expected.answer = detector::Answer::error;
   EXPECT_TRUE(parse_case(case_text(c), "x"));
 }
 
 TEST_F(CaseFile, ProblemsNameTheField) {
   const std::string good = case_text(full_case());
-  const auto expect = [&](FileProblem what, std::string_view field, std::string_view from,
+  const auto expect = [&](FileProblem kind, std::string_view field, std::string_view from,
                           std::string_view to) {
     std::string text = good;
     const std::size_t place = text.find(from);
@@ -144,7 +144,7 @@ TEST_F(CaseFile, ProblemsNameTheField) {
     text.replace(place, from.size(), to);
     const auto read = parse_case(text, "bad.json");
     ASSERT_FALSE(read) << to;
-    EXPECT_EQ(read.error().what, what) << read.error().message;
+    EXPECT_EQ(read.error().kind, kind) << read.error().message;
     EXPECT_NE(read.error().message.find("bad.json"), std::string::npos);
     EXPECT_NE(read.error().message.find(field), std::string::npos) << read.error().message;
     EXPECT_EQ(read.error().message.find('\n'), std::string::npos);
@@ -184,13 +184,13 @@ TEST_F(CaseFile, ProblemsNameTheField) {
 }
 
 TEST_F(CaseFile, NotJson) {
-  EXPECT_EQ(parse_case("{", "a").error().what, FileProblem::truncated);
-  EXPECT_EQ(parse_case("}", "a").error().what, FileProblem::malformed);
-  EXPECT_EQ(parse_case("7", "a").error().what, FileProblem::wrong_type);
-  EXPECT_EQ(parse_case("\xff", "a").error().what, FileProblem::malformed);
+  EXPECT_EQ(parse_case("{", "a").error().kind, FileProblem::truncated);
+  EXPECT_EQ(parse_case("}", "a").error().kind, FileProblem::malformed);
+  EXPECT_EQ(parse_case("7", "a").error().kind, FileProblem::wrong_type);
+  EXPECT_EQ(parse_case("\xff", "a").error().kind, FileProblem::malformed);
   // Deep nesting would exhaust the stack of whoever prints it.
-  EXPECT_EQ(parse_case(std::string(1 << 20, '['), "a").error().what, FileProblem::truncated);
-  EXPECT_EQ(parse_case(std::string(1 << 20, '[') + std::string(1 << 20, ']'), "a").error().what,
+  EXPECT_EQ(parse_case(std::string(1 << 20, '['), "a").error().kind, FileProblem::truncated);
+  EXPECT_EQ(parse_case(std::string(1 << 20, '[') + std::string(1 << 20, ']'), "a").error().kind,
             FileProblem::malformed);
 }
 
@@ -202,7 +202,7 @@ TEST_F(CaseFile, FoldersOfCases) {
   ASSERT_TRUE(files);
   ASSERT_EQ(files.value().size(), 2U);
   EXPECT_EQ(files.value()[0].filename(), "a.json");
-  EXPECT_EQ(case_files(folder() / "absent").error().what, FileProblem::cannot_open);
+  EXPECT_EQ(case_files(folder() / "absent").error().kind, FileProblem::cannot_open);
 }
 
 }  // namespace

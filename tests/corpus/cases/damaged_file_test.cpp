@@ -77,7 +77,7 @@ TEST_F(DamagedFile, Compressed) {
 TEST_F(DamagedFile, CutPlyIsNamedTruncated) {
   const std::string good = bytes_written("good.ply");
   for (std::size_t size = 4; size < good.size(); ++size) {
-    EXPECT_EQ(read_ply(good.substr(0, size), "cut.ply").error().what, FileProblem::truncated)
+    EXPECT_EQ(read_ply(good.substr(0, size), "cut.ply").error().kind, FileProblem::truncated)
         << size;
   }
 }

@@ -33,10 +33,10 @@ TEST_F(MeshSequence, FramesOfDifferentFormats) {
 
 TEST_F(MeshSequence, ProblemsNameBothFiles) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  const auto expect = [&](FileProblem what, const std::vector<std::string>& texts) {
+  const auto expect = [&](FileProblem kind, const std::vector<std::string>& texts) {
     const auto sequence = read_sequence(frames(texts));
     ASSERT_FALSE(sequence);
-    EXPECT_EQ(sequence.error().what, what) << sequence.error().message;
+    EXPECT_EQ(sequence.error().kind, kind) << sequence.error().message;
     EXPECT_NE(sequence.error().message.find("frame0.obj"), std::string::npos);
     EXPECT_NE(sequence.error().message.find("frame1.obj"), std::string::npos);
   };
@@ -47,9 +47,9 @@ TEST_F(MeshSequence, ProblemsNameBothFiles) {
 }
 
 TEST_F(MeshSequence, NoFramesAndBadFrames) {
-  EXPECT_EQ(read_sequence({}).error().what, FileProblem::no_frames);
+  EXPECT_EQ(read_sequence({}).error().kind, FileProblem::no_frames);
   const Paths paths = {write("a.obj", obj_tetrahedron), folder() / "absent.obj"};
-  EXPECT_EQ(read_sequence(paths).error().what, FileProblem::cannot_open);
+  EXPECT_EQ(read_sequence(paths).error().kind, FileProblem::cannot_open);
 }
 
 TEST_F(MeshSequence, WrittenFramesReadBackBitByBit) {
@@ -84,7 +84,7 @@ TEST_F(MeshSequence, WhatCannotBeWritten) {
   triangles << 0, 1, 2;
   const auto absent = write_mesh(folder() / "absent" / "a.ply", x, triangles);
   ASSERT_FALSE(absent);
-  EXPECT_EQ(absent.error().what, FileProblem::cannot_write);
+  EXPECT_EQ(absent.error().kind, FileProblem::cannot_write);
   // A folder stands where the file should go: the file beside it must be gone again.
   std::filesystem::create_directories(folder() / "b.ply" / "c");
   ASSERT_FALSE(write_mesh(folder() / "b.ply", x, triangles));
@@ -92,7 +92,7 @@ TEST_F(MeshSequence, WhatCannotBeWritten) {
   EXPECT_EQ(std::distance(begin(files), end(files)), 1);
   const auto blocked = write_sequence(write("file", "x") / "folder", Sequence{triangles, {x}});
   ASSERT_FALSE(blocked);
-  EXPECT_EQ(blocked.error().what, FileProblem::cannot_write);
+  EXPECT_EQ(blocked.error().kind, FileProblem::cannot_write);
 }
 
 }  // namespace

@@ -56,9 +56,9 @@ TEST_F(Obj, DuplicateTrianglesAndUnusedVerticesStay) {
 }
 
 TEST_F(Obj, ProblemsNameFileAndLine) {
-  const auto expect = [&](FileProblem what, std::string_view line, std::string_view text) {
+  const auto expect = [&](FileProblem kind, std::string_view line, std::string_view text) {
     const Problem problem = mesh_problem("bad.obj", text);
-    EXPECT_EQ(problem.what, what) << text << "\n" << problem.message;
+    EXPECT_EQ(problem.kind, kind) << text << "\n" << problem.message;
     EXPECT_NE(problem.message.find("bad.obj"), std::string::npos);
     EXPECT_NE(problem.message.find(line), std::string::npos) << problem.message;
     EXPECT_EQ(problem.message.find('\n'), std::string::npos);
@@ -91,8 +91,8 @@ TEST_F(Obj, NoiseIsMalformed) {
   std::string noise(4000, '\0');
   std::uint32_t state = 1;
   for (char& c : noise) c = static_cast<char>((state = state * 1664525 + 1013904223) >> 24);
-  EXPECT_EQ(mesh_problem("noise.obj", noise).what, FileProblem::malformed);
-  EXPECT_EQ(mesh_problem("noise.bin", noise).what, FileProblem::unknown_format);
+  EXPECT_EQ(mesh_problem("noise.obj", noise).kind, FileProblem::malformed);
+  EXPECT_EQ(mesh_problem("noise.bin", noise).kind, FileProblem::unknown_format);
 }
 
 }  // namespace

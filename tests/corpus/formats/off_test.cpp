@@ -34,9 +34,9 @@ TEST_F(Off, PolygonsAreFannedFromTheirFirstVertex) {
 }
 
 TEST_F(Off, ProblemsNameTheLine) {
-  const auto expect = [&](FileProblem what, std::string_view line, std::string_view text) {
+  const auto expect = [&](FileProblem kind, std::string_view line, std::string_view text) {
     const Problem problem = mesh_problem("bad.off", text);
-    EXPECT_EQ(problem.what, what) << text << "\n" << problem.message;
+    EXPECT_EQ(problem.kind, kind) << text << "\n" << problem.message;
     EXPECT_NE(problem.message.find(line), std::string::npos) << problem.message;
   };
   using enum FileProblem;

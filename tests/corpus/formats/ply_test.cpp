@@ -94,13 +94,13 @@ TEST_F(Ply, PolygonsAreFannedFromTheirFirstVertex) {
 }
 
 TEST_F(Ply, Problems) {
-  const auto expect = [&](FileProblem what, std::string_view from, std::string_view to) {
+  const auto expect = [&](FileProblem kind, std::string_view from, std::string_view to) {
     std::string text(ply_tetrahedron);
     const std::size_t place = text.find(from);
     ASSERT_NE(place, std::string::npos) << from;
     text.replace(place, from.size(), to);
     const Problem problem = mesh_problem("bad.ply", text);
-    EXPECT_EQ(problem.what, what) << to << "\n" << problem.message;
+    EXPECT_EQ(problem.kind, kind) << to << "\n" << problem.message;
     EXPECT_NE(problem.message.find("bad.ply"), std::string::npos) << problem.message;
   };
   using enum FileProblem;
@@ -145,27 +145,27 @@ TEST_F(Ply, NoFaces) {
   EXPECT_EQ(mesh_problem("a.ply",
                          "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
                          "property float y\nproperty float z\nend_header\n0 0 0\n")
-                .what,
+                .kind,
             FileProblem::no_triangles);
 }
 
 TEST_F(Ply, BinaryProblems) {
   const std::string good = binary_tetrahedron(false);
-  EXPECT_EQ(mesh_problem("long.ply", good + "x").what, FileProblem::malformed);
-  EXPECT_EQ(mesh_problem("short.ply", good.substr(0, good.size() - 1)).what,
+  EXPECT_EQ(mesh_problem("long.ply", good + "x").kind, FileProblem::malformed);
+  EXPECT_EQ(mesh_problem("short.ply", good.substr(0, good.size() - 1)).kind,
             FileProblem::truncated);
   std::string nan = good;
   nan.replace(nan.find("end_header\n") + 11 + 1, 4,
               bytes_of(std::numeric_limits<float>::quiet_NaN(), false));
-  EXPECT_EQ(mesh_problem("nan.ply", nan).what, FileProblem::non_finite_coordinate);
+  EXPECT_EQ(mesh_problem("nan.ply", nan).kind, FileProblem::non_finite_coordinate);
   std::string huge = good;
   huge.replace(huge.find("element face 4"), 14, "element face 9223372036854775807");
-  EXPECT_EQ(mesh_problem("huge.ply", huge).what, FileProblem::truncated);
+  EXPECT_EQ(mesh_problem("huge.ply", huge).kind, FileProblem::truncated);
   // A list that claims more items than the file has bytes.
   std::string list = good;
   const std::size_t last_face = list.size() - 14;
   list.replace(last_face, 2, "\xff\xff");
-  EXPECT_EQ(mesh_problem("list.ply", list).what, FileProblem::truncated);
+  EXPECT_EQ(mesh_problem("list.ply", list).kind, FileProblem::truncated);
 }
 
 }  // namespace

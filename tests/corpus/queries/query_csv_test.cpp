@@ -14,10 +14,10 @@ class QueryCsv : public Scratch {
     return text;
   }
 
-  void expect_problem(FileProblem what, std::string_view mention, const std::string& text) const {
+  void expect_problem(FileProblem kind, std::string_view mention, const std::string& text) const {
     const auto queries = read_queries(write("vertex-face/q.csv", text));
     ASSERT_FALSE(queries) << text;
-    EXPECT_EQ(queries.error().what, what) << queries.error().message;
+    EXPECT_EQ(queries.error().kind, kind) << queries.error().message;
     EXPECT_NE(queries.error().message.find(mention), std::string::npos) << queries.error().message;
   }
 };
@@ -61,7 +61,7 @@ TEST_F(QueryCsv, CompressedCrlfAndBlanks) {
 TEST_F(QueryCsv, KindIsToldByThePathOrNamed) {
   const auto unknown = read_queries(write("queries.csv", rows("")));
   ASSERT_FALSE(unknown);
-  EXPECT_EQ(unknown.error().what, FileProblem::unknown_query_kind);
+  EXPECT_EQ(unknown.error().kind, FileProblem::unknown_query_kind);
   // The nearest folder rules.
   const auto near = read_queries(write("edge-edge/vertex-face/q.csv", rows("")));
   ASSERT_TRUE(near);
@@ -85,7 +85,7 @@ TEST_F(QueryCsv, Problems) {
   expect_problem(labels_differ, "line 3", rows(",1", 2) + rows(",0", 6));
   expect_problem(labels_differ, "line 8", rows(",1", 7) + rows("", 1));
   expect_problem(empty_file, "q.csv", "");
-  EXPECT_EQ(read_queries(folder() / "absent-vf.csv").error().what, cannot_open);
+  EXPECT_EQ(read_queries(folder() / "absent-vf.csv").error().kind, cannot_open);
 }
 
 TEST_F(QueryCsv, TruthFile) {
@@ -97,14 +97,14 @@ TEST_F(QueryCsv, TruthFile) {
   const auto problem = [&](const std::string& json) {
     const auto wrong = read_queries(csv, write("wrong.json", json));
     EXPECT_FALSE(wrong) << json;
-    return wrong.error().what;
+    return wrong.error().kind;
   };
   EXPECT_EQ(problem("[true]"), FileProblem::truth_count_differs);
   EXPECT_EQ(problem("[true,1]"), FileProblem::wrong_type);
   EXPECT_EQ(problem("{}"), FileProblem::wrong_type);
   EXPECT_EQ(problem("[true,"), FileProblem::truncated);
   EXPECT_EQ(problem("[true;false]"), FileProblem::malformed);
-  EXPECT_EQ(read_queries(csv, folder() / "absent.json").error().what, FileProblem::cannot_open);
+  EXPECT_EQ(read_queries(csv, folder() / "absent.json").error().kind, FileProblem::cannot_open);
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ TEST(Scenes, AUsersMeshIsDeformed) {
     const auto scene = make_scene(info.name, {0, 3, sheet});
     ASSERT_EQ(scene.has_value(), info.takes_mesh);
     if (!scene) {
-      EXPECT_EQ(scene.error().what, FileProblem::wrong_scene_option);
+      EXPECT_EQ(scene.error().kind, FileProblem::wrong_scene_option);
       continue;
     }
     EXPECT_EQ(scene.value().triangles, sheet.triangles);
@@ -142,11 +142,11 @@ TEST(Scenes, DeformationsFollowTheMeshToAnyPlaceAndScale) {
 TEST(Scenes, Problems) {
   const auto unknown = make_scene("nonsense", {});
   ASSERT_FALSE(unknown);
-  EXPECT_EQ(unknown.error().what, FileProblem::unknown_scene);
+  EXPECT_EQ(unknown.error().kind, FileProblem::unknown_scene);
   EXPECT_NE(unknown.error().message.find("arm-in-box"), std::string::npos);
   const auto wrong = [](const SceneOptions& options) {
     const auto scene = make_scene("bend", options);
-    return !scene && scene.error().what == FileProblem::wrong_scene_option;
+    return !scene && scene.error().kind == FileProblem::wrong_scene_option;
   };
   EXPECT_TRUE(wrong({-1, 0, {}}));
   EXPECT_TRUE(wrong({2'000'000'000, 0, {}}));

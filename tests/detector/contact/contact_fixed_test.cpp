@@ -63,19 +63,19 @@ void compare(const FourPoints& query, Tally& tally) {
   ASSERT_EQ(fixed.time, *general);
 }
 
-void expect_agreement(const char* what, int queries, int most_open, const auto& next) {
+void expect_agreement(const char* queries_named, int queries, int most_open, const auto& next) {
   Tally tally;
   for (int i = 0; i < queries; ++i) {
     compare(next(), tally);
     if (testing::Test::HasFatalFailure()) {
-      std::printf("%s, query %d\n", what, i);
+      std::printf("%s, query %d\n", queries_named, i);
       return;
     }
   }
-  std::printf("%s: %d queries, %d contacts, %d open\n", what, tally.queries, tally.contacts,
-              tally.open);
-  EXPECT_GT(tally.contacts, queries / 50) << what;
-  EXPECT_LE(tally.open, most_open) << what;
+  std::printf("%s: %d queries, %d contacts, %d open\n", queries_named, tally.queries,
+              tally.contacts, tally.open);
+  EXPECT_GT(tally.contacts, queries / 50) << queries_named;
+  EXPECT_LE(tally.open, most_open) << queries_named;
 }
 
 TEST(ContactFixed, AgreesWithTheGeneralPath) {

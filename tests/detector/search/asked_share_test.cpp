@@ -14,12 +14,13 @@ TEST(AskedShare, OfASmallMeshIsExact) {
   const Topology mesh = make_topology(tests::octahedron(), 6);
   const Positions x = tests::octahedron_positions(1);
   BoundingVolumeTree tree(mesh, x);
-  tree.refit(mesh, x, x);
+  tree.refit(mesh, {x, x});
   const Stages stages = standard_stages({Culling::view_point});
   SearchMemory memory(mesh, tree);
-  CandidateSearch search(
-      {*stages.pair_rule, *stages.marking, *stages.pair_search, *stages.elementary}, mesh, tree,
-      memory, x, x, never_stops);
+  PacedStop never(never_stops);
+  const auto mesh_search = stages.pair_search->prepare(mesh, tree, never);
+  CandidateSearch search({*stages.pair_rule, *stages.marking, *mesh_search, *stages.elementary},
+                         mesh, tree, memory, {x, x}, never_stops);
   for (std::size_t negative = 0; negative < mesh.triangles.size(); ++negative) {
     std::vector<TriangleType> types(mesh.triangles.size(), TriangleType::positive);
     types[negative] = TriangleType::negative;

@@ -200,7 +200,7 @@ TEST(Search, L3_SkippingGoesDownToTheOnlyPartnerAtOnce) {
   SearchMeshes random(4);
   const MovingMesh mesh = random.sheets(1, 5, false);
   BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
-  tree.refit(mesh.topology, mesh.x_t0, mesh.x_t1);
+  tree.refit(mesh.topology, {mesh.x_t0, mesh.x_t1});
   const PairTables tables = PairRule().candidates();
   for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t) {
     Marks marks(tree);

@@ -175,7 +175,7 @@ TEST(FloatGrid, ScalesAllAxesByTheLongest) {
   for (Eigen::Index longest = 0; longest < 3; ++longest) {
     Positions x = positions({{-1, -1, -1}, {1, 1, 1}});
     x.col(longest) *= 1000;
-    const FloatGrid grid(x, x);
+    const FloatGrid grid({x, x});
     for (std::int32_t v = 0; v < 2; ++v) {
       for (const double y : grid.scaled(x, v)) EXPECT_LE(std::abs(y), 2) << longest;
     }
@@ -189,11 +189,11 @@ TEST(FloatGrid, IsTheSameForAnyNumberOfThreads) {
     for (const double far : {-1000., 1000.}) {
       Positions x = Positions::Constant(count, 3, .25);
       x(extreme, 1) = far;
-      const FloatGrid alone(x, x);
+      const FloatGrid alone({x, x});
       for (const std::uint32_t threads : {2u, 3u, 8u}) {
         const Workers workers(threads);
         PacedStop pace(never_stops, workers);
-        const FloatGrid shared(x, x, &pace);
+        const FloatGrid shared({x, x}, &pace);
         for (const std::int32_t v : {0, static_cast<std::int32_t>(extreme)})
           EXPECT_EQ(shared.scaled(x, v), alone.scaled(x, v)) << extreme << " " << threads;
       }

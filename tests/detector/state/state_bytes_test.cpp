@@ -243,13 +243,13 @@ TEST(StateBytes, WhatContradictsTheMeshIsRefused) {
   Detector detector = passed(Culling::view_line);
   const StateFields right = full_state();
   ASSERT_FALSE(detector.restore(SavedState(right)));
-  const auto expect_damaged = [&](const char* what, auto change) {
+  const auto expect_damaged = [&](const char* damage, auto change) {
     StateFields wrong = right;
     change(wrong);
     const auto problem = detector.restore(SavedState(wrong));
-    ASSERT_TRUE(problem) << what;
-    EXPECT_EQ(problem->error, InputError::damaged_state) << what;
-    EXPECT_EQ(detector.state().bytes(), bytes_of(right)) << what;
+    ASSERT_TRUE(problem) << damage;
+    EXPECT_EQ(problem->error, InputError::damaged_state) << damage;
+    EXPECT_EQ(detector.state().bytes(), bytes_of(right)) << damage;
   };
   const double nan = std::nan("");
   expect_damaged("positions", [](auto& s) { s.committed->positions.conservativeResize(5, 3); });

@@ -9,8 +9,8 @@ namespace {
 
 using detector::Positions;
 using detector::ViewPrimitive;
-using test::kTetrahedron;
 using test::positions;
+using test::tetrahedron_triangles;
 using test::triangles;
 
 Positions tetrahedron(const detector::Point& top) {
@@ -18,8 +18,8 @@ Positions tetrahedron(const detector::Point& top) {
 }
 
 TEST(Embedding, AtTheStart) {
-  EXPECT_TRUE(embedded(tetrahedron({1, 1, 3}), kTetrahedron));
-  EXPECT_FALSE(embedded(tetrahedron({1, 1, 0}), kTetrahedron));
+  EXPECT_TRUE(embedded(tetrahedron({1, 1, 3}), tetrahedron_triangles));
+  EXPECT_FALSE(embedded(tetrahedron({1, 1, 0}), tetrahedron_triangles));
   EXPECT_FALSE(embedded(test::intersecting_octahedron().x_t0, test::intersecting_octahedron().f));
   EXPECT_FALSE(embedded(tetrahedron({1, 1, 3}), triangles({{0, 1, 2}, {2, 1, 0}})));
 }
@@ -27,12 +27,12 @@ TEST(Embedding, AtTheStart) {
 TEST(Embedding, AtRationalTimes) {
   // The top is in the base at t=1/3, which is no double.
   const auto from = tetrahedron({1, 1, 1}), to = tetrahedron({1, 1, -2});
-  EXPECT_TRUE(embedded_at({from, to}, kTetrahedron, {0, 1}));
-  EXPECT_TRUE(embedded_at({from, to}, kTetrahedron, {333333333, 1000000000}));
-  EXPECT_FALSE(embedded_at({from, to}, kTetrahedron, {1, 3}));
-  EXPECT_FALSE(embedded_at({from, to}, kTetrahedron, {2, 6}));
-  EXPECT_TRUE(embedded_at({from, to}, kTetrahedron, {333333334, 1000000000}));
-  EXPECT_TRUE(embedded_at({from, to}, kTetrahedron, {1, 1}));
+  EXPECT_TRUE(embedded_at({from, to}, tetrahedron_triangles, {0, 1}));
+  EXPECT_TRUE(embedded_at({from, to}, tetrahedron_triangles, {333333333, 1000000000}));
+  EXPECT_FALSE(embedded_at({from, to}, tetrahedron_triangles, {1, 3}));
+  EXPECT_FALSE(embedded_at({from, to}, tetrahedron_triangles, {2, 6}));
+  EXPECT_TRUE(embedded_at({from, to}, tetrahedron_triangles, {333333334, 1000000000}));
+  EXPECT_TRUE(embedded_at({from, to}, tetrahedron_triangles, {1, 1}));
 }
 
 TEST(Embedding, PairsThatShareAnEdgeOrAVertex) {
@@ -44,7 +44,7 @@ TEST(Embedding, PairsThatShareAnEdgeOrAVertex) {
 }
 
 bool meets(const ViewPrimitive& primitive, const Positions& to) {
-  return meets_primitive({tetrahedron({0, 0, 4}), to}, kTetrahedron, primitive);
+  return meets_primitive({tetrahedron({0, 0, 4}), to}, tetrahedron_triangles, primitive);
 }
 
 bool meets(const ViewPrimitive& primitive) { return meets(primitive, tetrahedron({0, 0, 4})); }

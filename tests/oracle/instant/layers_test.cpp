@@ -14,20 +14,20 @@ namespace {
 
 using detector::Positions;
 using detector::Triangles;
-using test::kTetrahedron;
 using test::positions;
+using test::tetrahedron_triangles;
 using test::triangles;
 using Flags = std::vector<std::uint8_t>;
 
-const Triangles kNone(0, 3);
+const Triangles no_triangles(0, 3);
 
 LayerState closed_layers(const Positions& x, const Triangles& f) {
-  return layers_at(Instant(x), f, kNone);
+  return layers_at(Instant(x), f, no_triangles);
 }
 
 TEST(Layers, BoundaryOfASolid) {
   const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}});
-  const LayerState state = closed_layers(x, kTetrahedron);
+  const LayerState state = closed_layers(x, tetrahedron_triangles);
   EXPECT_EQ(state.common, (std::vector<std::optional<Layer>>{Layer{1, 0}}));
   EXPECT_EQ(state.clean, (Flags{1, 1, 1, 1}));
   EXPECT_EQ(state.piece, (std::vector<std::int32_t>{0, 0, 0, 0}));
@@ -35,7 +35,7 @@ TEST(Layers, BoundaryOfASolid) {
 
 TEST(Layers, TurnedOverSolidIsCleanToo) {
   const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, -4}});
-  const LayerState state = closed_layers(x, kTetrahedron);
+  const LayerState state = closed_layers(x, tetrahedron_triangles);
   EXPECT_EQ(state.common[0], (Layer{0, -1}));
   EXPECT_EQ(state.clean, (Flags{1, 1, 1, 1}));
 }
@@ -43,7 +43,7 @@ TEST(Layers, TurnedOverSolidIsCleanToo) {
 TEST(Layers, ContactsMakeDirty) {
   // The collapsed tetrahedron touches itself everywhere: nothing has a layer.
   const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}});
-  const LayerState state = closed_layers(x, kTetrahedron);
+  const LayerState state = closed_layers(x, tetrahedron_triangles);
   EXPECT_EQ(state.touched, (Flags{1, 1, 1, 1}));
   EXPECT_EQ(state.common[0], std::nullopt);
   EXPECT_EQ(state.clean, (Flags{0, 0, 0, 0}));
@@ -55,7 +55,7 @@ TEST(Layers, L10_ContactOfTwoComponentsIsNotTheirOwn) {
   const auto x = positions(
       {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {1, 1, -1}, {5, 1, -1}, {1, 5, -1}, {1, 1, 3}});
   Triangles f(8, 3);
-  f << kTetrahedron, (kTetrahedron.array() + 4).matrix();
+  f << tetrahedron_triangles, (tetrahedron_triangles.array() + 4).matrix();
   EXPECT_FALSE(contacts_at(Instant(x), f).empty());
   const LayerState state = closed_layers(x, f);
   EXPECT_EQ(state.component, (std::vector<std::int32_t>{0, 0, 0, 0, 1, 1, 1, 1}));
@@ -84,7 +84,7 @@ TEST(Layers, GhostsConnectAndTouch) {
 TEST(Layers, RepeatedIndexIsNeverClean) {
   const auto x = positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {9, 9, 9}, {9, 9, 8}});
   Triangles f(5, 3);
-  f << kTetrahedron, triangles({{4, 4, 5}});
+  f << tetrahedron_triangles, triangles({{4, 4, 5}});
   EXPECT_EQ(closed_layers(x, f).clean, (Flags{1, 1, 1, 1, 0}));
 }
 
@@ -99,7 +99,7 @@ TEST(Layers, L9_LayersContinueAcrossLinks) {
     for (int t = 0; t < f.rows(); ++t) {
       for (int k = 0; k < 3; ++k) f(t, k) = random.below(vertices);
     }
-    if (i % 2 == 0) f.topRows(4) = kTetrahedron;
+    if (i % 2 == 0) f.topRows(4) = tetrahedron_triangles;
     const auto loops = boundary_loops(f);
     const Triangles ghosts = ghost_triangles(loops, vertices);
     Positions x(vertices + static_cast<Eigen::Index>(loops.size()), 3);

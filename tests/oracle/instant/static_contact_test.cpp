@@ -28,7 +28,7 @@ TEST(StaticContact, AgreesWithTheStepQueries) {
   test::Random random(11);
   int met = 0, pierced = 0;
   for (int i = 0; i < 30000; ++i) {
-    const auto kind = static_cast<Coordinates>(i % test::kCoordinateKinds);
+    const auto kind = static_cast<Coordinates>(i % test::coordinate_kinds);
     const detector::Positions x = random_rows(random, kind, 5);
     const Instant instant(x);
     const StaticPoints points = instant.points();
@@ -69,7 +69,7 @@ std::vector<detector::TrianglePair> judged(const detector::Positions& x,
 TEST(InstantContacts, AreThoseOfAStepWithoutMotion) {
   test::Random random(12);
   for (int i = 0; i < 600; ++i) {
-    const auto kind = static_cast<Coordinates>(i % test::kCoordinateKinds);
+    const auto kind = static_cast<Coordinates>(i % test::coordinate_kinds);
     const detector::Positions x = random_rows(random, kind, 9);
     const detector::Triangles f = random_triangles(random, 9, 8);
     const auto expected = judged(x, f);

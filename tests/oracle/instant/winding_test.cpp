@@ -11,15 +11,15 @@ namespace {
 
 using detector::Positions;
 using detector::Triangles;
-using test::kTetrahedron;
 using test::positions;
+using test::tetrahedron_triangles;
 using test::triangles;
 
 Positions tetrahedron() { return positions({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}); }
 
 TEST(Winding, InsideOutsideOnTheSurface) {
   const Instant instant(tetrahedron());
-  const WindingField field(instant, kTetrahedron);
+  const WindingField field(instant, tetrahedron_triangles);
   EXPECT_EQ(field.at(detector::Point{0.5, 0.5, 0.5}), 1);
   EXPECT_EQ(field.at(detector::Point{-1, 0.5, 0.5}), 0);
   EXPECT_EQ(field.at(detector::Point{3, 3, 3}), 0);
@@ -33,7 +33,7 @@ TEST(Winding, InsideOutsideOnTheSurface) {
 
 TEST(Winding, RationalPoints) {
   const Instant instant(tetrahedron());
-  const WindingField field(instant, kTetrahedron);
+  const WindingField field(instant, tetrahedron_triangles);
   const mpq_class third(1, 3), four_thirds(4, 3);
   EXPECT_EQ(field.at(RationalPoint{third, third, third}), 1);
   EXPECT_EQ(field.at(RationalPoint{four_thirds, four_thirds, four_thirds}), std::nullopt);
@@ -41,7 +41,7 @@ TEST(Winding, RationalPoints) {
 }
 
 TEST(Winding, TurnedOverIsNegative) {
-  Triangles turned = kTetrahedron;
+  Triangles turned = tetrahedron_triangles;
   turned.col(0).swap(turned.col(1));
   const Instant instant(tetrahedron());
   EXPECT_EQ(WindingField(instant, turned).at(detector::Point{0.5, 0.5, 0.5}), -1);

@@ -13,21 +13,21 @@ using test::triangles;
 using Edges = std::vector<DirectedEdge>;
 using Loops = std::vector<Loop>;
 
-const Triangles kNone(0, 3);
+const Triangles no_triangles(0, 3);
 
 TEST(Loops, ClosedMeshHasNone) {
   const Triangles f = test::turning_tetrahedron().f;
   EXPECT_TRUE(unmatched_edges(f).empty());
   EXPECT_TRUE(boundary_loops(f).empty());
-  EXPECT_TRUE(closes(f, kNone));
-  EXPECT_TRUE(closes(kNone, kNone));
+  EXPECT_TRUE(closes(f, no_triangles));
+  EXPECT_TRUE(closes(no_triangles, no_triangles));
 }
 
 TEST(Loops, OneTriangle) {
   const Triangles f = triangles({{4, 2, 7}});
   EXPECT_EQ(unmatched_edges(f), (Edges{{2, 7}, {4, 2}, {7, 4}}));
   EXPECT_EQ(boundary_loops(f), (Loops{{2, 7, 4}}));
-  EXPECT_FALSE(closes(f, kNone));
+  EXPECT_FALSE(closes(f, no_triangles));
   const Triangles ghosts = ghost_triangles(boundary_loops(f), 8);
   EXPECT_EQ(ghosts, triangles({{7, 2, 8}, {4, 7, 8}, {2, 4, 8}}));
   EXPECT_TRUE(closes(f, ghosts));
@@ -38,7 +38,7 @@ TEST(Loops, FourTrianglesAtAMatchedEdge) {
   EXPECT_TRUE(closes(
       triangles(
           {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 1}, {0, 1, 5}, {0, 5, 4}, {1, 4, 5}}),
-      kNone));
+      no_triangles));
 }
 
 TEST(Loops, EdgeUsedTwiceMoreIsUnmatchedTwice) {
@@ -64,7 +64,7 @@ TEST(Loops, FlippedNeighbourIsUnmatchedTwice) {
 }
 
 TEST(Loops, RepeatedIndexMatchesItself) {
-  EXPECT_TRUE(closes(triangles({{3, 3, 1}}), kNone));
+  EXPECT_TRUE(closes(triangles({{3, 3, 1}}), no_triangles));
   EXPECT_TRUE(unmatched_edges(triangles({{3, 3, 1}, {2, 2, 2}})).empty());
 }
 

@@ -253,14 +253,14 @@ Times brute_force(const Step& step) {
 
 TEST(JudgeStep, BruteForceAgrees) {
   std::size_t pairs = 0;
-  constexpr int kMeshes = 12;
-  for (int seed = 0; seed < kMeshes; ++seed) {
+  constexpr int mesh_count = 12;
+  for (int seed = 0; seed < mesh_count; ++seed) {
     const Step step = random_soup(100 + seed, 14, 12);
     const Times expected = brute_force(step);
     pairs += expected.size();
     expect_pairs(judge(step), expected);
   }
-  std::printf("%d meshes, %zu pairs in contact\n", kMeshes, pairs);
+  std::printf("%d meshes, %zu pairs in contact\n", mesh_count, pairs);
 }
 
 TEST(JudgeStep, JobsDoNotChangeAByte) {

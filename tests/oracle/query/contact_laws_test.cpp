@@ -21,7 +21,7 @@ using detector::Want;
 using test::Coordinates;
 using test::Random;
 
-constexpr int kQueriesPerKind = 300;
+constexpr int queries_per_kind = 300;
 
 struct FeatureQuery {
   FourPoints q;
@@ -36,8 +36,8 @@ template <class Law>
 void for_random_queries(std::uint64_t seed, const Law& law) {
   Random random(seed);
   int queries = 0, contacts = 0;
-  for (int kind = 0; kind < test::kCoordinateKinds; ++kind) {
-    for (int i = 0; i < kQueriesPerKind; ++i) {
+  for (int kind = 0; kind < test::coordinate_kinds; ++kind) {
+    for (int i = 0; i < queries_per_kind; ++i) {
       FeatureQuery query;
       query.q.first_group = 1 + i % 2;
       for (MovingPoint& p : query.q.x) {

@@ -17,10 +17,10 @@ using detector::Want;
 
 MovingPoint rest(const Point& p) { return {p, p}; }
 
-constexpr std::array<Point, 3> kFace = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+constexpr std::array<Point, 3> resting_face = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
 
 VertexFace over_resting_face(const Point& from, const Point& to) {
-  return {{from, to}, {rest(kFace[0]), rest(kFace[1]), rest(kFace[2])}};
+  return {{from, to}, {rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])}};
 }
 
 struct Expected {
@@ -52,7 +52,7 @@ TimeEnclosure at(double t) { return {t, t}; }
 // A time that is no double, between t and the next.
 TimeEnclosure around(double t) { return {t, std::nextafter(t, 2)}; }
 
-constexpr double kBelowThird = 0x1.5555555555555p-2;
+constexpr double below_third = 0x1.5555555555555p-2;
 
 TEST(ContactAxis, OrderedAtBothEnds) {
   expect(over_resting_face({1, 1, 1}, {1, 1, 0.5}), {false, Rung::axis});
@@ -73,13 +73,13 @@ TEST(ContactInterval, PassesBeside) {
 }
 
 TEST(ContactInterval, CrossesInside) {
-  expect(over_resting_face({1, 1, 1}, {1, 1, -2}), {true, Rung::interval, around(kBelowThird)});
+  expect(over_resting_face({1, 1, 1}, {1, 1, -2}), {true, Rung::interval, around(below_third)});
 }
 
 TEST(ContactInterval, EdgesCross) {
   expect(EdgeEdge{{rest({-1, 0, 0}), rest({1, 0.25, 0})},
                   {MovingPoint{{0.125, -1, 1}, {0.125, -1, -2}}, {{0, 1, 1}, {0, 1, -2}}}},
-         {true, Rung::interval, around(kBelowThird)});
+         {true, Rung::interval, around(below_third)});
 }
 
 TEST(ContactInterval, FirstOfThreeZeros) {
@@ -170,7 +170,7 @@ TEST(ContactDegenerate, CoplanarThroughoutInAMovingPlane) {
 TEST(ContactDegenerate, CollinearThroughout) {
   const EdgeEdge meet = {{MovingPoint{{0, 0, 0}, {3, 3, 3}}, {{1, 1, 1}, {4, 4, 4}}},
                          {rest({2, 2, 2}), rest({9, 9, 9})}};
-  expect(meet, {true, Rung::algebraic, around(kBelowThird)});
+  expect(meet, {true, Rung::algebraic, around(below_third)});
   const EdgeEdge apart = {{rest({0, 0, 0}), rest({1, 1, 1})}, {rest({1, 1, 1}), rest({2, 2, 2})}};
   expect(apart, {true, Rung::algebraic, at(0)});
   const EdgeEdge gap = {{rest({0, 0, 0}), rest({1, 1, 1})}, {rest({2, 2, 2}), rest({3, 3, 3})}};

@@ -21,8 +21,8 @@ using detector::VertexFace;
 using detector::Want;
 using test::Random;
 
-constexpr double kLeast = std::numeric_limits<double>::denorm_min();
-constexpr double kGreatest = std::numeric_limits<double>::max();
+constexpr double least_double = std::numeric_limits<double>::denorm_min();
+constexpr double greatest_double = std::numeric_limits<double>::max();
 
 VertexFace through_face(double size, double from, double to) {
   auto rest = [](double x, double y) { return MovingPoint{{x, y, 0}, {x, y, 0}}; };
@@ -30,31 +30,33 @@ VertexFace through_face(double size, double from, double to) {
 }
 
 TEST(ExtremeNumbers, LeastDenormals) {
-  const ContactAnswer hit =
-      vertex_face_contact(through_face(kLeast, kLeast, -kLeast), Want::first_time);
+  const ContactAnswer hit = vertex_face_contact(
+      through_face(least_double, least_double, -least_double), Want::first_time);
   EXPECT_TRUE(hit.contact);
   EXPECT_EQ(hit.first, (detector::TimeEnclosure{0.5, 0.5}));
-  EXPECT_FALSE(
-      vertex_face_contact(through_face(kLeast, 2 * kLeast, kLeast), Want::first_time).contact);
+  EXPECT_FALSE(vertex_face_contact(through_face(least_double, 2 * least_double, least_double),
+                                   Want::first_time)
+                   .contact);
 }
 
 TEST(ExtremeNumbers, GreatestDoubles) {
-  const ContactAnswer hit =
-      vertex_face_contact(through_face(kGreatest, kGreatest, -kGreatest), Want::first_time);
+  const ContactAnswer hit = vertex_face_contact(
+      through_face(greatest_double, greatest_double, -greatest_double), Want::first_time);
   EXPECT_TRUE(hit.contact);
   EXPECT_EQ(hit.first, (detector::TimeEnclosure{0.5, 0.5}));
   EXPECT_EQ(static_cast<int>(hit.rung), static_cast<int>(Rung::algebraic));
 }
 
 TEST(ExtremeNumbers, DenormalBesideGreatest) {
-  // The crossing is at kLeast / (kLeast + kGreatest), far below the least double: between 0 and it.
+  // The crossing is at least_double / (least_double + greatest_double). That is far below the
+  // least double, so the time is between 0 and it.
   const ContactAnswer hit =
-      vertex_face_contact(through_face(1, kLeast, -kGreatest), Want::first_time);
+      vertex_face_contact(through_face(1, least_double, -greatest_double), Want::first_time);
   EXPECT_TRUE(hit.contact);
-  EXPECT_EQ(hit.first, (detector::TimeEnclosure{0, kLeast}));
+  EXPECT_EQ(hit.first, (detector::TimeEnclosure{0, least_double}));
   // And from the other side: within 2^-2000 of 1.
   const ContactAnswer late =
-      vertex_face_contact(through_face(1, kGreatest, -kLeast), Want::first_time);
+      vertex_face_contact(through_face(1, greatest_double, -least_double), Want::first_time);
   EXPECT_TRUE(late.contact);
   EXPECT_EQ(late.first, (detector::TimeEnclosure{std::nextafter(1.0, 0.0), 1}));
 }
@@ -64,18 +66,18 @@ TEST(ExtremeNumbers, OneDenormalDecides) {
   VertexFace touch = through_face(1, 1, -1);
   touch.vertex = {{0, 1, 1}, {0, 1, -1}};
   EXPECT_TRUE(vertex_face_contact(touch, Want::yes_no).contact);
-  touch.vertex = {{kLeast, 1, 1}, {kLeast, 1, -1}};
+  touch.vertex = {{least_double, 1, 1}, {least_double, 1, -1}};
   const ContactAnswer miss = vertex_face_contact(touch, Want::yes_no);
   EXPECT_FALSE(miss.contact);
-  touch.vertex = {{kLeast, 1, 1}, {-kLeast, 1, -1}};
+  touch.vertex = {{least_double, 1, 1}, {-least_double, 1, -1}};
   EXPECT_TRUE(vertex_face_contact(touch, Want::yes_no).contact);
 }
 
 TEST(ExtremeNumbers, RandomExponentsKeepTheLaws) {
   Random random(21);
   int contacts = 0;
-  constexpr int kQueries = 60;
-  for (int i = 0; i < kQueries; ++i) {
+  constexpr int query_count = 60;
+  for (int i = 0; i < query_count; ++i) {
     detector::EdgeEdge q;
     for (MovingPoint* p : {&q.a[0], &q.a[1], &q.b[0], &q.b[1]}) {
       for (int k = 0; k < 3; ++k) {
@@ -92,13 +94,13 @@ TEST(ExtremeNumbers, RandomExponentsKeepTheLaws) {
     for (MovingPoint* p : {&q.a[0], &q.a[1], &q.b[0], &q.b[1]}) std::swap(p->t0, p->t1);
     EXPECT_EQ(edge_edge_contact(q, Want::yes_no).contact, answer.contact) << i;
   }
-  std::printf("%d queries, %d in contact\n", kQueries, contacts);
+  std::printf("%d queries, %d in contact\n", query_count, contacts);
 }
 
 TEST(ProcessorState, IsExactAndStaysSo) {
   EXPECT_TRUE(processor_state_is_exact());
   (void)vertex_face_contact(through_face(1, 1, -2), Want::first_time);
-  (void)vertex_face_contact(through_face(kGreatest, 1, -2), Want::first_time);
+  (void)vertex_face_contact(through_face(greatest_double, 1, -2), Want::first_time);
   EXPECT_TRUE(processor_state_is_exact());
   EXPECT_EQ(std::fegetround(), FE_TONEAREST);
 }
@@ -113,10 +115,10 @@ TEST(ProcessorState, OtherRoundingIsSeen) {
 #if defined(__SSE2__)
 TEST(ProcessorState, FlushedDenormalsAreSeen) {
   const unsigned before = _mm_getcsr();
-  constexpr unsigned kFlushToZero = 1U << 15, kDenormalsAreZero = 1U << 6;
-  _mm_setcsr(before | kFlushToZero);
+  constexpr unsigned flush_to_zero = 1U << 15, denormals_are_zero = 1U << 6;
+  _mm_setcsr(before | flush_to_zero);
   const bool flushed = processor_state_is_exact();
-  _mm_setcsr(before | kDenormalsAreZero);
+  _mm_setcsr(before | denormals_are_zero);
   const bool read_as_zero = processor_state_is_exact();
   _mm_setcsr(before);
   EXPECT_FALSE(flushed);

@@ -12,29 +12,29 @@ namespace {
 using detector::Point;
 using Face = std::array<Point, 3>;
 
-constexpr Face kPiercedFace = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+constexpr Face pierced_face = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
 
 TEST(Piercing, ThroughTheInside) {
-  EXPECT_TRUE(segment_pierces_triangle({1, 1, -1}, {1, 1, 1}, kPiercedFace));
-  EXPECT_TRUE(segment_pierces_triangle({1, 1, 1}, {1, 1, -1}, kPiercedFace));
+  EXPECT_TRUE(segment_pierces_triangle({1, 1, -1}, {1, 1, 1}, pierced_face));
+  EXPECT_TRUE(segment_pierces_triangle({1, 1, 1}, {1, 1, -1}, pierced_face));
 }
 
 TEST(Piercing, Beside) {
-  EXPECT_FALSE(segment_pierces_triangle({3, 3, -1}, {3, 3, 1}, kPiercedFace));
-  EXPECT_FALSE(segment_pierces_triangle({1, 1, 1}, {1, 1, 2}, kPiercedFace));
+  EXPECT_FALSE(segment_pierces_triangle({3, 3, -1}, {3, 3, 1}, pierced_face));
+  EXPECT_FALSE(segment_pierces_triangle({1, 1, 1}, {1, 1, 2}, pierced_face));
 }
 
 TEST(Piercing, TouchingIsNotPiercing) {
-  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 1}, kPiercedFace));   // end on the face
-  EXPECT_FALSE(segment_pierces_triangle({2, 0, -1}, {2, 0, 1}, kPiercedFace));  // through an edge
-  EXPECT_FALSE(segment_pierces_triangle({4, 0, -1}, {4, 0, 1}, kPiercedFace));  // through a corner
-  EXPECT_FALSE(segment_pierces_triangle({-1, 1, 0}, {5, 1, 0}, kPiercedFace));  // in the plane
+  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 1}, pierced_face));   // end on the face
+  EXPECT_FALSE(segment_pierces_triangle({2, 0, -1}, {2, 0, 1}, pierced_face));  // through an edge
+  EXPECT_FALSE(segment_pierces_triangle({4, 0, -1}, {4, 0, 1}, pierced_face));  // through a corner
+  EXPECT_FALSE(segment_pierces_triangle({-1, 1, 0}, {5, 1, 0}, pierced_face));  // in the plane
 }
 
 TEST(Piercing, DegenerateIsNotPiercing) {
   EXPECT_FALSE(
       segment_pierces_triangle({1, 0, -1}, {1, 0, 1}, {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}));
-  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 0}, kPiercedFace));
+  EXPECT_FALSE(segment_pierces_triangle({1, 1, 0}, {1, 1, 0}, pierced_face));
 }
 
 TEST(Piercing, OneUlpDecides) {
@@ -47,8 +47,8 @@ TEST(Piercing, OneUlpDecides) {
 TEST(Piercing, ScalesOfAllDoubles) {
   test::Random random(31);
   int pierced = 0;
-  constexpr int kQueries = 2000;
-  for (int i = 0; i < kQueries; ++i) {
+  constexpr int query_count = 2000;
+  for (int i = 0; i < query_count; ++i) {
     std::array<Point, 5> x;
     for (Point& p : x) {
       for (double& c : p) c = i % 2 == 0 ? random.unit() : random.integer(3);
@@ -64,7 +64,7 @@ TEST(Piercing, ScalesOfAllDoubles) {
       EXPECT_EQ(segment_pierces_triangle(y[0], y[1], {y[2], y[3], y[4]}), expected) << i;
     }
   }
-  std::printf("%d queries, %d pierced\n", kQueries, pierced);
+  std::printf("%d queries, %d pierced\n", query_count, pierced);
   EXPECT_GT(pierced, 0);
 }
 

@@ -18,10 +18,10 @@ enum class QueryKind {
   near_grazing,      // the same where the touch is tangential
   near_contact_far,  // near_contact, away from the origin
 };
-constexpr int kQueryKinds = 7;
+constexpr int query_kinds = 7;
 
 inline const char* name_of(QueryKind kind) {
-  constexpr std::array<const char*, kQueryKinds> names = {
+  constexpr std::array<const char*, query_kinds> names = {
       "generic",      "mesh-like",    "small integers",        "exact contact",
       "near contact", "near grazing", "near contact, far off",
   };

@@ -27,10 +27,11 @@ using test::vertex_face;
 
 MovingPoint rest(const Point& p) { return {p, p}; }
 
-constexpr std::array<Point, 3> kFace = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
+constexpr std::array<Point, 3> resting_face = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
 
 detector::Decision over_resting_face(const Point& from, const Point& to) {
-  return referee(VertexFace{{from, to}, {rest(kFace[0]), rest(kFace[1]), rest(kFace[2])}});
+  return referee(VertexFace{{from, to},
+                            {rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])}});
 }
 
 TEST(Referee, VertexThroughAFace) {
@@ -53,7 +54,8 @@ TEST(Referee, AskedUpToATime) {
   const auto up_to = [](const VertexFace& query, double until) {
     return referee(query, RefereeOptions{.until = until});
   };
-  const VertexFace half{{{1, 1, 1}, {1, 1, -1}}, {rest(kFace[0]), rest(kFace[1]), rest(kFace[2])}};
+  const VertexFace half{{{1, 1, 1}, {1, 1, -1}},
+                        {rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])}};
   EXPECT_EQ(up_to(half, 1), detector::Decision::yes);
   EXPECT_EQ(up_to(half, .5), detector::Decision::yes);
   EXPECT_EQ(up_to(half, .75), detector::Decision::yes);
@@ -97,15 +99,15 @@ TEST(Referee, NoMotion) {
 }
 
 TEST(Referee, ExtremeNumbers) {
-  constexpr double kHuge = 0x1.fffffffffffffp1023, kTiny = 0x1p-1074;
+  constexpr double huge = 0x1.fffffffffffffp1023, tiny = 0x1p-1074;
   const auto scaled = [](double s, double z) {
     return referee(VertexFace{{{s / 4, s / 4, z}, {s / 4, s / 4, -z}},
                               {rest({-s, -s, 0}), rest({s, -s, 0}), rest({0, s, 0})}});
   };
-  EXPECT_EQ(scaled(kHuge, kHuge), detector::Decision::yes);
-  EXPECT_EQ(scaled(4 * kTiny, kTiny), detector::Decision::yes);
-  EXPECT_EQ(scaled(kHuge, kTiny), detector::Decision::yes);
-  EXPECT_EQ(over_resting_face({1, 1, kTiny}, {1, 1, kHuge}), detector::Decision::no);
+  EXPECT_EQ(scaled(huge, huge), detector::Decision::yes);
+  EXPECT_EQ(scaled(4 * tiny, tiny), detector::Decision::yes);
+  EXPECT_EQ(scaled(huge, tiny), detector::Decision::yes);
+  EXPECT_EQ(over_resting_face({1, 1, tiny}, {1, 1, huge}), detector::Decision::no);
 }
 
 // Within a plane, a flat face sweeps over a vertex at an irrational time: coplanar throughout, so
@@ -193,7 +195,7 @@ Tally compare_with_contact(QueryKind kind, std::uint64_t seed, int queries) {
 }
 
 TEST(Referee, AgreesAndLeavesLittleOpen) {
-  for (int k = 0; k < test::kQueryKinds; ++k) {
+  for (int k = 0; k < test::query_kinds; ++k) {
     const auto kind = static_cast<QueryKind>(k);
     const Tally tally = compare_with_contact(kind, 41 + static_cast<std::uint64_t>(k), 1500);
     if (kind == QueryKind::generic || kind == QueryKind::mesh_like) {
@@ -209,7 +211,7 @@ TEST(Referee, AgreesAndLeavesLittleOpen) {
 TEST(Separation, ADirectionThatTurnsAndOneThatStays) {
   // A vertex that passes over a face at a distance of 1: separated in one piece.
   const VertexFace over = {{{0, 0, 1}, {4, 4, 1}},
-                           {rest(kFace[0]), rest(kFace[1]), rest(kFace[2])}};
+                           {rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])}};
   EXPECT_EQ(separated_in_double(double_hull(over), 0, 1), Separation::separated);
   EXPECT_TRUE(separated_in_integers(integer_hull(over), 0, 0));
   const VertexFace through = {{{1, 1, 1}, {1, 1, -1}}, over.face};
@@ -259,7 +261,7 @@ TEST(Existence, OriginInDegenerateHulls) {
 }
 
 TEST(Existence, BoxesProveCrossingsAndNothingElse) {
-  const auto face = std::array{rest(kFace[0]), rest(kFace[1]), rest(kFace[2])};
+  const auto face = std::array{rest(resting_face[0]), rest(resting_face[1]), rest(resting_face[2])};
   const VertexFace through = {{{1, 1, 1}, {1.1, .9, -1.7}}, face};
   const auto guess = guess_crossing(double_hull(through), 0, 1);
   ASSERT_TRUE(guess.has_value());

@@ -94,7 +94,7 @@ TEST(StaticCheck, MeetingsAreInThePairSet) {
   test::Random random(51);
   int checks = 0, meetings = 0;
   for (int i = 0; i < 120; ++i) {
-    const auto kind = static_cast<test::Coordinates>(i % test::kCoordinateKinds);
+    const auto kind = static_cast<test::Coordinates>(i % test::coordinate_kinds);
     detector::Positions x_t0(6, 3), x_t1(6, 3);
     for (int v = 0; v < 6; ++v) {
       for (int k = 0; k < 3; ++k) {

@@ -19,16 +19,16 @@ using test::triangles;
 using Flags = std::vector<std::uint8_t>;
 
 // An open box without its top (triangles 0 to 9), 8 vertices, and ghosts over the loop 4 5 6 7.
-const Triangles kBox = triangles({{0, 2, 1},
-                                  {0, 3, 2},
-                                  {0, 1, 5},
-                                  {0, 5, 4},
-                                  {1, 2, 6},
-                                  {1, 6, 5},
-                                  {2, 3, 7},
-                                  {2, 7, 6},
-                                  {3, 0, 4},
-                                  {3, 4, 7}});
+const Triangles box_triangles = triangles({{0, 2, 1},
+                                           {0, 3, 2},
+                                           {0, 1, 5},
+                                           {0, 5, 4},
+                                           {1, 2, 6},
+                                           {1, 6, 5},
+                                           {2, 3, 7},
+                                           {2, 7, 6},
+                                           {3, 0, 4},
+                                           {3, 4, 7}});
 
 Positions box() {
   return positions({{-4, -4, -4},
@@ -56,12 +56,13 @@ int count(const Flags& flags) {
 
 TEST(TouchedByGhosts, LidTouchesNothing) {
   const auto apex = positions({{0, 0, 4}});
-  EXPECT_EQ(count(touched(box(), box(), kBox, apex, apex, true)), 0);
+  EXPECT_EQ(count(touched(box(), box(), box_triangles, apex, apex, true)), 0);
 }
 
 TEST(TouchedByGhosts, ApexThroughTheBottom) {
   // Touched from t=8/9 on, when the apex comes through.
-  const Flags flags = touched(box(), box(), kBox, positions({{1, 0, 4}}), positions({{1, 0, -5}}));
+  const Flags flags =
+      touched(box(), box(), box_triangles, positions({{1, 0, 4}}), positions({{1, 0, -5}}));
   EXPECT_EQ(flags, (Flags{1, 1, 0, 0, 0, 0, 0, 0, 0, 0}));
 }
 
@@ -69,8 +70,8 @@ TEST(TouchedByGhosts, InThePlaneOfTheLoop) {
   // The apex leaves the box in the plane of its top: the ghosts cross the edge 56 of the loop,
   // which the triangle 165 holds, through features that they do not share with it.
   const auto inside = positions({{0, 3, 4}}), outside = positions({{9, 3, 4}});
-  EXPECT_EQ(count(touched(box(), box(), kBox, inside, inside)), 0);
-  const Flags flags = touched(box(), box(), kBox, inside, outside);
+  EXPECT_EQ(count(touched(box(), box(), box_triangles, inside, inside)), 0);
+  const Flags flags = touched(box(), box(), box_triangles, inside, outside);
   EXPECT_EQ(flags[5], 1);
   EXPECT_EQ(flags[0], 0);
 }
@@ -81,7 +82,7 @@ TEST(TouchedByGhosts, OnlyDuringTheStep) {
   x_t0 << box(), positions({{-2, 0, 5}, {-1.5, 0, 5}, {-2, 0.5, 5}});
   x_t1 << box(), positions({{6, 0, -1}, {6.5, 0, -1}, {6, 0.5, -1}});
   Triangles f(11, 3);
-  f << kBox, triangles({{8, 9, 10}});
+  f << box_triangles, triangles({{8, 9, 10}});
   const Triangles ghosts = ghost_triangles({{4, 7, 6, 5}}, 11);
   const auto apex = positions({{0, 0, 4}});
   EXPECT_EQ(count(touched_by_ghosts({x_t0, x_t0}, f, apex, apex, ghosts, {1, true})), 0);
@@ -118,7 +119,7 @@ TEST(TouchedByGhosts, PiercingAtTheStartOnRequest) {
   Positions x(11, 3);
   x << box(), positions({{1, 0.2, 0}, {1, 0.2, 8}, {1.5, 0.3, 8}});
   Triangles f(11, 3);
-  f << kBox, triangles({{8, 9, 10}});
+  f << box_triangles, triangles({{8, 9, 10}});
   const Triangles ghosts = ghost_triangles({{4, 7, 6, 5}}, 11);
   const auto apex = positions({{0, 0, 4}});
   EXPECT_EQ(count(touched_by_ghosts({x, x}, f, apex, apex, ghosts)), 0);
@@ -132,7 +133,7 @@ TEST(TouchedByGhosts, L11_AreThoseInContactWithAGhost) {
   test::Random random(41);
   int some = 0;
   for (int i = 0; i < 400; ++i) {
-    const auto kind = static_cast<test::Coordinates>(i % test::kCoordinateKinds);
+    const auto kind = static_cast<test::Coordinates>(i % test::coordinate_kinds);
     const int vertices = 8, triangle_count = 5;
     Triangles f(triangle_count, 3);
     for (int t = 0; t < triangle_count; ++t) {

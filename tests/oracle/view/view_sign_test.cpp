@@ -133,7 +133,7 @@ TEST(ViewSigns, RungsAgreeAndSymmetriesHold) {
   Random random(42);
   int decided = 0, signs = 0, total = 0;
   for (int i = 0; i < 1500; ++i) {
-    const auto kind = static_cast<test::Coordinates>(i % test::kCoordinateKinds);
+    const auto kind = static_cast<test::Coordinates>(i % test::coordinate_kinds);
     MovingTriangle t;
     for (MovingPoint& p : t) p = test::random_point(random, kind);
     ViewPrimitive q = {test::random_point(random, kind), test::random_point(random, kind)};

@@ -106,8 +106,8 @@ TEST(Evidence, TheFartherOfTwoCountsMore) {
       wrong{"w", "1/1", 1, 1, 1, 0, false, "c"};
   EXPECT_GT(to_row(wrong).progress, to_row(far).progress);
   // A problem goes before the word of the same time that there is none, and is over after a trial.
-  const auto problem = [](const char* what, std::uint64_t trials) {
-    return to_row(HarnessProblem{"1/1", what, trials}).progress;
+  const auto problem = [](const char* explanation, std::uint64_t trials) {
+    return to_row(HarnessProblem{"1/1", explanation, trials}).progress;
   };
   EXPECT_GT(problem("no worker", 7), problem("", 7));
   EXPECT_GT(problem("", 8), problem("no worker", 7));

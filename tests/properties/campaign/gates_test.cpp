@@ -41,7 +41,7 @@ void add_defect(RunFindings& f, const std::string& signature = "free-sound: miss
   auto& outcomes = f.tally.strata["broken"].by_configuration[0];
   --outcomes.holds;
   ++outcomes.defects;
-  ++f.met[signature];
+  ++f.times_met[signature];
   f.failures.push_back(failure(signature));
 }
 
@@ -99,7 +99,7 @@ TEST(Gates, AnUnsoundHarnessCertifiesNothing) {
       [](auto& f) { f.tally.counts["law:" + std::string(laws()[0].name) + "/close"] = 1; },
       // A defect without a failure that was stored, and the other way round.
       [](auto& f) { f.tally.strata["broken"].by_configuration[0].defects = 1; },
-      [](auto& f) { f.met["free-sound: missing"] = 1; }};
+      [](auto& f) { f.times_met["free-sound: missing"] = 1; }};
   for (std::size_t i = 0; i < unsound.size(); ++i) {
     SCOPED_TRACE(i);
     expect(judged_after({unsound[i]}), Gate::harness, "unsound-harness", 4);
@@ -201,7 +201,7 @@ TEST(Gates, ABrokenClaimIsADefectUnlessWaived) {
   expect(judged_after({defect, [](auto& f) { f.failures.clear(); }}), Gate::claims, "defect", 1);
   // A law is no claim of a trial's outcome.
   expect(judged_after({[](auto& f) {
-           f.met["law L3_X"] = 1;
+           f.times_met["law L3_X"] = 1;
            f.failures = {failure("law L3_X")};
          }}),
          Gate::claims, "defect", 1);

@@ -44,10 +44,10 @@ inline RunFindings good_findings() {
   auto& broken = f.tally.strata["broken"];
   broken.trials = 20;
   broken.by_configuration = {{20, 0, 0, 0}};
-  LawTally met;
-  met.premise = 8;
-  met.close = 2;
-  for (const auto& law : laws()) add_law(f.tally.counts, law.name, met);
+  LawTally law_tally;
+  law_tally.premise = 8;
+  law_tally.close = 2;
+  for (const auto& law : laws()) add_law(f.tally.counts, law.name, law_tally);
   f.evidence.canaries = {{"c", "1/1", 7}};
   f.evidence.faults = {
       fault_proof("a", FaultStatus::planted, true), fault_proof("b", FaultStatus::planted, true),

@@ -66,7 +66,7 @@ class Peers : public testing::Test {
     const auto kept = store.value().kept_failures();
     ASSERT_TRUE(kept) << kept.error().message;
     peer_.failures = kept.value().list;
-    peer_.met = kept.value().met;
+    peer_.met = kept.value().times_met;
     expect_the_contract_kept();
     expect_causes_kept();
   }

@@ -72,7 +72,7 @@ TEST_F(Plans, AFileSaysAllOfIt) {
   EXPECT_EQ(plan.policy.self_test_queries, 9u);
   EXPECT_EQ(plan.policy.repeated_triangles, 80u);
   ASSERT_EQ(plan.policy.speed_limits.size(), 1u);
-  EXPECT_EQ(plan.policy.speed_limits[0].what, "exact-over-double");
+  EXPECT_EQ(plan.policy.speed_limits[0].figure, "exact-over-double");
   EXPECT_EQ(plan.policy.speed_limits[0].limit, 1.5);
 }
 

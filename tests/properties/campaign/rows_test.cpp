@@ -70,7 +70,7 @@ class ChangedRows : public testing::Test {
         all.push_back(r.id + r.outcomes + counts_text(r.counts) + std::to_string(r.mesh));
       });
       for (const auto& f : store.value().failures())
-        all.push_back(f.id + f.configuration + f.signature + f.what + f.mesh + f.smallest);
+        all.push_back(f.id + f.configuration + f.signature + f.explanation + f.mesh + f.smallest);
       for (const auto& [signature, count] : store.value().signatures())
         all.push_back(signature + std::to_string(count));
       for (const auto& e : store.value().evidence())

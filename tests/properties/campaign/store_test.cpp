@@ -194,7 +194,7 @@ TEST_F(Stores, DamageThatIsMetLateIsAValueToo) {
   }
   ASSERT_TRUE(read_failures(file));
   EXPECT_EQ(read_failures(file).value().list.size(), 400u);
-  EXPECT_EQ(read_failures(file).value().met, (Counts{{"s", 400}}));
+  EXPECT_EQ(read_failures(file).value().times_met, (Counts{{"s", 400}}));
   // Of the whole file is seen at once.
   std::string hole = tests::read_text(file);
   std::fill(hole.begin() + 16384, hole.end(), '\x5a');

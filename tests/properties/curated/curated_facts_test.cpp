@@ -21,10 +21,10 @@ struct Tally {
 };
 
 // Words about where a case came from: nothing to check.
-const std::set<std::string> kRemarks = {"mutant", "mesh", "title", "allplus", "tip_faces", "facts"};
+const std::set<std::string> remarks = {"mutant", "mesh", "title", "allplus", "tip_faces", "facts"};
 
 // Stated in a file and false, by case and name; a test below says why.
-const std::set<std::pair<std::string, std::string>> kDisproved = {
+const std::set<std::pair<std::string, std::string>> disproved_facts = {
     {"D7_ghost_not_moved", "frozen_finds_nothing"}};
 
 void check_named_facts(const Facts& f, Tally& tally) {
@@ -38,7 +38,7 @@ void check_named_facts(const Facts& f, Tally& tally) {
       continue;
     }
     ++tally.checked[name];
-    const bool disproved = kDisproved.count({f.id, name}) > 0;
+    const bool disproved = disproved_facts.count({f.id, name}) > 0;
     EXPECT_EQ(*holds, stated.get<bool>() != disproved) << f.id << ": " << name;
   }
 }
@@ -75,7 +75,7 @@ std::optional<json> value_of(const Facts& f, const std::string& name) {
 
 void check_values(const Facts& f, Tally& tally) {
   for (const auto& [name, stated] : f.stored.items()) {
-    if (kRemarks.count(name)) continue;
+    if (remarks.count(name)) continue;
     const auto value = value_of(f, name);
     if (!value) {
       tally.pending[name].insert(f.id);

@@ -160,7 +160,7 @@ Rates measure(const Family& family, int cases, TagTable& table) {
 }
 
 TEST(GeneratorRates, PremisesAndContactsAreMetOftenEnough) {
-  constexpr int kCases = 150;
+  constexpr int case_count = 150;
   TagTable table;
   std::printf("%-25s %6s %6s %10s %9s %9s %10s %9s %7s %8s %9s\n", "family", "steps", "mean T",
               "collide %", "at t=0 %", "clean %", "positive %", "close %", "mixed %", "make us",
@@ -168,7 +168,7 @@ TEST(GeneratorRates, PremisesAndContactsAreMetOftenEnough) {
   std::printf("%-25s %6s %6s %10s %9s %9s %10s %9s %7s %8s %9s\n", "wanted", "", "", "20..70", "",
               ">= 50", ">= 5", ">= 25", ">= 5", "< 1000", "< 10000");
   for (const auto& family : families()) {
-    const Rates r = measure(family, kCases, table);
+    const Rates r = measure(family, case_count, table);
     const auto percent = [](int part, int whole) { return 100.0 * part / std::max(1, whole); };
     std::printf("%-25s %6d %6.1f %10.1f %9.1f %9.1f %10.1f %9.1f %7.1f %8.1f %9.0f\n",
                 std::string(family.name).c_str(), r.steps,

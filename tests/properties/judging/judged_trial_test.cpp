@@ -31,7 +31,9 @@ class JudgedTrials : public testing::Test {
                     const CaseRun* again = nullptr) const {
     return judge_trial(c, truth, run, configuration, detector, again);
   }
-  static CaseRun ended(RunEnd end, const std::string& what) { return {end, what, {}}; }
+  static CaseRun ended(RunEnd end, const std::string& explanation) {
+    return {end, explanation, {}};
+  }
   void expect_failure(const CaseRun& run, const DetectorUnderTest& detector, Claim claim,
                       const std::string& signature) const {
     const auto judged = judge(run, detector);
@@ -41,8 +43,8 @@ class JudgedTrials : public testing::Test {
     EXPECT_EQ(judged.failure->signature(), signature + cause_behind(judged, detector));
     EXPECT_EQ(judged.failure->configuration, "bvh");
     EXPECT_EQ(judged.failure->step, 0u);
-    EXPECT_FALSE(judged.failure->what.empty());
-    EXPECT_EQ(judged.failure->what.find('\n'), std::string::npos);
+    EXPECT_FALSE(judged.failure->explanation.empty());
+    EXPECT_EQ(judged.failure->explanation.find('\n'), std::string::npos);
   }
   // What the signature of a plug-in's step ends with.
   std::string cause_behind(const JudgedTrial& judged, const DetectorUnderTest& detector) const {
@@ -73,7 +75,7 @@ TEST_F(JudgedTrials, ACrashBreaksTotal) {
   const auto crash = ended(RunEnd::crashed, "killed by signal 11 (Segmentation fault)");
   for (const auto* detector : {&built_in, &plugin}) {
     expect_failure(crash, *detector, Claim::total, "total: crashed");
-    EXPECT_EQ(judge(crash, *detector).failure->what, crash.what);
+    EXPECT_EQ(judge(crash, *detector).failure->explanation, crash.explanation);
   }
   plugin.claims.total = false;
   EXPECT_EQ(judge(crash, plugin).outcome, Outcome::error);
@@ -127,7 +129,7 @@ TEST_F(JudgedTrials, ALatePair) {
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->kind, failure->claim == Claim::all_pairs ? "late pair" : "late");
   EXPECT_EQ(failure->pair, contact.pair);
-  EXPECT_NE(failure->what.find("exact"), std::string::npos);
+  EXPECT_NE(failure->explanation.find("exact"), std::string::npos);
   EXPECT_TRUE(failure->signature().starts_with(std::string(name_of(failure->claim)) + ": late"));
 }
 

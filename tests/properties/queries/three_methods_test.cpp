@@ -38,13 +38,13 @@ Verdicts judge(const oracle::test::Points& x, int first_group) {
 }
 
 TEST(ThreeMethods, AgreeOnEveryKindOfQuery) {
-  constexpr int kQueries = 3000;
-  for (int k = 0; k < oracle::test::kQueryKinds; ++k) {
+  constexpr int queries_of_a_kind = 3000;
+  for (int k = 0; k < oracle::test::query_kinds; ++k) {
     const auto kind = static_cast<QueryKind>(k);
     const std::uint64_t seed = 71 + static_cast<std::uint64_t>(k);
     oracle::test::Random random(seed);
     int contacts = 0, open = 0;
-    for (int i = 0; i < kQueries; ++i) {
+    for (int i = 0; i < queries_of_a_kind; ++i) {
       const int first_group = 1 + i % 2;
       const Verdicts v = judge(random_query(random, kind, first_group), first_group);
       contacts += v.oracle.contact ? 1 : 0;
@@ -59,9 +59,9 @@ TEST(ThreeMethods, AgreeOnEveryKindOfQuery) {
       ASSERT_EQ(v.referee == detector::Decision::yes, v.oracle.contact)
           << name_of(kind) << ", seed " << seed << ", query " << i;
     }
-    const double share = static_cast<double>(open) / kQueries;
+    const double share = static_cast<double>(open) / queries_of_a_kind;
     std::printf("%-22s seed %llu: %d queries, %d contact, open %.2f %%\n", name_of(kind),
-                static_cast<unsigned long long>(seed), kQueries, contacts, 100 * share);
+                static_cast<unsigned long long>(seed), queries_of_a_kind, contacts, 100 * share);
     EXPECT_GT(contacts, 0) << name_of(kind);
     if (kind == QueryKind::generic || kind == QueryKind::mesh_like) {
       EXPECT_LE(share, 0.05);

@@ -60,10 +60,10 @@ corpus::Case inflated_curated_case(const Fault& fault, const Judge& judge, std::
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string what = argc > 1 ? argv[1] : "";
+  const std::string table = argc > 1 ? argv[1] : "";
   const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   const std::string only = argc > 3 ? argv[3] : "";
-  if (what != "toys" && what != "faults") {
+  if (table != "toys" && table != "faults") {
     std::fprintf(stderr, "usage: reducer_table toys|faults [SEED [NAME]]\n");
     return 2;
   }
@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
     }
     std::fflush(stdout);
   };
-  if (what == "toys") {
+  if (table == "toys") {
     for (const auto& fault : toys::toy_faults()) {
       row(fault.name, fault.vertices, fault.judge,
           [&] { return toys::large_failing_case(fault, large, many_steps, seed); });

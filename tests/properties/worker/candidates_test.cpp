@@ -17,7 +17,7 @@ using test::plugin;
 
 struct FoundInCandidates {
   std::map<Outcome, int> outcomes;
-  std::map<std::string, int> signatures, whats;
+  std::map<std::string, int> signatures, explanations;
   StepMeasures measures;
 };
 
@@ -51,7 +51,7 @@ FoundInCandidates found_with(const char* fault, std::uint64_t threads = 1) {
       count_measures(verdict.steps, runs[0].steps, truth, counts);
       if (!verdict.failure) continue;
       ++found.signatures[verdict.failure->signature()];
-      ++found.whats[verdict.failure->what];
+      ++found.explanations[verdict.failure->explanation];
     }
   }
   found.measures = measures_in(counts);
@@ -77,7 +77,7 @@ TEST(Candidates, ThatMissAContactAreFoundWithItsCause) {
       EXPECT_TRUE(signature.starts_with("candidates: missing candidate, ")) << signature;
     const auto& signature = found.signatures.begin()->first;
     EXPECT_NE(signature.find(", t "), std::string::npos) << signature;
-    EXPECT_NE(found.whats.begin()->first.find(" candidates"), std::string::npos);
+    EXPECT_NE(found.explanations.begin()->first.find(" candidates"), std::string::npos);
   }
 }
 

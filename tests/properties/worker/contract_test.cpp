@@ -23,7 +23,7 @@ struct FoundByContract {
   Counts counts;
   Contract contract;
   std::uint64_t discards = 0;
-  std::string what;  // of the first defect
+  std::string explanation;  // of the first defect
 };
 
 // Cases of every family through the plug-in by_contract with these words.
@@ -60,8 +60,8 @@ FoundByContract found_by(const std::string& words, std::uint64_t cases_a_family 
       count_measures(verdict.steps, runs[0].steps, truth, found.counts);
       if (!verdict.failure) continue;
       ++found.kinds[verdict.failure->kind];
-      if (found.what.empty())
-        found.what = verdict.failure->signature() + "; " + verdict.failure->what;
+      if (found.explanation.empty())
+        found.explanation = verdict.failure->signature() + "; " + verdict.failure->explanation;
     }
   }
   return found;
@@ -69,7 +69,7 @@ FoundByContract found_by(const std::string& words, std::uint64_t cases_a_family 
 
 void expect_excused(const std::string& words) {
   auto found = found_by(words);
-  EXPECT_EQ(found.outcomes[Outcome::defect], 0) << words << ": " << found.what;
+  EXPECT_EQ(found.outcomes[Outcome::defect], 0) << words << ": " << found.explanation;
   EXPECT_GT(found.outcomes[Outcome::holds], 80) << words;
   EXPECT_EQ(found.discards, 0u) << words;
 }
@@ -77,7 +77,7 @@ void expect_excused(const std::string& words) {
 void expect_defect(const std::string& words, const std::string& kind) {
   auto found = found_by(words);
   EXPECT_GT(found.outcomes[Outcome::defect], 0) << words;
-  EXPECT_GT(found.kinds[kind], 0) << words << ": " << found.what;
+  EXPECT_GT(found.kinds[kind], 0) << words << ": " << found.explanation;
 }
 
 TEST(Contract, WithoutOneTheDetectorHoldsAndItsFaultsAreFound) {

@@ -59,7 +59,7 @@ TEST(DisturbedWorker, ARunIsRepeatedAndIsAsIfNothingHadBeen) {
   const auto c = burning_case(.6);
   WorkerProcess undisturbed(ASSAY_WORKER, plugin("burns_time"));
   const auto expected = undisturbed.run(c, plugin_alone)[0];
-  ASSERT_EQ(expected.end, RunEnd::completed) << expected.what;
+  ASSERT_EQ(expected.end, RunEnd::completed) << expected.explanation;
   EXPECT_EQ(expected.disturbances, 0u);
   EXPECT_EQ(undisturbed.disturbances(), 0u);
   { const WorkerProcess ended = std::move(undisturbed); }
@@ -69,7 +69,7 @@ TEST(DisturbedWorker, ARunIsRepeatedAndIsAsIfNothingHadBeen) {
     auto killer = neighbour(signal, static_cast<int>(times), .2);
     const auto runs = worker.run(c, plugin_alone);
     killer.join();
-    EXPECT_EQ(runs[0].end, RunEnd::completed) << runs[0].what;
+    EXPECT_EQ(runs[0].end, RunEnd::completed) << runs[0].explanation;
     EXPECT_TRUE(same_answers(runs[0], expected));
     EXPECT_EQ(runs[0].disturbances, times);
     EXPECT_EQ(worker.disturbances(), times);
@@ -84,16 +84,16 @@ TEST(DisturbedWorker, ThreeTimesInARowIsTheDetectorsDoing) {
       {"kills_itself", "killed by signal 9 (Killed), three times in a row"},
       {"terminates_itself", "killed by signal 15 (Terminated), three times in a row"}};
   const auto fatal = fatal_case(), harmless = fatal_case(false);
-  for (const auto& [name, what] : ends) {
+  for (const auto& [name, explanation] : ends) {
     WorkerProcess worker(ASSAY_WORKER, plugin(name));
     const auto run = worker.run(fatal, plugin_alone)[0];
     EXPECT_EQ(run.end, RunEnd::crashed);
-    EXPECT_EQ(run.what, what);
+    EXPECT_EQ(run.explanation, explanation);
     EXPECT_EQ(run.disturbances, 0u);
     EXPECT_EQ(worker.starts(), 3u);
     const auto verdict = judge_run(fatal, run, {}, {.total = true}, {});
     EXPECT_EQ(verdict.broken, std::vector<Claim>{Claim::total});
-    EXPECT_EQ(verdict.what, what);
+    EXPECT_EQ(verdict.explanation, explanation);
     EXPECT_TRUE(same_answers(worker.run(fatal, plugin_alone)[0], run));
     // The next case begins to count anew.
     EXPECT_EQ(worker.run(harmless, plugin_alone)[0].end, RunEnd::completed);
@@ -118,7 +118,7 @@ TEST(DisturbedWorker, WhatItsHostBlocksOrIgnoresEndsItAllTheSame) {
     }
   }
   WorkerProcess worker(ASSAY_WORKER, plugin("terminates_itself"));
-  EXPECT_EQ(worker.run(fatal_case(), plugin_alone)[0].what,
+  EXPECT_EQ(worker.run(fatal_case(), plugin_alone)[0].explanation,
             "killed by signal 15 (Terminated), three times in a row");
   signal(SIGQUIT, quit_before);
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
@@ -130,12 +130,12 @@ TEST(DisturbedWorker, OtherSignalsAndExitsAreCrashesAtOnce) {
       {"aborts", "killed by signal 6 (Aborted)"},
       {"exit", "exited with code 0"}};
   const auto c = fatal_case();
-  for (const auto& [name, what] : ends) {
+  for (const auto& [name, explanation] : ends) {
     WorkerProcess worker(ASSAY_WORKER, plugin(name));
     const auto runs = worker.run(c, std::vector<Configuration>(2, plugin_alone[0]));
     for (const auto& run : runs) {
       EXPECT_EQ(run.end, RunEnd::crashed);
-      EXPECT_EQ(run.what, what);
+      EXPECT_EQ(run.explanation, explanation);
       EXPECT_EQ(run.disturbances, 0u);
     }
     EXPECT_EQ(worker.starts(), 2u) << name;
@@ -152,7 +152,7 @@ TEST(DisturbedWorker, RandomDeathsAreCountedAndChangeNoAnswer) {
     const auto run = worker.run(c, plugin_alone)[0];
     disturbances += run.disturbances;
     if (run.end == RunEnd::crashed) {
-      EXPECT_NE(run.what.find("three times in a row"), std::string::npos) << run.what;
+      EXPECT_NE(run.explanation.find("three times in a row"), std::string::npos) << run.explanation;
       ++crashes;
     } else {
       EXPECT_TRUE(same_answers(run, undisturbed.run(c, plugin_alone)[0])) << c.id;
@@ -215,8 +215,9 @@ TEST(DisturbedWorker, APlugInThatDiesWhenItIsLoadedAgainHasCrashed) {
   ::unsetenv("ASSAY_TEST_FILE");
   std::filesystem::remove(file);
   EXPECT_EQ(run.end, RunEnd::crashed);
-  EXPECT_NE(run.what.find("ended while it was loaded: killed by signal 11"), std::string::npos)
-      << run.what;
+  EXPECT_NE(run.explanation.find("ended while it was loaded: killed by signal 11"),
+            std::string::npos)
+      << run.explanation;
 }
 
 }  // namespace

@@ -44,13 +44,13 @@ TEST_F(ErrorTexts, OfDescribe) {
 TEST_F(ErrorTexts, OfCreate) {
   const auto run = worker("create").run(c_, plugin_alone).front();
   EXPECT_EQ(run.end, RunEnd::refused);
-  EXPECT_EQ(run.what, "no create today, 0");
+  EXPECT_EQ(run.explanation, "no create today, 0");
 }
 
 TEST_F(ErrorTexts, OfEveryStep) {
   const auto run = worker("evaluate").run(c_, plugin_alone).front();
-  ASSERT_EQ(run.end, RunEnd::completed) << run.what;
-  EXPECT_EQ(run.what, "step 1: no evaluate today, 1");
+  ASSERT_EQ(run.end, RunEnd::completed) << run.explanation;
+  EXPECT_EQ(run.explanation, "step 1: no evaluate today, 1");
   ASSERT_EQ(run.errors.size(), 3u);
   for (std::size_t s = 0; s < 3; ++s) {
     EXPECT_EQ(run.steps[s].answer, Answer::error);
@@ -61,14 +61,14 @@ TEST_F(ErrorTexts, OfEveryStep) {
 
 TEST_F(ErrorTexts, OfCommit) {
   const auto run = worker("commit", "says_why_of_commit").run(c_, plugin_alone).front();
-  ASSERT_EQ(run.end, RunEnd::completed) << run.what;
+  ASSERT_EQ(run.end, RunEnd::completed) << run.explanation;
   EXPECT_EQ(error_of(run, 0), "step 1: commit returned 3: no commit today, 1");
   EXPECT_EQ(error_of(run, 1), "step 2: commit returned 3: no commit today, 2");
 }
 
 TEST_F(ErrorTexts, OfCandidates) {
   const auto run = worker("candidates").run(c_, plugin_alone).front();
-  ASSERT_EQ(run.end, RunEnd::completed) << run.what;
+  ASSERT_EQ(run.end, RunEnd::completed) << run.explanation;
   EXPECT_EQ(error_of(run, 2), "step 3: candidates returned 3: no candidates today, 3");
 }
 
@@ -76,19 +76,19 @@ TEST_F(ErrorTexts, OfQueries) {
   const detector::FourPoints query = {};
   const std::vector<detector::FourPoints> two(2, query);
   for (const auto& run : worker("query").ask(two)) {
-    ASSERT_EQ(run.steps.size(), 1u) << run.what;
+    ASSERT_EQ(run.steps.size(), 1u) << run.explanation;
     EXPECT_EQ(run.steps[0].answer, Answer::error);
-    EXPECT_EQ(run.what, "query returned 3: no query today, 0");
+    EXPECT_EQ(run.explanation, "query returned 3: no query today, 0");
   }
   const auto said = worker("query-error").ask(two).front();
-  EXPECT_EQ(said.what, "said by its result");
+  EXPECT_EQ(said.explanation, "said by its result");
 }
 
 TEST_F(ErrorTexts, NoneWhereNothingFails) {
   const auto run = worker("").run(c_, plugin_alone).front();
-  ASSERT_EQ(run.end, RunEnd::completed) << run.what;
+  ASSERT_EQ(run.end, RunEnd::completed) << run.explanation;
   EXPECT_TRUE(run.errors.empty());
-  EXPECT_EQ(run.what, "");
+  EXPECT_EQ(run.explanation, "");
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ TEST_F(Hostile, ForgedRepliesAreCrashes) {
        }) {
     const auto run = this->run(mode);
     EXPECT_EQ(run.end, RunEnd::crashed) << mode;
-    EXPECT_EQ(run.what, "sent a reply that is none: " + rule) << mode;
+    EXPECT_EQ(run.explanation, "sent a reply that is none: " + rule) << mode;
     EXPECT_TRUE(run.steps.empty()) << mode;
   }
 }
@@ -141,14 +141,14 @@ TEST_F(Hostile, ForgedAnswersToQueriesAreCrashesOfTheseQueries) {
     ASSERT_EQ(runs.size(), three.size()) << mode;
     for (const auto& run : runs) {
       EXPECT_EQ(run.end, RunEnd::crashed) << mode;
-      EXPECT_EQ(run.what, "sent a reply that is none: " + rule) << mode;
+      EXPECT_EQ(run.explanation, "sent a reply that is none: " + rule) << mode;
       EXPECT_TRUE(run.steps.empty()) << mode;
     }
   }
   setenv("ASSAY_HOSTILE", "forge-query-lies", 1);
   WorkerProcess liar(ASSAY_WORKER, plugin("hostile"), {.seconds = .2});
   for (const auto& run : liar.ask(three)) {
-    EXPECT_EQ(run.end, RunEnd::completed) << run.what;
+    EXPECT_EQ(run.end, RunEnd::completed) << run.explanation;
     EXPECT_EQ(run.steps.at(0).answer, detector::Answer::free);
   }
 }
@@ -172,11 +172,11 @@ TEST_F(Hostile, ForgedDescriptionsAreNamed) {
 
 TEST_F(Hostile, WhatIsLegalIsAnAnswer) {
   const auto run = this->run("forge-lies");
-  EXPECT_EQ(run.end, RunEnd::completed) << run.what;
+  EXPECT_EQ(run.end, RunEnd::completed) << run.explanation;
   ASSERT_EQ(run.steps.size(), 1u);
   EXPECT_EQ(run.steps[0].answer, detector::Answer::free);
   const auto with_candidates = this->run("forge-candidate-lies");
-  EXPECT_EQ(with_candidates.end, RunEnd::completed) << with_candidates.what;
+  EXPECT_EQ(with_candidates.end, RunEnd::completed) << with_candidates.explanation;
   EXPECT_EQ(with_candidates.candidates.size(), 1u);
 }
 
@@ -208,7 +208,7 @@ TEST_F(Hostile, DeedsHarmNothing) {
                            "deep-stack",
                            "all-memory"}) {
     const auto run = this->run(mode);
-    EXPECT_NE(run.end, RunEnd::not_run) << mode << ": " << run.what;
+    EXPECT_NE(run.end, RunEnd::not_run) << mode << ": " << run.explanation;
     expect_all_is_well(mode);
   }
 }
@@ -218,7 +218,7 @@ TEST_F(Hostile, ItStartsNoMoreProcessesThanItMay) {
   for (const char* mode : {"more-processes-than-allowed", "root-again"}) {
     const auto run = this->run(mode);
     EXPECT_EQ(run.end, RunEnd::crashed) << mode;
-    EXPECT_EQ(run.what, "exited with code 3") << mode;
+    EXPECT_EQ(run.explanation, "exited with code 3") << mode;
   }
 }
 
@@ -244,7 +244,7 @@ TEST_F(Hostile, ItIsNotLoadedAgainWithLessIsolation) {
             std::string::npos)
       << described.error().message;
   const auto run = worker.run(small_case(31, 0), plugin_alone)[0];
-  EXPECT_EQ(run.end, RunEnd::not_run) << run.what;
+  EXPECT_EQ(run.end, RunEnd::not_run) << run.explanation;
 }
 
 TEST_F(Hostile, NothingThatItStartedOutlivesIt) {

@@ -158,10 +158,10 @@ TEST(Plugins, ACrashIsNamed) {
   }
   EXPECT_EQ(runs, 1000);
   EXPECT_EQ(crash.end, RunEnd::crashed);
-  EXPECT_EQ(crash.what, "killed by signal 6 (Aborted)");
+  EXPECT_EQ(crash.explanation, "killed by signal 6 (Aborted)");
   const auto verdict = judge_run(c, crash, judge_case(c), {.total = true}, {});
   EXPECT_EQ(verdict.broken, std::vector<Claim>{Claim::total});
-  EXPECT_EQ(verdict.what, crash.what);
+  EXPECT_EQ(verdict.explanation, crash.explanation);
 }
 
 // Vertex 3 crosses the triangle below it within the denormal numbers.
@@ -235,14 +235,14 @@ TEST(Plugins, WhatBreaksTheRulesOfTheHeaderIsAnError) {
     const auto run = worker.run(c, {twice.data(), 1})[0];
     ASSERT_EQ(run.end, RunEnd::completed);
     EXPECT_EQ(run.steps[0].answer, Answer::error);
-    EXPECT_EQ(run.what, why);
+    EXPECT_EQ(run.explanation, why);
     EXPECT_EQ(judge_run(c, run, judge_case(c), {.total = true}, {}).broken,
               std::vector<Claim>{Claim::total});
     EXPECT_EQ(judge_run(c, run, judge_case(c), {}, {}).outcome, Outcome::error);
   }
   const auto refusal = WorkerProcess(ASSAY_WORKER, plugin("refuse")).run(c, twice)[0];
   EXPECT_EQ(refusal.end, RunEnd::refused);
-  EXPECT_EQ(refusal.what, "too many triangles");
+  EXPECT_EQ(refusal.explanation, "too many triangles");
 }
 
 std::string text_of(const std::string& path) {

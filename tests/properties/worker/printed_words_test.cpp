@@ -60,7 +60,7 @@ TEST_F(PrintedByPlugin, EachCaseHasItsOwn) {
   for (std::uint64_t i = 0; i < 20; ++i) {
     const auto c = small_case(41, i);
     const auto one = worker.run(c, plugin_alone).front();
-    ASSERT_EQ(one.end, RunEnd::completed) << one.what;
+    ASSERT_EQ(one.end, RunEnd::completed) << one.explanation;
     EXPECT_TRUE(one.printed.starts_with(lines(2, c.triangles.rows()))) << one.printed;
     // Two lines a step, and no more.
     const auto newlines = std::count(one.printed.begin(), one.printed.end(), '\n');
@@ -74,7 +74,7 @@ TEST_F(PrintedByPlugin, EachCaseHasItsOwn) {
 TEST_F(PrintedByPlugin, AFloodLeavesItsEndAndDelaysNobody) {
   const auto c = small_case(41, 0);
   const auto one = run("print=200000", c);
-  ASSERT_EQ(one.end, RunEnd::completed) << one.what;
+  ASSERT_EQ(one.end, RunEnd::completed) << one.explanation;
   EXPECT_LE(one.printed.size(), longest_printed + 4);
   EXPECT_TRUE(one.printed.starts_with("...\n")) << one.printed.substr(0, 40);
   EXPECT_NE(one.printed.find("line 200000 of "), std::string::npos);
@@ -84,7 +84,7 @@ TEST_F(PrintedByPlugin, ACrashAndAHangKeepWhatWasSaidBefore) {
   auto c = small_case(41, 0);
   // A coordinate that is beyond the range makes it abort.
   const auto crashed = run("print=3 range=1e200:1e300 abort-outside", c);
-  ASSERT_EQ(crashed.end, RunEnd::crashed) << crashed.what;
+  ASSERT_EQ(crashed.end, RunEnd::crashed) << crashed.explanation;
   EXPECT_EQ(crashed.printed, lines(3, c.triangles.rows()));
   // Its first time is a double above 0, or it does not burn.
   for (std::uint64_t i = 0; i < 200; ++i) {
@@ -99,7 +99,7 @@ TEST_F(PrintedByPlugin, ACrashAndAHangKeepWhatWasSaidBefore) {
 
 TEST_F(PrintedByPlugin, WithoutIsolationItIsNotKept) {
   const auto one = run("print=1", small_case(41, 0), {.isolation = IsolationMode::none});
-  ASSERT_EQ(one.end, RunEnd::completed) << one.what;
+  ASSERT_EQ(one.end, RunEnd::completed) << one.explanation;
   EXPECT_EQ(one.printed, "");
 }
 

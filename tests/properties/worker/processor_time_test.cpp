@@ -14,7 +14,7 @@
 namespace assay::properties {
 namespace {
 
-constexpr double some = .1;  // seconds of processor time
+constexpr double burnt_seconds = .1;  // seconds of processor time
 constexpr double tick = .01;
 
 void burn(double seconds) {
@@ -87,11 +87,12 @@ void in_child(const std::function<void()>& work, bool and_wait) {
 }
 
 TEST(ProcessorTime, IsSeenWhereverItIsUsed) {
-  const auto burn_some = [] { burn(some); };
-  EXPECT_GE(used_by(burn_some), some);
-  EXPECT_GE(used_by([&] { std::thread(burn_some).join(); }), some);
-  EXPECT_GE(used_by([&] { in_child(burn_some, true); }), some - tick);
-  EXPECT_GE(used_by([&] { in_child([&] { in_child(burn_some, true); }, true); }), some - 2 * tick);
+  const auto burn_briefly = [] { burn(burnt_seconds); };
+  EXPECT_GE(used_by(burn_briefly), burnt_seconds);
+  EXPECT_GE(used_by([&] { std::thread(burn_briefly).join(); }), burnt_seconds);
+  EXPECT_GE(used_by([&] { in_child(burn_briefly, true); }), burnt_seconds - tick);
+  EXPECT_GE(used_by([&] { in_child([&] { in_child(burn_briefly, true); }, true); }),
+            burnt_seconds - 2 * tick);
 }
 
 TEST(ProcessorTime, IsSeenInProcessesThatHaveLostTheirParents) {
@@ -101,33 +102,33 @@ TEST(ProcessorTime, IsSeenInProcessesThatHaveLostTheirParents) {
   worker.go();
   worker.wait_until_done();
   bool is_asleep = false;
-  while (time.seconds() < some) is_asleep |= time.look().is_asleep;
+  while (time.seconds() < burnt_seconds) is_asleep |= time.look().is_asleep;
   EXPECT_FALSE(is_asleep);
 }
 
 TEST(ProcessorTime, WhatWasUsedBeforeTheBeginningIsNotCounted) {
   Worker worker([] {
-    burn(some);
-    in_child([] { burn(some); }, true);
+    burn(burnt_seconds);
+    in_child([] { burn(burnt_seconds); }, true);
   });
   ProcessorTime time(worker.id());
   worker.go();
   worker.wait_until_done();
-  EXPECT_GE(time.lap(), some);
+  EXPECT_GE(time.lap(), burnt_seconds);
   time.look();
   time.look();
-  EXPECT_LT(time.seconds(), some / 2);
+  EXPECT_LT(time.seconds(), burnt_seconds / 2);
 }
 
 TEST(ProcessorTime, CanBeReadOfOneThatHasEnded) {
-  Worker worker([] { burn(some); });
+  Worker worker([] { burn(burnt_seconds); });
   ProcessorTime time(worker.id());
   worker.go();
   worker.wait_until_done();
   kill(worker.id(), SIGKILL);
   siginfo_t seen = {};
   ASSERT_EQ(waitid(P_PID, static_cast<id_t>(worker.id()), &seen, WEXITED | WNOWAIT), 0);
-  EXPECT_GE(time.seconds(), some);
+  EXPECT_GE(time.seconds(), burnt_seconds);
 }
 
 // Until it is so, or for a minute.
@@ -143,7 +144,7 @@ bool comes_true(const std::function<bool()>& holds) {
 TEST(ProcessTree, TellsSleepFromWorkAndFromBeingStopped) {
   Worker worker([] {
     // A thread that works beside one that sleeps.
-    std::thread([] { burn(some); }).detach();
+    std::thread([] { burn(burnt_seconds); }).detach();
   });
   EXPECT_TRUE(comes_true([&] { return look_at(worker.id()).is_asleep; }));
   worker.go();

@@ -19,7 +19,7 @@ using test::plugin;
 struct FoundInQueries {
   std::map<Outcome, int> outcomes;
   std::map<std::string, int> kinds;
-  std::string what;  // of the first defect
+  std::string explanation;  // of the first defect
   std::uint64_t left_out = 0, contacts = 0;
 };
 
@@ -60,22 +60,22 @@ FoundInQueries queries_with(const std::string& words, std::uint64_t queries_a_fa
     ++found.outcomes[verdict.outcome];
     if (!verdict.failure) continue;
     ++found.kinds[std::string(name_of(verdict.failure->claim)) + ": " + verdict.failure->kind];
-    if (found.what.empty())
-      found.what = verdict.failure->signature() + "; " + verdict.failure->what;
+    if (found.explanation.empty())
+      found.explanation = verdict.failure->signature() + "; " + verdict.failure->explanation;
   }
   return found;
 }
 
 void expect_query_holds(const std::string& words) {
   auto found = queries_with(words);
-  EXPECT_EQ(found.outcomes[Outcome::defect], 0) << words << ": " << found.what;
+  EXPECT_EQ(found.outcomes[Outcome::defect], 0) << words << ": " << found.explanation;
   EXPECT_GT(found.outcomes[Outcome::holds], 80) << words;
   EXPECT_GT(found.contacts, 20u) << words;
 }
 
 void expect_query_breaks(const std::string& words, const std::string& kind) {
   auto found = queries_with(words);
-  EXPECT_GT(found.kinds[kind], 0) << words << ": " << found.what;
+  EXPECT_GT(found.kinds[kind], 0) << words << ": " << found.explanation;
   EXPECT_GT(found.outcomes[Outcome::defect], 0) << words;
 }
 
@@ -104,14 +104,14 @@ TEST(Queries, WhatIsNoAnswerBreaksTotal) {
 TEST(Queries, ACrashIsThatOfItsQueryAlone) {
   auto found = queries_with("abort-at-start", 10);
   EXPECT_GT(found.kinds["total: crashed"], 0);
-  EXPECT_EQ(found.outcomes[Outcome::defect], found.kinds["total: crashed"]) << found.what;
+  EXPECT_EQ(found.outcomes[Outcome::defect], found.kinds["total: crashed"]) << found.explanation;
   EXPECT_GT(found.outcomes[Outcome::holds], 20);
 }
 
 TEST(Queries, UndecidedAnswersAreNoDefects) {
   for (const char* words : {"undecided", "no-memory"}) {
     auto found = queries_with(words);
-    EXPECT_EQ(found.outcomes[Outcome::defect], 0) << words << ": " << found.what;
+    EXPECT_EQ(found.outcomes[Outcome::defect], 0) << words << ": " << found.explanation;
     EXPECT_EQ(found.outcomes[Outcome::undecided], static_cast<int>(found.contacts)) << words;
   }
 }

@@ -44,7 +44,7 @@ TEST(Worker, AnswersAsThisProcessDoes) {
     const auto runs = worker.run(c, four);
     ASSERT_EQ(runs.size(), four.size());
     for (std::size_t k = 0; k < four.size(); ++k) {
-      ASSERT_EQ(runs[k].end, RunEnd::completed) << c.id << ": " << runs[k].what;
+      ASSERT_EQ(runs[k].end, RunEnd::completed) << c.id << ": " << runs[k].explanation;
       ASSERT_TRUE(same_answers(runs[k], run_case(c, four[k]))) << c.id << " " << four[k].name;
       pairs += runs[k].steps[0].pairs.size();
     }
@@ -133,7 +133,7 @@ TEST(Worker, AMeshThatIsRefusedHasAReason) {
   const auto runs = WorkerProcess(ASSAY_WORKER, std::nullopt).run(c, four);
   for (const auto& run : runs) {
     EXPECT_EQ(run.end, RunEnd::refused);
-    EXPECT_NE(run.what.find("triangle 0"), std::string::npos) << run.what;
+    EXPECT_NE(run.explanation.find("triangle 0"), std::string::npos) << run.explanation;
   }
 }
 
@@ -153,7 +153,7 @@ TEST(Worker, AnExitIsACrash) {
   WorkerProcess worker(ASSAY_WORKER, plugin("exit"));
   const auto runs = worker.run(small_case(31, 0), plugin_alone);
   EXPECT_EQ(runs[0].end, RunEnd::crashed);
-  EXPECT_EQ(runs[0].what, "exited with code 0");
+  EXPECT_EQ(runs[0].explanation, "exited with code 0");
 }
 
 TEST(Worker, EndsBeforeItsHostWhereMemoryIsShort) {
@@ -181,10 +181,10 @@ TEST(Worker, MemoryEndsInUndecided) {
   WorkerProcess worker(ASSAY_WORKER, std::nullopt, {.seconds = 60, .bytes = limit});
   const auto runs = worker.run(c, std::vector<Configuration>(2, four[2]));
   for (const auto& run : runs) {
-    EXPECT_EQ(run.end, RunEnd::out_of_memory) << run.what;
+    EXPECT_EQ(run.end, RunEnd::out_of_memory) << run.explanation;
     const auto verdict = judge_run(c, run, {}, {.total = true}, {});
     EXPECT_EQ(verdict.outcome, Outcome::undecided);
-    EXPECT_EQ(verdict.what, "out of memory");
+    EXPECT_EQ(verdict.explanation, "out of memory");
   }
   EXPECT_EQ(worker.run(small_case(31, 0), plugin_alone)[0].end, RunEnd::completed);
 
@@ -194,7 +194,7 @@ TEST(Worker, MemoryEndsInUndecided) {
   const auto truth = judge_case(small_case(31, 0));
   const auto verdict = judge_run(small_case(31, 0), step, truth, {.total = true}, {});
   EXPECT_EQ(verdict.outcome, Outcome::undecided);
-  EXPECT_EQ(verdict.what, "step 1: out of memory");
+  EXPECT_EQ(verdict.explanation, "step 1: out of memory");
 }
 
 TEST(Worker, OneThatDiedBetweenCasesIsReplaced) {

@@ -56,7 +56,7 @@ TEST(WorkerTime, ProcessorTimeIsLimitedWhereverItIsUsed) {
     WorkerProcess worker(ASSAY_WORKER, plugin(name), {.seconds = limit});
     const auto run = worker.run(burning_case(much), plugin_alone)[0];
     EXPECT_EQ(run.end, RunEnd::hung) << name;
-    EXPECT_EQ(run.what, "no answer in 0.3 s of processor time") << name;
+    EXPECT_EQ(run.explanation, "no answer in 0.3 s of processor time") << name;
     EXPECT_GE(run.processor_seconds, limit) << name;
     std::printf("%s: ended at %.3f s of processor time, limit %g s\n", name, run.processor_seconds,
                 limit);
@@ -64,7 +64,7 @@ TEST(WorkerTime, ProcessorTimeIsLimitedWhereverItIsUsed) {
     // The limit is for each case alone.
     for (int i = 0; i < 4; ++i) {
       const auto enough = worker.run(burning_case(limit / 2), plugin_alone)[0];
-      EXPECT_EQ(enough.end, RunEnd::completed) << name << ": " << enough.what;
+      EXPECT_EQ(enough.end, RunEnd::completed) << name << ": " << enough.explanation;
     }
     EXPECT_EQ(worker.starts(), 2u);
   }
@@ -77,7 +77,7 @@ TEST(WorkerTime, TheLimitIsReachedNoSoonerBesideBusyLoops) {
     WorkerProcess worker(ASSAY_WORKER, plugin(name), {.seconds = limit});
     const auto begin = Clock::now();
     const auto run = worker.run(burning_case(needed), plugin_alone)[0];
-    EXPECT_EQ(run.end, RunEnd::completed) << name << ": " << run.what;
+    EXPECT_EQ(run.end, RunEnd::completed) << name << ": " << run.explanation;
     std::printf("%s: %.3f s of processor time in %.3f s, limit %g s\n", name, run.processor_seconds,
                 seconds_since(begin), limit);
     EXPECT_LT(run.processor_seconds, limit);
@@ -104,7 +104,7 @@ TEST(WorkerTime, WhatSleepsIsCaughtByTheWallClock) {
   const auto begin = Clock::now();
   const auto run = worker.run(small_case(31, 0), plugin_alone)[0];
   EXPECT_EQ(run.end, RunEnd::hung);
-  EXPECT_EQ(run.what, "no answer in 0.1 s of processor time: asleep for 1 s");
+  EXPECT_EQ(run.explanation, "no answer in 0.1 s of processor time: asleep for 1 s");
   EXPECT_GE(seconds_since(begin), 10 * limit);
   EXPECT_LT(run.processor_seconds, limit);
 }
@@ -121,7 +121,7 @@ TEST(WorkerTime, WhatIsStoppedIsNotAsleepAndSendingEndsToo) {
   const auto begin = Clock::now();
   const auto run = worker.run(c, plugin_alone)[0];
   EXPECT_EQ(run.end, RunEnd::hung);
-  EXPECT_EQ(run.what, "no answer in 0.05 s of processor time, nor in 5 s");
+  EXPECT_EQ(run.explanation, "no answer in 0.05 s of processor time, nor in 5 s");
   EXPECT_GE(seconds_since(begin), 100 * limit);
   EXPECT_EQ(run.disturbances, 0u);
 }

@@ -59,7 +59,7 @@ TEST(TetrahedronWorld, L3_L4_L5_HoldInTheSmallestWorlds) {
   for (const Wanted& wanted : {Wanted{"square-2", 4480, 589824}, {"cube-2-one", 4432, 3207168}}) {
     const auto result = prove(world_named(wanted.name), {2, 0, {}});
     print(wanted.name, result);
-    ASSERT_TRUE(result.complete) << result.what << "\n"
+    ASSERT_TRUE(result.complete) << result.explanation << "\n"
                                  << corpus::case_text(*result.counterexample);
     EXPECT_EQ(result.classes, wanted.classes);
     EXPECT_EQ(result.motions, wanted.motions);

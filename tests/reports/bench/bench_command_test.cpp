@@ -200,13 +200,13 @@ class Suites : public testing::Test {
     EXPECT_EQ(json["schema"], "assay-bench/1");
     EXPECT_EQ(json["rows"].size(), report.rows.size());
     for (const auto& row : report.rows) {
-      EXPECT_TRUE(!row.measured || std::isfinite(row.measured->value)) << row.what;
+      EXPECT_TRUE(!row.measured || std::isfinite(row.measured->value)) << row.label;
     }
     return report;
   }
   static bool has(const BenchReport& report, const std::string& start) {
     return std::any_of(report.rows.begin(), report.rows.end(),
-                       [&](const auto& row) { return row.what.starts_with(start); });
+                       [&](const auto& row) { return row.label.starts_with(start); });
   }
 };
 
@@ -277,7 +277,7 @@ TEST_F(Suites, Harness) {
   }
   const auto wants = [&](const std::string& row) {
     const auto found = std::find_if(report.rows.begin(), report.rows.end(),
-                                    [&](const auto& r) { return r.what == row; });
+                                    [&](const auto& r) { return r.label == row; });
     return found != report.rows.end() && found->wanted ? found->wanted->bound : 0;
   };
   EXPECT_EQ(wants("judged steps a second and core, closed-generic"), 100);

@@ -100,7 +100,7 @@ TEST(PeersBench, ThoseOfAFolderStandBesideTheBuiltIn) {
   EXPECT_EQ(missed, 1u);
   EXPECT_EQ(confirmed, 2u) << "what is missed, and the pairs that are not named";
   EXPECT_EQ(std::count_if(run.answers.begin(), run.answers.end(),
-                          [](const UnsafeAnswer& one) { return one.what == "missed"; }),
+                          [](const UnsafeAnswer& one) { return one.defect == "missed"; }),
             1);
 }
 

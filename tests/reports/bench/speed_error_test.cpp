@@ -183,8 +183,8 @@ TEST(SpeedErrorSuite, EveryFamilyAndVariant) {
   EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
   EXPECT_EQ(report.variants.size(), all_variants(true).size());
   for (const auto& row : report.rows) {
-    EXPECT_TRUE(!row.measured || std::isfinite(row.measured->value)) << row.what;
-    if (row.what == "wrong answers, exact") {
+    EXPECT_TRUE(!row.measured || std::isfinite(row.measured->value)) << row.label;
+    if (row.label == "wrong answers, exact") {
       EXPECT_EQ(row.outcome(), RowOutcome::holds);
     }
   }

@@ -50,7 +50,7 @@ StabilityCell total_of(const BenchReport& report) {
 
 const BenchRow& row_that_starts(const BenchReport& report, const std::string& start) {
   return *std::find_if(report.rows.begin(), report.rows.end(),
-                       [&](const auto& row) { return row.what.starts_with(start); });
+                       [&](const auto& row) { return row.label.starts_with(start); });
 }
 
 class ForgetsTheEnd : public detector::ElementaryTest {
@@ -210,9 +210,9 @@ TEST(Stability, ExactIsNeverWrongAndBoundedNeverMisses) {
   EXPECT_TRUE(report.wrong_answers.empty()) << text_of(report);
   int exact_rows = 0, bounded_rows = 0;
   for (const auto& row : report.rows) {
-    EXPECT_NE(row.outcome(), RowOutcome::fails) << row.what;
-    exact_rows += row.what.ends_with(", exact: wrong") && row.outcome() == RowOutcome::holds;
-    bounded_rows += row.what.ends_with(", bounded: missed, late, wrong V+ or V-") &&
+    EXPECT_NE(row.outcome(), RowOutcome::fails) << row.label;
+    exact_rows += row.label.ends_with(", exact: wrong") && row.outcome() == RowOutcome::holds;
+    bounded_rows += row.label.ends_with(", bounded: missed, late, wrong V+ or V-") &&
                     row.outcome() == RowOutcome::holds;
   }
   EXPECT_EQ(exact_rows, 20);

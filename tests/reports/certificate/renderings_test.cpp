@@ -26,7 +26,7 @@ bool contains(const std::string& text, const std::string& word) {
 RunFindings with_a_defect() {
   auto findings = good_findings();
   findings.tally.strata["broken"].by_configuration[0] = {19, 1, 0, 0};
-  findings.met["free-sound: missing"] = 1;
+  findings.times_met["free-sound: missing"] = 1;
   findings.failures = {failure("free-sound: missing")};
   return findings;
 }
@@ -79,7 +79,7 @@ TEST(Summary, NamesVerdictGatesAndFailures) {
   auto findings = with_a_defect();
   findings.tally.strata["broken"].meshes = {1, 2, 3};
   findings.failures = {failure("a|b"), failure("c", "corpus/A1")};
-  findings.met = {{"a|b", 1}};
+  findings.times_met = {{"a|b", 1}};
   findings.evidence.waivers = {{"c", "known", "link", "2026-01-31", false}};
   const auto text = summary_text(judged(findings));
   for (const std::string word :

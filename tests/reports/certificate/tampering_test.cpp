@@ -40,7 +40,7 @@ class Tampering : public testing::Test {
 
   // A copy of the folder, changed by `change`, does not verify.
   template <class Change>
-  void expect_seen(const std::string& what, const Change& change) {
+  void expect_seen(const std::string& tampering, const Change& change) {
     fs::remove_all(bad);
     fs::copy(good, bad, fs::copy_options::recursive);
     change();
@@ -48,16 +48,17 @@ class Tampering : public testing::Test {
     const auto seen = run_assay("verify " + bad + "/certificate.json");
     if (seen.exit_code == 1) {
       const auto last = seen.out.rfind('\n', seen.out.size() - 2);
-      ASSERT_NE(last, std::string::npos) << what << ": no line says why\n" << seen.out;
-      EXPECT_TRUE(seen.out.substr(last + 1).starts_with("NOT VERIFIED: ")) << what << seen.out;
-      EXPECT_EQ(seen.err, "") << what;
+      ASSERT_NE(last, std::string::npos) << tampering << ": no line says why\n" << seen.out;
+      EXPECT_TRUE(seen.out.substr(last + 1).starts_with("NOT VERIFIED: ")) << tampering << seen.out;
+      EXPECT_EQ(seen.err, "") << tampering;
     } else {
-      EXPECT_EQ(seen.exit_code, 2) << what << "\n" << seen.out << seen.err;
-      EXPECT_EQ(std::count(seen.err.begin(), seen.err.end(), '\n'), 1) << what << seen.err;
+      EXPECT_EQ(seen.exit_code, 2) << tampering << "\n" << seen.out << seen.err;
+      EXPECT_EQ(std::count(seen.err.begin(), seen.err.end(), '\n'), 1) << tampering << seen.err;
     }
   }
-  void expect_text_seen(const std::string& file, const std::string& what, const std::string& text) {
-    expect_seen(file + ": " + what, [&] { write_bytes(bad + "/" + file, text); });
+  void expect_text_seen(const std::string& file, const std::string& tampering,
+                        const std::string& text) {
+    expect_seen(file + ": " + tampering, [&] { write_bytes(bad + "/" + file, text); });
   }
 
   // What may be done to any file.

@@ -78,8 +78,8 @@ TEST_F(ForeignDetector, WhoClaimsLittleSeesNoEmptyTable) {
     expect_no_empty_table(checked.out);
     EXPECT_FALSE(contains(checked.out, "sets:")) << "of the built-in's stages";
     EXPECT_FALSE(contains(read_text(out + "/junit.xml"), "tests=\"0\""));
-    for (const std::string what : {"slow", "failures"})
-      expect_no_empty_table(run_assay("list " + what + " " + out).out);
+    for (const std::string list : {"slow", "failures"})
+      expect_no_empty_table(run_assay("list " + list + " " + out).out);
   }
   const auto made =
       run_assay("certify --campaign " + scratch.write("plan.json", plan_text(6)) + " --out " +

@@ -15,10 +15,10 @@ std::size_t count_of(const std::string& text, const std::string& word) {
 
 class Report : public testing::Test {
  protected:
-  std::string tiny(const std::string& name, const std::string& what = "x") const {
+  std::string tiny(const std::string& name, const std::string& explanation = "x") const {
     return RunToStore()
         .judge("closed-generic", 3, 'D')
-        .fail("E1_free_membrane", "all-pairs: missing", what)
+        .fail("E1_free_membrane", "all-pairs: missing", explanation)
         .store(scratch / name);
   }
   const Scratch scratch;
