@@ -67,7 +67,7 @@ TEST(ViewTest, AStopIsAskedByTheWorkOfIntegers) {
   std::vector<ViewSign> signs(count);
   const auto run = [&](const StopFunction& stop, ViewCounts& counts) {
     PacedStop pace(stop);
-    return classify(mesh, mesh.components[0], x, x, point_at({.25, .5, 0}), signs, counts,
+    return classify(mesh, mesh.components[0], {x, x}, point_at({.25, .5, 0}), signs, counts,
                     best_instruction_set(), Arithmetic::exact, &pace);
   };
   std::uint64_t asked = 0;

@@ -228,7 +228,7 @@ TEST_F(Hostile, ItHasNothingOfItsHostButItsChannel) {
   for (const char* mode : {"descriptors-beside-the-channel", "session-of-the-host"}) {
     const auto run = this->run(mode);
     EXPECT_EQ(run.end, RunEnd::crashed) << mode;
-    EXPECT_EQ(run.what, "exited with code 3") << mode;
+    EXPECT_EQ(run.explanation, "exited with code 3") << mode;
   }
 }
 

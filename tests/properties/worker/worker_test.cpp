@@ -124,7 +124,7 @@ TEST(Worker, AStatedNumberAloneTakesNoMemory) {
   EXPECT_FALSE(decode(end + no_text + bytes_of(million) + std::string(million, '\x7f'), read));
   EXPECT_LE(read.steps.capacity(), 2u);
   EXPECT_FALSE(decode(end + bytes_of(million * million) + "text", read));
-  EXPECT_TRUE(read.what.empty());
+  EXPECT_TRUE(read.explanation.empty());
 }
 
 TEST(Worker, AMeshThatIsRefusedHasAReason) {
