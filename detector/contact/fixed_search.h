@@ -8,15 +8,15 @@
 //
 // The ends of a piece are looked at by themselves, because the first and the last coefficient have
 // the signs of the values there. Inside a piece, known signs may decide: both strict signs along
-// one axis mean no contact. Otherwise a contact is decided if the cubic has only one root there and
-// each dependency at most one. SignAtRoot then says which sign the dependency has at the root of
-// the cubic. What is still undecided when a piece is max_fixed_depth halvings deep stays open:
+// one axis mean no contact. Otherwise a contact is decided if the cubic has only one root there
+// and each dependency at most one. SignAtRoot then says which sign the dependency has at the root
+// of the cubic. What is still undecided when a piece is max_fixed_depth halvings deep stays open:
 // roots that are close together, double roots inside a piece, and collinear points.
 //
 // Points that are coplanar throughout have no cubic. Suppose that there is no contact where the
-// piece begins. Then each axis whose dependencies do not all vanish has both strict signs there, and
-// at the first contact it has them no longer. Hence one of its dependencies vanishes at that time,
-// so the roots of the dependencies of one such axis are all that has to be tried.
+// piece begins. Then each axis whose dependencies do not all vanish has both strict signs there,
+// and at the first contact it has them no longer. Hence one of its dependencies vanishes at that
+// time, so the roots of the dependencies of one such axis are all that has to be tried.
 #pragma once
 
 #include "detector/contact/fixed_piece.h"

@@ -17,7 +17,9 @@ class ThreadArena {
     virtual void run(std::size_t i, std::size_t lane) const = 0;
   };
   // Calls work.run(i, lane) for i = 0 .. count - 1, with lane < threads, and returns when all
-  // calls have. If some throw, it throws what the first of these threw.
+  // calls have. No two calls run in one lane at the same time. The calling thread works too, and
+  // is one of the threads. If calls throw, the exception of one of them is thrown again, and what
+  // had not begun then may be left out.
   virtual void run(std::size_t count, const Work& work) = 0;
 };
 

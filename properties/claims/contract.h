@@ -34,6 +34,7 @@ enum class StartRule : std::uint8_t {
 // against it.
 enum class TestedFeatures : std::uint8_t { both, vertex_face, edge_edge };
 
+// A contract that asks for more is refused.
 inline constexpr double widest_time_tolerance = 1e-3;
 
 // Lengths are in the user's units; times are shares of the step. The default contract leaves
@@ -41,7 +42,9 @@ inline constexpr double widest_time_tolerance = 1e-3;
 struct Contract {
   Adjacency adjacency = Adjacency::all;
   Coordinates coordinates = Coordinates::float64;
-  double margin = 0;  // above 0: no-spurious is not judged
+  // Above 0: the detector reports features that come so close as contacts. Its false alarms are
+  // then not judged (the claim no-spurious).
+  double margin = 0;
   StartRule start = StartRule::any;
   double start_distance = 0;  // for StartRule::apart
   // Every coordinate is 0 or has a magnitude from least_nonzero to largest. Both 0: any

@@ -1,12 +1,15 @@
-// All motions of a tetrahedron's four vertices on a tiny grid, one of each class.
+// The motions of a tetrahedron's four vertices on a tiny grid. Of motions that differ only by a
+// symmetry one stands for all.
 //
-// The vertices are at 0, 2, .., 2 (side - 1) on each axis, at t=0 and at t=1. View-points are at
-// all integers between, so that some lie strictly inside.
+// The vertices are at 0, 2, .., 2 (side - 1) on each axis, at t=0 and at t=1; they may coincide.
+// View-points are at all integers from 0 to 2 (side - 1), so that some lie strictly inside of the
+// tetrahedron.
 //
 // Motions are of one class if they are equal up to the order of the vertices and the grid's
-// mirrors and exchanges of axes. Neither changes when what touches what. But an odd order, like a
-// mirror, turns the faces round, so whoever checks a class checks it with both orientations. A
-// motion reversed in time is of another class, because its first contact is another one.
+// mirrors and permutations of axes. Neither changes which features touch, nor when. But an odd
+// permutation of the vertices, like a mirror, turns the faces round, so whoever checks a class
+// checks it with both orientations. A motion reversed in time is of another class, because its
+// first contact is another one.
 #pragma once
 
 #include <array>

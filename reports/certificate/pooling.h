@@ -14,9 +14,9 @@ namespace assay::reports {
 //
 // Fails with another_run unless all certificates speak of one detector, generator and judge: the
 // digests of program, worker, plug-in and generator must be equal, and so must detector, families
-// and the number of bounds. A program in which a bug was fixed is another program, so its sums start at
-// 0. Fails with wrong_shards if a trial would count twice: no two certificates may have the same
-// campaign and the same seed.
+// and the number of bounds. A program in which a bug was fixed is another program, so its sums
+// start at 0. Fails with wrong_shards if a trial would count twice: no two certificates may have
+// the same campaign and the same seed.
 properties::Expected<nlohmann::ordered_json> pool(
     const std::vector<nlohmann::ordered_json>& predicates);
 

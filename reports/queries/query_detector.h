@@ -32,9 +32,9 @@ class QueryDetector {
   std::string title() const;
   const properties::CampaignRequest& request() const { return *request_; }
 
-  // Judges some queries. REQUIRES one name for each. Fails if no worker can be started. A query that
-  // is not asked any more, because the plug-in crashed too often before, is counted as not asked
-  // and judged as if it lay outside of the contract.
+  // Judges some queries. REQUIRES one name for each. Fails if no worker can be started. A query
+  // that is not asked any more, because the plug-in crashed too often before, is counted as not
+  // asked and judged as if it lay outside of the contract.
   Expected<std::vector<JudgedQuery>> judge(const std::vector<detector::FourPoints>& queries,
                                            const std::vector<std::string>& names);
 

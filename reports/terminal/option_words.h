@@ -18,7 +18,8 @@ namespace assay::reports {
 template <class Parse>
 Check one_of(const std::string& words, Parse parse) {
   return {words, [words, parse](const std::string& word) {
-            return parse(word) ? std::string() : fmt::format("'{}' is not one of {}", word, words);
+            return parse(word) ? std::string()
+                               : fmt::format("'{}' is wrong, wanted: {}", word, words);
           }};
 }
 

@@ -131,7 +131,7 @@ NOT_RUN = {
         "properties_detector_tests": LENT,
         "python3 tests/mutation/mutate.py": MUTANTS,
         "python3 tests/mutation/mutate.py --seed 2 --mutants 300 --jobs 2": MUTANTS,
-        "python3 tests/mutation/mutate.py --only search/ --mutants 40": MUTANTS,
+        "python3 tests/mutation/mutate.py --only state/ boundary/ step/ search/ --mutants 200": MUTANTS,
         "python3 tests/mutation/mutate.py --these tests/mutation/smoke.json --anew": MUTANTS,
     },
 }

@@ -29,8 +29,9 @@ struct SequenceVariant {
 // alone, so it has fewer times than the others.
 //
 // If a variant's answers, pairs or times of contact differ from those of the first variant, the
-// report counts a wrong answer. Runs with one culling must also agree in everything
-// that result_hash() covers, whatever their threads. starts_clean: the first positions are known to be free of contacts.
+// report counts a wrong answer. Runs with one culling must also agree in everything that
+// result_hash() covers, whatever their threads. starts_clean: the first positions are known to be
+// free of contacts.
 void time_sequence(const std::string& name, const corpus::Sequence& sequence, bool starts_clean,
                    int rounds, std::vector<SequenceVariant>& variants, BenchReport& report);
 
