@@ -1,8 +1,8 @@
 // One step under way: what it was given, what it has marked and counted so far, and a function for
 // each line of the algorithm. step.cpp states the algorithm and calls them in its order.
 //
-// A function that does work returns false if the stop function asked for an end, or nothing if it
-// never asks. Those that serve views alone do nothing in a step without views.
+// A function whose work may be stopped returns whether it went to its end; the others say what they
+// return. Functions that serve views alone do nothing in a step without views.
 #pragma once
 
 #include <optional>
