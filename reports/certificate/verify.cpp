@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -21,37 +20,44 @@ using Json = nlohmann::ordered_json;
 using corpus::json_text;
 using Lines = std::vector<std::string>;
 
-// The place of each leaf, in the order of the text. An empty object or list is a leaf.
-using Leaves = std::vector<std::pair<std::string, const Json*>>;
+// An empty object or list is a leaf, as a number is.
+bool is_leaf(const Json& json) { return !json.is_structured() || json.empty(); }
 
-void add_leaves(const Json& json, const Json::json_pointer& place, Leaves& leaves) {
-  if (!json.is_structured() || json.empty()) {
-    leaves.emplace_back(place.to_string(), &json);
-    return;
+void compare_leaves(const Json* stated, const Json* computed, const std::string& place,
+                    Lines& lines) {
+  if (computed == nullptr) {
+    lines.push_back(
+        fmt::format("{}: {} is stated, nothing of it is stored", place, json_text(*stated)));
+  } else if (stated == nullptr) {
+    lines.push_back(fmt::format("{}: is not stated, {} is computed", place, json_text(*computed)));
+  } else {
+    lines.push_back(fmt::format("{}: {} is stated, {} is computed", place, json_text(*stated),
+                                json_text(*computed)));
   }
-  for (const auto& [name, value] : json.items()) add_leaves(value, place / name, leaves);
 }
 
-// Reports each leaf that only one side has, or that differs.
-void compare_fields(const Json& stated, const Json& computed, Lines& lines) {
-  Leaves one, other;
-  add_leaves(stated, Json::json_pointer(), one);
-  add_leaves(computed, Json::json_pointer(), other);
-  const std::map<std::string_view, const Json*> in_one(one.begin(), one.end()),
-      in_other(other.begin(), other.end());
-  for (const auto& [place, value] : one) {
-    const auto found = in_other.find(place);
-    if (found == in_other.end()) {
-      lines.push_back(
-          fmt::format("{}: {} is stated, nothing of it is stored", place, json_text(*value)));
-    } else if (*found->second != *value) {
-      lines.push_back(fmt::format("{}: {} is stated, {} is computed", place, json_text(*value),
-                                  json_text(*found->second)));
-    }
+// Reports each leaf that only one side has, or that differs. A side that has nothing at this place
+// is null. Equal parts are passed over as a whole, so that no place is named in vain.
+void compare_fields(const Json* stated, const Json* computed, const Json::json_pointer& place,
+                    Lines& lines) {
+  const bool has_both = stated != nullptr && computed != nullptr;
+  if (has_both && *stated == *computed) return;
+  if ((stated == nullptr || is_leaf(*stated)) && (computed == nullptr || is_leaf(*computed)))
+    return compare_leaves(stated, computed, place.to_string(), lines);
+  if (has_both && stated->type() != computed->type()) {
+    compare_fields(stated, nullptr, place, lines);
+    compare_fields(nullptr, computed, place, lines);
+    return;
   }
-  for (const auto& [place, value] : other) {
-    if (!in_one.contains(place))
-      lines.push_back(fmt::format("{}: is not stated, {} is computed", place, json_text(*value)));
+  const auto part_of = [](const Json* whole, const Json::json_pointer& name) {
+    return whole != nullptr && whole->contains(name) ? &whole->at(name) : nullptr;
+  };
+  const Json nothing = Json::object();
+  for (const auto& [name, value] : (stated == nullptr ? nothing : *stated).items())
+    compare_fields(&value, part_of(computed, Json::json_pointer() / name), place / name, lines);
+  for (const auto& [name, value] : (computed == nullptr ? nothing : *computed).items()) {
+    if (part_of(stated, Json::json_pointer() / name) == nullptr)
+      compare_fields(nullptr, &value, place / name, lines);
   }
 }
 
@@ -130,7 +136,7 @@ void compare(const std::filesystem::path& certificate, const properties::Expecte
   }
   const auto folder = folder_of(certificate);
   const Json& computed = made.value();
-  compare_fields(result.statement, computed, lines);
+  compare_fields(&result.statement, &computed, Json::json_pointer(), lines);
   // The bytes of the file are compared as well, because a compressed certificate would be read
   // like its contents, and assay writes none.
   if (lines.empty()) compare_file(certificate, corpus::sha256_of(statement_text(computed)), lines);

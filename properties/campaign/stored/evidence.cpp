@@ -13,9 +13,18 @@ namespace assay::properties {
 // The keys of the facts are stated once for both directions, reading and writing. They are the
 // names of the members. The exception is the key "what", under which rows store a line of text.
 // What a row's name or shard says is no fact.
+#define FACT_WITH_KEYS(Type, ...)                                                        \
+  void to_json(nlohmann::json& j, const Type& x) {                                       \
+    const auto field = [&](const char* key, const auto& member) { j[key] = member; };    \
+    __VA_ARGS__;                                                                         \
+  }                                                                                      \
+  void from_json(const nlohmann::json& j, Type& x) {                                     \
+    const auto field = [&](const char* key, auto& member) { j.at(key).get_to(member); }; \
+    __VA_ARGS__;                                                                         \
+  }
+
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Canary, found_after)
-void to_json(nlohmann::json& j, const HarnessProblem& x) { j = {{"what", x.explanation}}; }
-void from_json(const nlohmann::json& j, HarnessProblem& x) { j.at("what").get_to(x.explanation); }
+FACT_WITH_KEYS(HarnessProblem, field("what", x.explanation))
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshCounts, triangles, vertices, steps)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShrunkFault, before, after, calls)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaultProof, law, status, curated, needed, cases, time_over,
@@ -27,35 +36,16 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(World, classes, motions, all, collisions, com
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PluginIsolation, asked, got)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SlowCase, id, configuration, undecided, seconds, limit, mesh,
                                    smallest)
-void to_json(nlohmann::json& j, const Repetition& x) {
-  j = {{"input", x.input},         {"configuration", x.configuration},
-       {"triangles", x.triangles}, {"steps", x.steps},
-       {"runs", x.runs},           {"threads", x.threads},
-       {"what", x.difference},     {"broken", x.broken}};
-}
-void from_json(const nlohmann::json& j, Repetition& x) {
-  j.at("input").get_to(x.input);
-  j.at("configuration").get_to(x.configuration);
-  j.at("triangles").get_to(x.triangles);
-  j.at("steps").get_to(x.steps);
-  j.at("runs").get_to(x.runs);
-  j.at("threads").get_to(x.threads);
-  j.at("what").get_to(x.difference);
-  j.at("broken").get_to(x.broken);
-}
+FACT_WITH_KEYS(Repetition, field("input", x.input), field("configuration", x.configuration),
+               field("triangles", x.triangles), field("steps", x.steps), field("runs", x.runs),
+               field("threads", x.threads), field("what", x.difference), field("broken", x.broken))
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Paths, out, detector, own_cases, data)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputDigests, corpus, waivers)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StoredWaiver, reason, link, expires, expired)
-void to_json(nlohmann::json& j, const CorpusRow::Failed& x) {
-  j = {{"id", x.id}, {"signature", x.signature}, {"what", x.explanation}};
-}
-void from_json(const nlohmann::json& j, CorpusRow::Failed& x) {
-  j.at("id").get_to(x.id);
-  j.at("signature").get_to(x.signature);
-  j.at("what").get_to(x.explanation);
-}
+FACT_WITH_KEYS(CorpusRow::Failed, field("id", x.id), field("signature", x.signature),
+               field("what", x.explanation))
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow, input, configuration, cases, left_out, steps,
                                    collisions, pairs, defects, failed, open)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SelfTestRow, queries, contacts, contradictions, open, complete)

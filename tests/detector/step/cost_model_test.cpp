@@ -107,17 +107,22 @@ Positions sheet_positions(int rising_rows) {
   return x;
 }
 
+// The same triangles, each with its other side in front.
+Triangles turned(const Triangles& t) {
+  Triangles result(t.rows(), 3);
+  result << t.col(0), t.col(2), t.col(1);
+  return result;
+}
+
 // A sheet seen along itself: integers would decide that the flat triangles have no sign, which
 // costs more than what the signs of the others can save.
 TEST(CostModel, ALargeSheetIsGlancedAtAndNoMore) {
   const Triangles t = sheet_triangles();
   const MovingPoint corner = {{0, 0, 0}, {0, 0, 0}};
   const ViewPrimitive along = {corner, corner};
-  Triangles turned(t.rows(), 3);
-  turned << t.col(0), t.col(2), t.col(1);
   for (const int rising : {0, 24, 36}) {
     for (const bool is_turned : {false, true}) {
-      const Triangles& sheet = is_turned ? turned : t;  // the risen triangles have the other sign
+      const Triangles sheet = is_turned ? turned(t) : t;  // the risen triangles have the other sign
       const Positions x = sheet_positions(rising);
       Positions moved = x;
       moved.col(1).array() += .25;
@@ -136,13 +141,11 @@ TEST(CostModel, ALargeSheetWithAFewSignsIsGlancedAtAndNoMore) {
   const Triangles t = sheet_triangles();
   const MovingPoint below = {{0, 0, 0}, {0, 0, 0}};
   const ViewPrimitive view = {below, below};
-  Triangles turned(t.rows(), 3);
-  turned << t.col(0), t.col(2), t.col(1);
   Positions x = sheet_positions(0), moved = x;
   x.col(2).setOnes();
   moved.col(2).setOnes();
   moved.topRows(3 * (sheet_side - 1) / 4 * sheet_side).col(2).setConstant(-1);
-  for (const Triangles& sheet : {t, turned}) {
+  for (const Triangles& sheet : {t, turned(t)}) {
     const auto result = make(sheet, x).step(x, moved, {&view, 1});
     EXPECT_EQ(result.views, ViewUse::hopeless);
     EXPECT_FALSE(was_looked_at(result));

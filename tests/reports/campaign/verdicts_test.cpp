@@ -217,7 +217,7 @@ void expect_agreement(const std::string& folder, const States& states) {
 }
 
 TEST(Verdicts, AllTextsAgreeOverAllCombinationsOfGateResults) {
-  const Scratch scratch;
+  const Scratch scratch(folder_in_memory());
   int folders = 1;
   for (std::size_t i = 0; i < gate_rules.size(); ++i) folders *= 3;
   for (int number = 0; number < folders; ++number) {
