@@ -16,7 +16,8 @@ namespace assay::tests {
 // A folder of its own for each test process, removed at the end.
 class Scratch {
  public:
-  explicit Scratch(const std::filesystem::path& where = std::filesystem::temp_directory_path()) {
+  Scratch() : Scratch(std::filesystem::temp_directory_path()) {}
+  explicit Scratch(const std::filesystem::path& where) {
     std::string name = (where / "assay-XXXXXX").string();
     folder_ = mkdtemp(name.data());
   }
