@@ -9,8 +9,6 @@ bool contains(const std::array<std::int32_t, 3>& triangle, std::int32_t vertex) 
   return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
 }
 
-bool is_single(TypeSet types) { return (types & (types - 1)) == 0; }
-
 }  // namespace
 
 struct FeaturePairs::Triangle {

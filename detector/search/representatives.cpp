@@ -1,5 +1,7 @@
 #include "detector/search/representatives.h"
 
+#include "detector/parallel/for_all.h"
+
 namespace assay::detector {
 namespace {
 
@@ -17,18 +19,59 @@ Representatives::Representatives(const Topology& mesh, PacedStop* pace)
   choose_all(mesh, types, pace);
 }
 
+// Most features lie between triangles of one type, so their lowest triangle represents them. Each
+// triangle asks for itself whether that is so, and the workers share the triangles out. The few
+// features between several types are left to one thread, which chooses for one after the other.
+// Most features lie between triangles of one type, and the lowest of these represents them. Each
+// triangle finds out for itself whether it does, so the workers share the triangles out.
 bool Representatives::choose_all(const Topology& mesh, const std::vector<TriangleType>& types,
                                  PacedStop* pace) {
+  const auto types_of = [&](std::span<const std::int32_t> holders) {
+    TypeSet seen = 0;
+    for (const auto t : holders) seen |= set_of(types[at(t)]);
+    return seen;
+  };
+  const auto lowest_of = [&](std::int32_t t) {
+    unsigned features = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto v = mesh.triangles[at(t)][i], e = mesh.triangle_edges[at(t)][i];
+      features |= unsigned{mesh.vertex_triangles.row(v).front() == t} << i |
+                  unsigned{mesh.edge_triangles.row(e).front() == t} << (3 + i);
+    }
+    return static_cast<RepresentedFeatures>(features);
+  };
   const auto around_vertex = [&](std::size_t v) {
-    const auto vertex = static_cast<std::int32_t>(v);
-    vertex_types_[v] = choose(mesh.triangles, mesh.vertex_triangles.row(vertex), vertex, 0, types);
+    vertex_types_[v] = types_of(mesh.vertex_triangles.row(static_cast<std::int32_t>(v)));
   };
   const auto around_edge = [&](std::size_t e) {
-    const auto edge = static_cast<std::int32_t>(e);
-    edge_types_[e] = choose(mesh.triangle_edges, mesh.edge_triangles.row(edge), edge, 3, types);
+    edge_types_[e] = types_of(mesh.edge_triangles.row(static_cast<std::int32_t>(e)));
   };
-  return for_each_paced(vertex_types_.size(), work_of_vertex, pace, around_vertex) &&
-         for_each_paced(edge_types_.size(), work_of_edge, pace, around_edge);
+  const auto of_triangle = [&](std::size_t t) {
+    features_[t] = lowest_of(static_cast<std::int32_t>(t));
+  };
+  return for_all_paced(vertex_types_.size(), work_of_vertex, pace, around_vertex) &&
+         for_all_paced(edge_types_.size(), work_of_edge, pace, around_edge) &&
+         for_all_paced(features_.size(), work_of_triangle, pace, of_triangle) &&
+         choose_between_types(mesh, types, pace);
+}
+
+// The few features between triangles of several types: one thread chooses for one after the other.
+bool Representatives::choose_between_types(const Topology& mesh,
+                                           const std::vector<TriangleType>& types,
+                                           PacedStop* pace) {
+  constexpr std::uint64_t work_of_look = 1;
+  const auto around_vertex = [&](std::size_t v) {
+    if (is_single(vertex_types_[v])) return;
+    const auto vertex = static_cast<std::int32_t>(v);
+    choose(mesh.triangles, mesh.vertex_triangles.row(vertex), vertex, 0, types);
+  };
+  const auto around_edge = [&](std::size_t e) {
+    if (is_single(edge_types_[e])) return;
+    const auto edge = static_cast<std::int32_t>(e);
+    choose(mesh.triangle_edges, mesh.edge_triangles.row(edge), edge, 3, types);
+  };
+  return for_each_paced(vertex_types_.size(), work_of_look, pace, around_vertex) &&
+         for_each_paced(edge_types_.size(), work_of_look, pace, around_edge);
 }
 
 bool Representatives::update(const Topology& mesh, const std::vector<TriangleType>& types,

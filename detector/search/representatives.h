@@ -59,6 +59,8 @@ class Representatives {
 
  private:
   bool choose_all(const Topology& mesh, const std::vector<TriangleType>& types, PacedStop* pace);
+  bool choose_between_types(const Topology& mesh, const std::vector<TriangleType>& types,
+                            PacedStop* pace);
   // Makes the lowest triangle of each type in `holders` represent the feature numbered `index`,
   // and returns the types. lists: the corners or the edges of each triangle, among which the
   // feature is found. first_bit: 0 for corners, 3 for edges.

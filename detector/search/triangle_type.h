@@ -42,6 +42,8 @@ using TypeSet = std::uint16_t;
 constexpr TypeSet set_of(TriangleType type) {
   return static_cast<TypeSet>(1u << static_cast<unsigned>(type));
 }
+// Whether it holds one type, or none.
+constexpr bool is_single(TypeSet types) { return (types & (types - 1)) == 0; }
 
 namespace type_flags {
 using Table = std::array<std::uint8_t, triangle_types>;
