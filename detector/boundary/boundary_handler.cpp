@@ -1,10 +1,33 @@
 #include "detector/boundary/boundary_handler.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "detector/boundary/apex_choice.h"
+#include "detector/parallel/workers.h"
 
 namespace assay::detector {
+namespace {
+
+// The nodes below which the triangles of a component are swept, each part by one worker. How many
+// they are depends on the mesh alone, so the counts of a sweep do not depend on the workers. A part
+// of a component is its half, a quarter and so on.
+std::vector<std::int32_t> parts_of(const BoundingVolumeTree& tree, std::int32_t component,
+                                   std::size_t triangles) {
+  constexpr std::size_t least_triangles = 256, most_parts = 64;
+  std::vector<std::int32_t> parts = {tree.root_of(component)}, halves;
+  for (; triangles / 2 >= least_triangles && parts.size() < most_parts; triangles /= 2) {
+    halves.clear();
+    for (const auto node : parts) {
+      halves.push_back(tree.child(node));
+      halves.push_back(tree.child(node) + 1);
+    }
+    std::swap(parts, halves);
+  }
+  return parts;
+}
+
+}  // namespace
 
 Surface BoundaryHandler::close_up(const TrianglesView& triangles, Eigen::Index vertex_count,
                                   PacedStop& pace) const {
@@ -39,12 +62,33 @@ std::vector<MovingPoint> BoundaryHandler::place_apexes(const Surface& surface,
 bool BoundaryHandler::sweep(const GhostSweep& sweep, std::span<const std::int32_t> ghosts,
                             const StopFunction& stop, std::vector<std::uint8_t>& touched,
                             GhostCounts& counts) const {
+  if (ghosts.empty()) return true;
   GhostSweep as_asked = sweep;
   if (test_ == GhostTest::boxes) as_asked.test = test_;
-  const auto holes = make_hole_trees(sweep.surface.all(), ghosts, sweep.tree.grid(), sweep.motion);
-  return std::all_of(holes.begin(), holes.end(), [&](const HoleTree& hole) {
-    return sweep_hole(as_asked, hole, stop, touched, counts);
-  });
+  const Topology& all = sweep.surface.all();
+  const auto holes = make_hole_trees(all, ghosts, sweep.tree.grid(), sweep.motion);
+  const auto component = all.component_of_triangle[at(ghosts[0])];
+  const auto parts = parts_of(sweep.tree, component,
+                              sweep.surface.mesh.components[at(component)].triangles.size());
+  struct alignas(64) Lane {
+    GhostCounts counts;
+  };
+  std::vector<Lane> lanes(sweep.workers ? sweep.workers->count() : 1);
+  std::atomic<bool> is_whole = true;
+  const auto run = [&](const LoopPiece& piece) {
+    const bool completed = std::all_of(holes.begin(), holes.end(), [&](const HoleTree& hole) {
+      return sweep_hole_below(parts[piece.begin], as_asked, hole, stop, touched,
+                              lanes[piece.lane].counts);
+    });
+    if (!completed) is_whole = false;
+  };
+  if (sweep.workers) {
+    sweep.workers->share_out(parts.size(), 1, run);
+  } else {
+    for (std::size_t i = 0; i < parts.size(); ++i) run({i, i + 1, 0});
+  }
+  for (const auto& lane : lanes) counts += lane.counts;
+  return is_whole;
 }
 
 }  // namespace assay::detector

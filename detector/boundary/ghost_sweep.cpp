@@ -53,13 +53,13 @@ class GhostPlane {
 
 class HoleSweep {
  public:
-  HoleSweep(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
-            std::vector<std::uint8_t>& touched, GhostCounts& counts)
-      : sweep_(sweep),
+  HoleSweep(std::int32_t top, const GhostSweep& sweep, const HoleTree& hole,
+            const StopFunction& stop, std::vector<std::uint8_t>& touched, GhostCounts& counts)
+      : top_(top),
+        sweep_(sweep),
         tree_(sweep.tree),
         all_(sweep.surface.all()),
         hole_(hole),
-        component_(all_.component_of_triangle[at(hole.first_ghost())]),
         stop_(stop),
         touched_(touched),
         counts_(counts),
@@ -68,7 +68,7 @@ class HoleSweep {
   }
 
   bool run() {
-    descend(HoleTree::root, tree_.root_of(component_));
+    descend(HoleTree::root, top_);
     return !stopped_;
   }
 
@@ -85,7 +85,7 @@ class HoleSweep {
     const bool splits_tree =
         !tree_.is_leaf(node) && !(sweep_.by_planes != ByPlanes::no && splits_hole);
     if (sweep_.by_planes != ByPlanes::no && !splits_hole) {
-      if (node == tree_.root_of(component_)) plane_ = plane_of(hole_.ghost(of_hole));
+      if (node == top_) plane_ = plane_of(hole_.ghost(of_hole));
       if (plane_.misses(tree_.box(node), sweep_.by_planes == ByPlanes::grazing)) return;
     }
     if (!splits_hole && !splits_tree) {
@@ -126,11 +126,11 @@ class HoleSweep {
     next_asking_ = (counts_.work() / sweep_.work_between_stops + 1) * sweep_.work_between_stops;
   }
 
+  const std::int32_t top_;  // of the mesh's tree
   const GhostSweep& sweep_;
   const BoundingVolumeTree& tree_;
   const Topology& all_;
   const HoleTree& hole_;
-  const std::int32_t component_;
   const StopFunction& stop_;
   std::vector<std::uint8_t>& touched_;
   GhostCounts& counts_;
@@ -144,7 +144,14 @@ class HoleSweep {
 
 bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
                 std::vector<std::uint8_t>& touched, GhostCounts& counts) {
-  return HoleSweep(sweep, hole, stop, touched, counts).run();
+  const auto c = sweep.surface.all().component_of_triangle[at(hole.first_ghost())];
+  return sweep_hole_below(sweep.tree.root_of(c), sweep, hole, stop, touched, counts);
+}
+
+bool sweep_hole_below(std::int32_t node, const GhostSweep& sweep, const HoleTree& hole,
+                      const StopFunction& stop, std::vector<std::uint8_t>& touched,
+                      GhostCounts& counts) {
+  return HoleSweep(node, sweep, hole, stop, touched, counts).run();
 }
 
 }  // namespace assay::detector

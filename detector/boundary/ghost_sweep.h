@@ -32,6 +32,8 @@ struct GhostSweep {
   // The stop function is asked at the first pair, and then after so much work (GhostCounts::work),
   // which takes about a millisecond.
   std::uint64_t work_between_stops = PacedStop::usual_interval;
+  // If given, they share the mesh out among them (BoundaryHandler::sweep).
+  const Workers* workers = nullptr;
 };
 
 // Sets touched[t] of each mesh triangle t that a ghost of the hole touches at any time in [0,1].
@@ -43,5 +45,12 @@ struct GhostSweep {
 // elementary tests for each pair whose boxes meet. False if stopped.
 bool sweep_hole(const GhostSweep& sweep, const HoleTree& hole, const StopFunction& stop,
                 std::vector<std::uint8_t>& touched, GhostCounts& counts);
+
+// The same for the triangles below one node of the mesh's tree, which must be of the hole's
+// component. Sweeps below nodes of which none is above another may run at the same time, unless
+// sweep.found is given.
+bool sweep_hole_below(std::int32_t node, const GhostSweep& sweep, const HoleTree& hole,
+                      const StopFunction& stop, std::vector<std::uint8_t>& touched,
+                      GhostCounts& counts);
 
 }  // namespace assay::detector

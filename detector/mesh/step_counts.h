@@ -96,6 +96,14 @@ struct GhostCounts {
   // order, and up to 6 orientations are computed. An elementary test of a feature pair that axis
   // order left open takes 0.1 to 2 us.
   std::uint64_t work() const { return box_tests + 32 * pairs + 64 * elementary_tests; }
+
+  GhostCounts& operator+=(const GhostCounts& other) {
+    box_tests += other.box_tests;
+    pairs += other.pairs;
+    elementary_tests += other.elementary_tests;
+    near_triangles += other.near_triangles;
+    return *this;
+  }
 };
 
 // The release of dirty triangles at the start of a step that goes on from a committed one (L9).

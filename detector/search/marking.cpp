@@ -1,8 +1,17 @@
 #include "detector/search/marking.h"
 
+#include <bit>
 #include <cassert>
 
 namespace assay::detector {
+namespace {
+
+// In a mesh of so many triangles, of which a quarter has changed, one pass over all nodes takes a
+// fifth of the time of a walk upward from each changed leaf.
+constexpr std::size_t large_mesh = 1024;
+
+}  // namespace
+
 Marks::Marks(const BoundingVolumeTree& tree)
     : types((tree.node_count() + 1) / 2, TriangleType::positive),
       node_flags(tree.node_count(), flag::positive) {
@@ -18,7 +27,11 @@ void Marking::bring_to(std::span<const TriangleType> types, const BoundingVolume
     marks.types[t] = types[t];
     marks.changed.push_back(static_cast<std::int32_t>(t));
   }
-  update(tree, marks, counts);
+  if (types.size() >= large_mesh && marks.changed.size() > types.size() / 4) {
+    mark_anew(tree, marks, counts);
+  } else {
+    update(tree, marks, counts);
+  }
 }
 
 void Marking::change(std::span<const Change> changes, const BoundingVolumeTree& tree, Marks& marks,
@@ -44,6 +57,23 @@ void Marking::update(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts
     const auto leaf = tree.leaf_of(t);
     const auto gone = static_cast<std::uint8_t>(marks.node_flags[at(leaf)] & ~marks.flags(t));
     if (gone) clear(leaf, gone, tree, marks, counts);
+  }
+}
+
+// Counts what update() would: there a node is met once for each flag that it gets or loses.
+void Marking::mark_anew(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts& counts) {
+  for (auto node = static_cast<std::int32_t>(tree.node_count()); node-- > 0;) {
+    auto& of_node = marks.node_flags[at(node)];
+    const auto child = static_cast<std::size_t>(tree.child(node));
+    const std::uint8_t before = of_node;
+    of_node =
+        tree.is_leaf(node)
+            ? marks.flags(tree.triangle(node))
+            : static_cast<std::uint8_t>(marks.node_flags[child] | marks.node_flags[child + 1]);
+    if (of_node == before) continue;
+    counts.changed += tree.is_leaf(node);
+    counts.marked += static_cast<std::uint64_t>(std::popcount(unsigned(of_node & ~before)));
+    counts.cleared += static_cast<std::uint64_t>(std::popcount(unsigned(before & ~of_node)));
   }
 }
 

@@ -9,7 +9,8 @@
 //   a lost flag is cleared on each ancestor until one has it from its other child.
 // All new flags are set before any is cleared, so no flag is taken away and given back. The flags
 // do not depend on the order in which triangles change. The work is the number of nodes whose
-// flags change, for each changed triangle at most the depth of the tree.
+// flags change, for each changed triangle at most the depth of the tree. Where a quarter of a
+// large mesh has changed, as in the first step with views, one pass over all nodes takes less.
 #pragma once
 
 #include <span>
@@ -62,6 +63,9 @@ class Marking {
  private:
   // Makes the flags agree with the types of the triangles in marks.changed.
   void update(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts& counts) const;
+  // The same by one pass over all nodes, for types that have one flag each, as those of a first
+  // search have.
+  static void mark_anew(const BoundingVolumeTree& tree, Marks& marks, MarkingCounts& counts);
 };
 
 }  // namespace assay::detector

@@ -88,7 +88,8 @@ bool ReleaseRule::verify_start(const GivenStep& step, StepMarks& marks, StepCost
   if (!step.tree.refit(step.surface.mesh, step.motion.at_start(), cost.pace)) return false;
   std::vector<std::uint8_t> touched(step.surface.mesh.triangles.size(), 0);
   if (!find_static_contacts(step, cost, components, touched)) return false;
-  const GhostSweep still{step.surface, step.tree, step.motion.at_start(), step.elementary, true};
+  GhostSweep still{step.surface, step.tree, step.motion.at_start(), step.elementary, true};
+  still.workers = cost.pace.workers();
   for (const auto c : components) {
     if (cost.pace.after(work_of_component) ||
         !step.boundary.sweep(still, step.ghosts(at(c)), step.stop, touched, cost.counts.ghosts))

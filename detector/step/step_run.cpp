@@ -94,6 +94,7 @@ bool StepRun::sweep_ghosts() {
   GhostSweep sweep{given_.surface, given_.tree, given_.motion, given_.elementary, !given_.known};
   marks_.near_ghosts.assign(mesh_.triangles.size(), 0);
   sweep.near = &marks_.near_ghosts;
+  sweep.workers = cost_.pace.workers();
   for (std::size_t c = 0; c < mesh_.components.size(); ++c) {
     if (marks_.free[c]) continue;
     constexpr std::uint64_t work_of_sweep = 200;

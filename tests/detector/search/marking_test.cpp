@@ -63,6 +63,35 @@ TEST(Marking, AtFirstEverythingIsPositive) {
   EXPECT_EQ(counts.changed + counts.marked + counts.cleared, 0u);
 }
 
+// Where a quarter or more of a large mesh changes, one pass goes over all nodes. The flags and the
+// counts are those of a walk upward from each triangle.
+TEST(Marking, OnePassOverAllNodesCountsAsTheWalksDo) {
+  SearchMeshes random(7);
+  const MovingMesh mesh = random.sheets(2, 24, false);
+  ASSERT_GE(mesh.topology.triangles.size(), 2048u);
+  const BoundingVolumeTree tree(mesh.topology, mesh.x_t0);
+  Marks at_once(tree), one_by_one(tree);
+  std::vector<TriangleType> types = at_once.types;
+  for (int step = 0; step < 10; ++step) {
+    std::vector<Marking::Change> changes;
+    for (std::size_t t = 0; t < types.size(); ++t) {
+      if (step > 0 && random.below(2) == 0) continue;
+      // The first time all change to one type, as in a step without views.
+      types[t] = step == 0 ? TriangleType::violated : static_cast<TriangleType>(random.below(5));
+      changes.push_back({static_cast<std::int32_t>(t), types[t]});
+    }
+    MarkingCounts counts, walked;
+    Marking().bring_to(types, tree, at_once, counts);
+    Marking().change(changes, tree, one_by_one, walked);
+    ASSERT_EQ(at_once.node_flags, one_by_one.node_flags) << step;
+    EXPECT_EQ(at_once.types, one_by_one.types) << step;
+    EXPECT_EQ(at_once.changed, one_by_one.changed) << step;
+    EXPECT_EQ(counts.changed, walked.changed) << step;
+    EXPECT_EQ(counts.marked, walked.marked) << step;
+    EXPECT_EQ(counts.cleared, walked.cleared) << step;
+  }
+}
+
 // After any sequence of markings, closures among them, flags are those marked from scratch, and the
 // work is bounded by the triangles that changed.
 TEST(Marking, FlagsAreThoseFromScratch) {
