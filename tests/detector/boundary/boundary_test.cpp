@@ -72,6 +72,17 @@ TEST(Apex, StandsOverTheCentroidAlongTheNormal) {
   EXPECT_EQ(place_apex({-0.25}, loop, x), (Point{1.5, 2, -1.25}));
 }
 
+// So far away a centroid is rounded to 2^-12, which must not weigh on the normal.
+TEST(Apex, OfALoopFarAwayIsThatOfTheSameLoopNearby) {
+  const Positions near = tests::positions({{0, 0, 0}, {3, 0, 0}, {4, 2, 0}, {2, 5, 0}, {0, 3, 0}});
+  const Loop loop = {0, 1, 2, 3, 4};
+  const double far = 0x1p40;
+  const Positions away = near.array() + far;
+  const Point a = place_apex({1}, loop, near), b = place_apex({1}, loop, away);
+  EXPECT_GT(a[2], 5);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(b[k] - far, a[k], .02) << k;
+}
+
 TEST(Apex, IsFiniteForEveryFiniteLoop) {
   constexpr double huge = std::numeric_limits<double>::max(), tiny = 0x1p-1074;
   for (const double s : {huge, tiny, 0.0}) {

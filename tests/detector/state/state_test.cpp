@@ -14,6 +14,24 @@ namespace {
 using tests::octahedron;
 using tests::octahedron_positions;
 
+// Positions are copied and compared in pieces, of which 100,000 rows make several.
+TEST(StepState, HoldsAtThePositionsThatItKeptAndAtNoOthers) {
+  constexpr Eigen::Index count = 100'000;
+  Positions x(count, 3);
+  for (Eigen::Index v = 0; v < count; ++v) x.row(v) << 3. * v, 3. * v + 1, 3. * v + 2;
+  PacedStop pace(never_stops);
+  StepState state;
+  state.keep(x, pace);
+  EXPECT_TRUE(state.positions == x);
+  EXPECT_TRUE(state.holds_at(x, pace));
+  EXPECT_FALSE(state.holds_at(x.topRows(count - 1), pace)) << "the same as far as it goes";
+  for (const Eigen::Index v : {Eigen::Index{0}, count / 2, count - 1}) {
+    Positions other = x;
+    other(v, 2) += 1;
+    EXPECT_FALSE(state.holds_at(other, pace)) << v;
+  }
+}
+
 TEST(Topology, OctahedronIsOneCycle) {
   const Topology mesh = make_topology(octahedron(), 6);
   EXPECT_EQ(mesh.edges.size(), 12u);

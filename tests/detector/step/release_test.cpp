@@ -1,6 +1,8 @@
 // A passage through a hole and back, a caller's response, a state that is saved and restored.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "detector/detector.h"
 #include "detector/state/state_fields.h"
 #include "tests/detector/contact/same_contacts.h"
@@ -70,6 +72,29 @@ TEST(Release, L9_OutThroughTheHoleAndBackIsUndone) {
   Detector clean = make();
   clean.step(in, near);
   expect_same(detector.step(near, in), clean.step(near, in));
+}
+
+// Of the pairs that met in the step before, each is looked at once, unless both of its triangles
+// are known to be touched.
+TEST(Release, L9_LastingContactsAreCounted) {
+  const Positions in = octahedron_positions(2);
+  Positions through = in;
+  through.row(5) << .5, .25, 3;
+  Detector detector = std::move(Detector::create(octahedron(), in, with_points()).value());
+  const auto met = detector.step(in, through);
+  ASSERT_GT(met.pairs.size(), 2u);
+  const auto still = detector.evaluate(through, through);
+  std::set<TrianglePair> last;
+  for (const auto& contact : still.pairs) last.insert(contact.pair);
+  std::uint64_t looked_at = 0;
+  std::set<std::int32_t> touched;
+  for (const auto& [pair, time, feature] : met.pairs) {
+    if (touched.contains(pair.a) && touched.contains(pair.b)) continue;
+    ++looked_at;
+    if (last.contains(pair)) touched.insert({pair.a, pair.b});
+  }
+  EXPECT_GT(still.counts.release.in_doubt, 0u);
+  EXPECT_EQ(still.counts.release.pairs, looked_at);
 }
 
 TEST(Release, TheCoarseFormsReleaseNoMore) {

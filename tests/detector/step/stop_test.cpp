@@ -51,6 +51,13 @@ TEST_P(Stop, InAClosedMeshThatCollides) {
   stop_everywhere(detector, x, tip_at({.5, .25, 3}));
 }
 
+TEST_P(Stop, WhereContactsLastFromTheStepBefore) {
+  const Positions x = octahedron_positions(2), through = tip_at({.5, .25, 3});
+  auto detector = std::move(Detector::create(octahedron(), x, {GetParam()}).value());
+  ASSERT_EQ(detector.step(x, through).answer, Answer::collision);
+  stop_everywhere(detector, through, tip_at({.5, .25, 2.5}));
+}
+
 TEST_P(Stop, WhereGhostsAreSweptAndDoubtIsReleased) {
   const Positions in = octahedron_positions(2), out = tip_at({1.5, 1.5, 1.5});
   // Without its triangle at +x +y +z.

@@ -1,0 +1,82 @@
+// What the tree and a search of it cost, counted.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "detector/search/bounding_volume_tree.h"
+#include "detector/search/marking.h"
+#include "detector/search/pair_search.h"
+#include "tests/detector/search/search_meshes.h"
+
+namespace assay::tests {
+namespace {
+
+using namespace detector;
+
+// Triangles of no common vertex, each of size one, at the places given.
+struct Scattered {
+  explicit Scattered(const std::vector<Eigen::RowVector3d>& places) {
+    const auto n = static_cast<Eigen::Index>(places.size());
+    triangles.resize(n, 3);
+    x.resize(3 * n, 3);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto& place = places[static_cast<std::size_t>(i)];
+      triangles.row(i) << static_cast<int>(3 * i), static_cast<int>(3 * i + 1),
+          static_cast<int>(3 * i + 2);
+      x.row(3 * i) = place;
+      x.row(3 * i + 1) = place + Eigen::RowVector3d(1, 0, 0);
+      x.row(3 * i + 2) = place + Eigen::RowVector3d(0, 1, 1);
+    }
+  }
+  Triangles triangles;
+  Positions x;
+};
+
+// All triangles are violated, as in a step without views.
+SearchCounts searched(const Topology& mesh, const Positions& x, TreeSearch::Skipping skipping) {
+  BoundingVolumeTree tree(mesh, x);
+  tree.refit(mesh, {x, x});
+  Marks marks(tree);
+  MarkingCounts marking;
+  Marking().bring_to(std::vector(mesh.triangles.size(), TriangleType::violated), tree, marks,
+                     marking);
+  const PairTable all = PairTable().add(flag::violated, flag::violated);
+  SearchCounts counts;
+  const auto sink = [](std::int32_t, std::int32_t) { return true; };
+  EXPECT_TRUE(TreeSearch(skipping).search({mesh, tree, marks, {all, all}}, counts, sink));
+  return counts;
+}
+
+// Two groups of two: the boxes of the groups are apart, and in each group those of its two.
+TEST(TreeSearch, GroupsThatAreApartTakeOneBoxTest) {
+  const Scattered four({{0, 0, 0}, {4, 0, 0}, {100, 0, 0}, {104, 0, 0}});
+  const Topology mesh = make_topology(four.triangles, four.x.rows());
+  EXPECT_EQ(searched(mesh, four.x, TreeSearch::Skipping::on).box_tests, 3u);
+}
+
+TEST(TreeSearch, NoChildrenAreCountedWhereEveryTriangleIsAskedFor) {
+  SearchMeshes random(3);
+  const MovingMesh mesh = random.sheets(3, 6, false);
+  const auto counts = searched(mesh.topology, mesh.x_t0, TreeSearch::Skipping::on),
+             without = searched(mesh.topology, mesh.x_t0, TreeSearch::Skipping::off);
+  EXPECT_EQ(counts.child_counts, 0u);
+  EXPECT_EQ(counts.skipped, 0u);
+  EXPECT_EQ(counts.box_tests, without.box_tests);
+}
+
+// The centre of a triangle is a sum over its corners, which must not overflow.
+TEST(BoundingVolumeTree, SplitsTheLargestCoordinatesAsItSplitsSmallOnes) {
+  SearchMeshes random(4);
+  const MovingMesh mesh = random.sheets(1, 8, false);
+  const double largest = mesh.x_t0.cwiseAbs().maxCoeff();
+  // A power of two keeps all bits.
+  const Positions huge =
+      mesh.x_t0 * std::ldexp(1., 1023 - static_cast<int>(std::ceil(std::log2(largest))));
+  ASSERT_GT(huge.cwiseAbs().maxCoeff(), .25 * std::numeric_limits<double>::max());
+  const BoundingVolumeTree small(mesh.topology, mesh.x_t0), large(mesh.topology, huge);
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.topology.triangles.size()); ++t)
+    EXPECT_EQ(small.leaf_of(t), large.leaf_of(t));
+}
+
+}  // namespace
+}  // namespace assay::tests
