@@ -74,6 +74,8 @@ bool BoundaryHandler::sweep(const GhostSweep& sweep, std::span<const std::int32_
     GhostCounts counts;
   };
   std::vector<Lane> lanes(sweep.workers ? sweep.workers->count() : 1);
+  // The first lane goes on from the sweeps before, which have asked whether to stop.
+  lanes[0].counts = counts;
   std::atomic<bool> is_whole = true;
   const auto run = [&](const LoopPiece& piece) {
     const bool completed = std::all_of(holes.begin(), holes.end(), [&](const HoleTree& hole) {
@@ -87,6 +89,7 @@ bool BoundaryHandler::sweep(const GhostSweep& sweep, std::span<const std::int32_
   } else {
     for (std::size_t i = 0; i < parts.size(); ++i) run({i, i + 1, 0});
   }
+  counts = {};
   for (const auto& lane : lanes) counts += lane.counts;
   return is_whole;
 }
