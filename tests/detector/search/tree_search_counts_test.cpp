@@ -68,12 +68,12 @@ TEST(TreeSearch, NoChildrenAreCountedWhereEveryTriangleIsAskedFor) {
 TEST(BoundingVolumeTree, SplitsTheLargestCoordinatesAsItSplitsSmallOnes) {
   SearchMeshes random(4);
   const MovingMesh mesh = random.sheets(1, 8, false);
-  const double largest = mesh.x_t0.cwiseAbs().maxCoeff();
-  // A power of two keeps all bits.
-  const Positions huge =
-      mesh.x_t0 * std::ldexp(1., 1023 - static_cast<int>(std::ceil(std::log2(largest))));
-  ASSERT_GT(huge.cwiseAbs().maxCoeff(), .25 * std::numeric_limits<double>::max());
-  const BoundingVolumeTree small(mesh.topology, mesh.x_t0), large(mesh.topology, huge);
+  // Between 13 and 15 sixteenths of one, and the same of the power that is no double any more.
+  const Positions x = mesh.x_t0.array() / (16 * mesh.x_t0.cwiseAbs().maxCoeff()) + .875;
+  const Positions huge = x * 0x1p512 * 0x1p512;
+  ASSERT_GE(huge.cwiseAbs().maxCoeff(), .5 * std::numeric_limits<double>::max());
+  ASSERT_TRUE(huge.allFinite());
+  const BoundingVolumeTree small(mesh.topology, x), large(mesh.topology, huge);
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.topology.triangles.size()); ++t)
     EXPECT_EQ(small.leaf_of(t), large.leaf_of(t));
 }
