@@ -12,6 +12,7 @@
 #pragma once
 
 #include "detector/detector.h"
+#include "detector/parallel/workers.h"
 #include "detector/step/stages.h"
 
 namespace assay::detector {
@@ -19,5 +20,9 @@ namespace assay::detector {
 // Does what Detector::create does, with these stages. Errors are the same.
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop = {});
+// The same with these workers, whatever options.threads says.
+Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
+                            const Options& options, Stages stages, const StopFunction& stop,
+                            Workers workers);
 
 }  // namespace assay::detector

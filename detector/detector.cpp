@@ -77,7 +77,12 @@ Expected<Detector> Detector::create(const TrianglesView& triangles, const Positi
 
 Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
                             const Options& options, Stages stages, const StopFunction& stop) {
-  Workers workers(options.threads);
+  return assemble(triangles, positions, options, std::move(stages), stop, Workers(options.threads));
+}
+
+Expected<Detector> assemble(const TrianglesView& triangles, const PositionsView& positions,
+                            const Options& options, Stages stages, const StopFunction& stop,
+                            Workers workers) {
   SharedStop shared(stop);
   const StopFunction asked = shared.function();
   PacedStop pace(asked, workers);

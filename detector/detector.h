@@ -30,6 +30,7 @@ namespace assay::detector {
 
 struct StateFields;  // of no concern to users
 struct Stages;       // assembly.h
+class Workers;       // assembly.h
 
 // What a detector carries from step to step. It is an immutable value that can be copied and kept
 // (copies share what they hold), and it can be turned into bytes for a file.
@@ -107,7 +108,7 @@ class Detector {
   struct Parts;
   explicit Detector(std::unique_ptr<Parts> parts);
   friend Expected<Detector> assemble(const TrianglesView&, const PositionsView&, const Options&,
-                                     Stages, const StopFunction&);
+                                     Stages, const StopFunction&, Workers);
   std::unique_ptr<Parts> parts_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <thread>
+#include <utility>
 
 namespace assay::detector {
 namespace {
@@ -60,6 +61,9 @@ Workers::Workers(std::uint32_t threads) {
   if (count > 1) arena_ = ThreadArena::make(count);
   if (arena_) count_ = count;
 }
+
+Workers::Workers(std::unique_ptr<ThreadArena> arena, std::size_t lanes)
+    : count_(lanes), arena_(std::move(arena)) {}
 
 void Workers::share_out(std::size_t count, std::size_t most,
                         const std::function<void(const LoopPiece&)>& body) const {

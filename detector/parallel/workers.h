@@ -27,6 +27,9 @@ class Workers {
   // 0 means as many threads as the machine has. In a library built without oneTBB one thread does
   // everything.
   explicit Workers(std::uint32_t threads = 1);
+  // Works as this arena says, which has so many lanes: one that measures, for example. REQUIRES an
+  // arena, and two lanes or more.
+  Workers(std::unique_ptr<ThreadArena> arena, std::size_t lanes);
 
   // How many pieces may be worked on at once, which is also the number of lanes.
   std::size_t count() const { return count_; }

@@ -2,6 +2,8 @@
 
 #include <time.h>
 
+#include <chrono>
+
 namespace assay::reports {
 
 double processor_ns() {
@@ -14,6 +16,13 @@ double ns_of(const std::function<void()>& work) {
   const double begin = processor_ns();
   work();
   return processor_ns() - begin;
+}
+
+double wall_ns_of(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
+  return taken.count();
 }
 
 std::vector<std::vector<double>> interleave(int rounds,

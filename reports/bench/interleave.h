@@ -11,8 +11,10 @@ namespace assay::reports {
 // on caches and clock rates remains.
 double processor_ns();
 
-// The time of one run of `work`, in ns.
+// The processor time of one run of `work`, in ns.
 double ns_of(const std::function<void()>& work);
+// The same by the clock on the wall, for work in several threads.
+double wall_ns_of(const std::function<void()>& work);
 
 // Makes `rounds` rounds of all measurements, in forward and backward order by turns, after one
 // round that is thrown away. Each measurement returns what it measured: samples[i][round] for

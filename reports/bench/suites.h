@@ -34,7 +34,7 @@ struct UnusableData : std::runtime_error {
 BenchReport elementary_suite(const BenchSettings& settings, Progress& progress);
 // The view test against the writing of swept boxes; free steps; how tight the view sets are.
 BenchReport view_suite(const BenchSettings& settings, Progress& progress);
-// Time and memory from a thousand to a million triangles.
+// Time and memory from a thousand to four million triangles.
 BenchReport growth_suite(const BenchSettings& settings, Progress& progress);
 // The thesis's claims about costs, the whole step against culling bvh, and the share of V+ at
 // which views break even.
@@ -48,6 +48,9 @@ BenchReport speed_error_suite(const BenchSettings& settings, Progress& progress)
 // Whole sequences by each culling and by several threads: what the default costs beside the best
 // choice.
 BenchReport sequences_suite(const BenchSettings& settings, Progress& progress);
+
+// What several threads gain and take, and what more cores would gain.
+BenchReport threads_suite(const BenchSettings& settings, Progress& progress);
 
 // Those detectors of others that are there, beside the built-in one: time and error.
 BenchReport peers_suite(const BenchSettings& settings, Progress& progress);

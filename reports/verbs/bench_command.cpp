@@ -40,6 +40,7 @@ constexpr Suite suites[] = {{"elementary", elementary_suite, nullptr},
                             {"stability", stability_suite, heat_picture},
                             {"speed-error", speed_error_suite, speed_error_picture},
                             {"sequences", sequences_suite, nullptr},
+                            {"threads", threads_suite, nullptr},
                             {"peers", peers_suite, peers_picture},
                             {"harness", harness_suite, nullptr}};
 
@@ -142,7 +143,7 @@ void add_options(Verb& verb, BenchRequest& request) {
   auto suite =
       verb.add("--suite", request.suite, "What to measure")
           .with(one_of("elementary, view, growth, claims, stability, speed-error, sequences, "
-                       "peers, harness",
+                       "threads, peers, harness",
                        suite_named));
   add_detector(verb, request.detector,
                "In place of a suite: a plug-in's library, timed beside the built-in detector on "

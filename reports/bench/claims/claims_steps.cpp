@@ -21,13 +21,22 @@ void compare(const NamedStep& named, bool is_rod_twist, int rounds, BenchReport&
   TimedStep line = timed(Culling::view_line, Arithmetic::exact);
   TimedStep chosen = timed(Culling::view_auto, Arithmetic::exact);
   TimedStep in_doubles = timed(Culling::view_point, Arithmetic::double_precision);
+  std::vector<double> broad_phase_ns;
+  const auto time_bvh = [&] {
+    const double ns = bvh.time();
+    broad_phase_ns.push_back(1e6 * bvh.result().times.broad_phase);
+    return ns;
+  };
   const auto samples =
-      interleave(rounds, {[&] { return bvh.time(); }, [&] { return point.time(); },
-                          [&] { return line.time(); }, [&] { return chosen.time(); },
-                          [&] { return in_doubles.time(); }});
+      interleave(rounds, {time_bvh, [&] { return point.time(); }, [&] { return line.time(); },
+                          [&] { return chosen.time(); }, [&] { return in_doubles.time(); }});
   const auto only_rods = [&](Wanted bound) { return wanted_if(is_rod_twist, bound); };
-  report.add(fmt::format("whole step, {}, bvh", name), "s", scaled(median_of(samples[0]), 1e-9), {},
+  report.add(fmt::format("whole step, {}, bvh", name), "s", scaled(median_of(samples[0]), 1e-9),
+             only_rods(wanted::rod_twist_bvh_step_s),
              fmt::format("{} pairs", bvh.result().pairs.size()));
+  report.add(fmt::format("broad phase, {}, bvh", name), "s",
+             scaled(median_of(broad_phase_ns), 1e-9),
+             only_rods(wanted::rod_twist_bvh_broad_phase_s), "of the same steps");
   const auto with_views = [&](TimedStep& views, const std::vector<double>& times,
                               const char* culling) {
     report.add(

@@ -1,7 +1,6 @@
 // Suite `harness` measures what judging costs, for the oracle by itself and for campaigns.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 
 #include "oracle/mesh/step.h"
@@ -18,13 +17,6 @@
 namespace assay::reports {
 namespace {
 
-// The oracle works in threads, so its time is taken by the clock on the wall.
-double wall_seconds_of(const std::function<void()>& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 void judge_rod_twist(const corpus::Sequence& step, const BenchSettings& settings,
                      BenchReport& report) {
   constexpr int jobs = 2;
@@ -37,7 +29,7 @@ void judge_rod_twist(const corpus::Sequence& step, const BenchSettings& settings
   // The memory is measured first, because what is freed then goes back to the system, and none is
   // kept for reuse.
   const auto bytes = peak_memory_of(judge);
-  const auto samples = interleave(settings.rounds(5), {[&] { return wall_seconds_of(judge); }});
+  const auto samples = interleave(settings.rounds(5), {[&] { return 1e-9 * wall_ns_of(judge); }});
   report.add("oracle, rod-twist step", "s", bootstrap_median(samples[0]),
              wanted::oracle_rod_twist_s,
              fmt::format("wall time, {} threads, {} pairs; bootstrap", jobs, pairs));

@@ -5,6 +5,7 @@
 #include "properties/words.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/timed_step.h"
+#include "reports/bench/view/plain_pass.h"
 #include "reports/bench/view/swept_boxes.h"
 #include "reports/bench/view/view_parts.h"
 
@@ -127,13 +128,19 @@ void time_free_steps(const BenchSettings& settings, BenchReport& report) {
                  bench_options(Culling::view_line), report);
   TimedStep bvh("bvh, breathing sphere", sphere.triangles, frames, bench_options(Culling::bvh),
                 report);
+  const Topology mesh = make_topology(sphere.triangles, frames[1].rows());
+  const Workers alone;
   const auto samples = interleave(
-      settings.rounds(7),
-      {[&] { return point.time(); }, [&] { return line.time(); }, [&] { return bvh.time(); }});
+      settings.rounds(15),
+      {[&] { return point.time(); }, [&] { return line.time(); }, [&] { return bvh.time(); },
+       [&] { return ns_of([&] { keep(read_plainly(mesh, frames[1], frames[2], alone)); }); }});
   report.add("free step over bvh's, view-point", "times", ratio_of(samples[0], samples[2]),
              wanted::free_step_over_bvh);
   report.add("free step over bvh's, view-line", "times", ratio_of(samples[1], samples[2]),
              wanted::free_step_over_bvh);
+  report.add("free step over a plain pass, view-point", "times", ratio_of(samples[0], samples[3]),
+             wanted::free_step_over_plain_pass,
+             "a pass that reads the same positions and triangles");
   add_whole_step("view-point", samples[0], point.result(), triangles == wanted::free_step_triangles,
                  report);
   add_whole_step("view-line", samples[1], line.result(), false, report);

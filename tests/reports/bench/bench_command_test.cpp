@@ -15,6 +15,7 @@
 #include "reports/bench/interleave.h"
 #include "reports/bench/peak_memory.h"
 #include "reports/bench/query_sets.h"
+#include "reports/bench/threads/measuring_arena.h"
 #include "reports/bench/timed_step.h"
 #include "reports/bench/view/swept_boxes.h"
 #include "tests/reports/program.h"
@@ -266,6 +267,34 @@ TEST_F(Suites, Sequences) {
     EXPECT_TRUE(has(report, row)) << row;
   }
   EXPECT_TRUE(report.wrong_answers.empty()) << report.wrong_answers[0];
+}
+
+TEST_F(Suites, Threads) {
+  const auto report = run(threads_suite);
+  for (const char* row : {"plain pass: one thread over", "free step: one thread over",
+                          "free step's gain over the plain pass's", "a public sequence"}) {
+    EXPECT_TRUE(has(report, row)) << row;
+  }
+}
+
+// Four pieces of the same length in two lanes save half of their time, and the result of a loop is
+// that of any other arena.
+TEST(MeasuringArena, SavesWhatOtherLanesWouldDo) {
+  MeasuredLoops loops;
+  const detector::Workers workers(make_measuring_arena(2, loops), 2);
+  std::vector<int> seen(4, 0);
+  workers.share_out(4, 1, [&](const detector::LoopPiece& piece) {
+    EXPECT_LT(piece.lane, 2u);
+    ++seen[piece.begin];
+    const double until = processor_ns() + 2e6;
+    while (processor_ns() < until) {
+    }
+  });
+  EXPECT_EQ(seen, std::vector<int>(4, 1));
+  EXPECT_GE(loops.pieces, 8e6);
+  EXPECT_GE(loops.longest_lanes, loops.pieces / 2);
+  EXPECT_LT(loops.longest_lanes, loops.pieces);
+  EXPECT_GT(loops.saved(), 0);
 }
 
 TEST_F(Suites, Harness) {
