@@ -26,6 +26,10 @@ Problem too_large(const std::filesystem::path& path, std::size_t limit) {
                     fmt::format("larger than the {} bytes that are read", limit));
 }
 
+Problem no_memory(const std::filesystem::path& path) {
+  return problem_in(FileProblem::too_large, path, "larger than the memory at hand");
+}
+
 Problem open_problem(const std::filesystem::path& path, int error) {
   const FileProblem kind = error == EACCES || error == EPERM ? FileProblem::permission_denied
                            : error == EISDIR                 ? FileProblem::is_directory
@@ -33,15 +37,20 @@ Problem open_problem(const std::filesystem::path& path, int error) {
   return problem_in(kind, path, fmt::format("cannot be read: {}", std::strerror(error)));
 }
 
-Expected<std::string> read_raw(const std::filesystem::path& path, std::size_t limit) {
+Expected<OpenFile> open_to_read(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return open_problem(path, EISDIR);
   // A pipe or a device may never end.
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
     return problem_in(FileProblem::cannot_open, path, "is not a regular file");
   }
-  const OpenFile file(std::fopen(path.c_str(), "rb"));
+  OpenFile file(std::fopen(path.c_str(), "rb"));
   if (!file) return open_problem(path, errno);
+  return file;
+}
+
+Expected<std::string> read_raw(const std::filesystem::path& path, std::size_t limit) {
+  BOOST_OUTCOME_TRY(file, open_to_read(path));
   std::string bytes;
   const auto buffer = std::make_unique<std::array<char, chunk>>();
   while (const std::size_t count = std::fread(buffer->data(), 1, chunk, file.get())) {
@@ -61,9 +70,19 @@ Problem corrupt(const std::filesystem::path& path, const char* how, std::size_t 
                     fmt::format("the gzip stream {} (compressed byte {})", how, offset));
 }
 
-// A gzip file is one or more members one after another; all are decompressed.
+Problem empty(const std::filesystem::path& path) {
+  return problem_in(FileProblem::empty_file, path, "the file is empty");
+}
+
+// A file that is named like a gzip stream and is none.
+Problem no_gzip(const std::filesystem::path& path) {
+  return corrupt(path, "has no gzip signature", 0);
+}
+
+// A gzip file is one or more members one after another; all are decompressed, or as many as it
+// takes to have `enough` bytes.
 Expected<std::string> inflate_all(const std::filesystem::path& path, std::string& packed,
-                                  std::size_t limit) {
+                                  std::size_t limit, std::size_t enough = std::string::npos) {
   z_stream stream{};
   constexpr int gzip_window = 15 + 16;
   if (inflateInit2(&stream, gzip_window) != Z_OK) return too_large(path, limit);
@@ -87,11 +106,22 @@ Expected<std::string> inflate_all(const std::filesystem::path& path, std::string
     const std::size_t produced = chunk - stream.avail_out;
     if (produced > limit - plain.size()) return too_large(path, limit);
     plain.append(buffer->data(), produced);
+    if (plain.size() >= enough) return plain;
     member_ended = state == Z_STREAM_END;
     const std::size_t place = offset - stream.avail_in;
     if (state == Z_BUF_ERROR) return corrupt(path, "is cut off", place);
     if (state != Z_OK && !member_ended) return corrupt(path, "is damaged", place);
   }
+}
+
+// Reads at most `count` bytes more.
+Expected<void> append(const std::filesystem::path& path, const OpenFile& file, std::size_t count,
+                      std::string& bytes) {
+  const std::size_t before = bytes.size();
+  bytes.resize(before + count);
+  bytes.resize(before + std::fread(bytes.data() + before, 1, count, file.get()));
+  if (std::ferror(file.get())) return open_problem(path, errno);
+  return boost::outcome_v2::success();
 }
 
 }  // namespace
@@ -102,14 +132,33 @@ Expected<std::string> read_bytes(const std::filesystem::path& path, std::size_t 
     BOOST_OUTCOME_TRY(plain, inflate_all(path, bytes, limit));
     bytes = std::move(plain);
   } else if (path.extension() == ".gz" && !bytes.empty()) {
-    return corrupt(path, "has no gzip signature", 0);
+    return no_gzip(path);
   }
-  if (bytes.empty()) {
-    return problem_in(FileProblem::empty_file, path, "the file is empty");
-  }
+  if (bytes.empty()) return empty(path);
   return std::move(bytes);
 } catch (const std::bad_alloc&) {
-  return problem_in(FileProblem::too_large, path, "larger than the memory at hand");
+  return no_memory(path);
+}
+
+Expected<std::string> read_start(const std::filesystem::path& path, std::size_t count) try {
+  BOOST_OUTCOME_TRY(file, open_to_read(path));
+  std::string bytes;
+  BOOST_OUTCOME_TRYV(append(path, file, count, bytes));
+  if (bytes.empty()) return empty(path);
+  if (!is_gzip(bytes)) {
+    if (path.extension() == ".gz") return no_gzip(path);
+    return bytes;
+  }
+  BOOST_OUTCOME_TRYV(append(path, file, chunk, bytes));
+  const bool is_whole = std::feof(file.get()) != 0;
+  auto plain = inflate_all(path, bytes, largest_file, count);
+  if (!is_whole && (!plain || plain.value().size() < count)) return std::string();
+  if (!plain) return plain.error();
+  if (plain.value().empty()) return empty(path);
+  plain.value().resize(std::min(plain.value().size(), count));
+  return plain;
+} catch (const std::bad_alloc&) {
+  return no_memory(path);
 }
 
 }  // namespace assay::corpus

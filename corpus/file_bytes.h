@@ -26,4 +26,9 @@ using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 Expected<std::string> read_bytes(const std::filesystem::path& path,
                                  std::size_t limit = largest_file);
 
+// Reads the first `count` bytes of the content, or all if there are fewer, at the same cost for a
+// file of any size. Refuses what read_bytes refuses, as far as the start of the file shows it.
+// Nothing is read of a gzip stream whose first 256 KiB hold fewer bytes and that goes on.
+Expected<std::string> read_start(const std::filesystem::path& path, std::size_t count);
+
 }  // namespace assay::corpus

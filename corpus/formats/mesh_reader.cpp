@@ -1,13 +1,10 @@
 #include "corpus/formats/mesh_reader.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/outcome/try.hpp>
 #include <cctype>
 #include <new>
 #include <string>
-#include <utility>
 
 #include "corpus/file_bytes.h"
 #include "corpus/formats/obj_reader.h"
@@ -29,16 +26,30 @@ std::string mesh_extension(std::filesystem::path path) {
   return lower(path.extension().string());
 }
 
-Expected<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& path) {
-  if (looks_like_ply(bytes)) return read_ply(bytes, path);
-  if (looks_like_off(bytes)) return read_off(bytes, path);
-  if (mesh_extension(path) == ".obj") return read_obj(bytes, path);
+enum class Format { ply, off, obj };
+
+// The format is told from this many bytes at the start, and the name.
+constexpr std::size_t format_bytes = 4096;
+
+Expected<Format> format_of(std::string_view bytes, const std::filesystem::path& path) {
+  if (looks_like_ply(bytes)) return Format::ply;
+  if (looks_like_off(bytes)) return Format::off;
+  if (mesh_extension(path) == ".obj") return Format::obj;
   return problem_in(FileProblem::unknown_format, path,
                     "neither PLY nor OFF by its first line, nor .obj by its name");
 }
 
-bool same(const detector::Triangles& a, const detector::Triangles& b) {
-  return a.rows() == b.rows() && a == b;
+Expected<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& path) {
+  BOOST_OUTCOME_TRY(format, format_of(bytes.substr(0, format_bytes), path));
+  switch (format) {
+    case Format::ply:
+      return read_ply(bytes, path);
+    case Format::off:
+      return read_off(bytes, path);
+    case Format::obj:
+      break;
+  }
+  return read_obj(bytes, path);
 }
 
 }  // namespace
@@ -50,27 +61,11 @@ Expected<Mesh> read_mesh(const std::filesystem::path& path) try {
   return problem_in(FileProblem::too_large, path, "larger than the memory at hand");
 }
 
-Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths) {
-  if (paths.empty()) return problem_in(FileProblem::no_frames, {}, "no mesh file is given");
-  BOOST_OUTCOME_TRY(first, read_mesh(paths[0]));
-  Sequence sequence{std::move(first.triangles), {}};
-  sequence.frames.push_back(std::move(first.positions));
-  for (const std::filesystem::path& path : paths.subspan(1)) {
-    BOOST_OUTCOME_TRY(mesh, read_mesh(path));
-    const auto vertices = sequence.frames[0].rows();
-    if (mesh.positions.rows() != vertices) {
-      return problem_in(FileProblem::vertex_counts_differ, path,
-                        fmt::format("{} vertices, but {} has {}", mesh.positions.rows(),
-                                    paths[0].string(), vertices));
-    }
-    if (!same(mesh.triangles, sequence.triangles)) {
-      return problem_in(FileProblem::triangles_differ, path,
-                        fmt::format("its {} triangles are not the {} of {}", mesh.triangles.rows(),
-                                    sequence.triangles.rows(), paths[0].string()));
-    }
-    sequence.frames.push_back(std::move(mesh.positions));
-  }
-  return sequence;
+Expected<void> look_at_mesh(const std::filesystem::path& path) {
+  BOOST_OUTCOME_TRY(start, read_start(path, format_bytes));
+  if (start.empty()) return boost::outcome_v2::success();
+  BOOST_OUTCOME_TRYV(format_of(start, path));
+  return boost::outcome_v2::success();
 }
 
 }  // namespace assay::corpus

@@ -10,8 +10,6 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
-#include <vector>
 
 #include "corpus/problem.h"
 #include "detector/mesh/types.h"
@@ -27,14 +25,8 @@ struct Mesh {
 // does (.obj, .obj.gz).
 Expected<Mesh> read_mesh(const std::filesystem::path& path);
 
-// One mesh that deforms: consecutive frames are the ends of a step.
-struct Sequence {
-  detector::Triangles triangles;
-  std::vector<detector::Positions> frames;
-};
-
-// Reads one frame from each file. All files must hold the same triangles and the same number of
-// vertices; otherwise the problem names both files. no_frames when `paths` is empty.
-Expected<Sequence> read_sequence(std::span<const std::filesystem::path> paths);
+// Refuses what is known of a file without reading all of it: that it is not there, may not be
+// read, is empty or of no format. The problem is that of read_mesh.
+Expected<void> look_at_mesh(const std::filesystem::path& path);
 
 }  // namespace assay::corpus

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 #include "corpus/problem.h"
 
 namespace assay::corpus {

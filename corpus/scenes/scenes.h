@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 #include "corpus/problem.h"
 
 namespace assay::corpus {

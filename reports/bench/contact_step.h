@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 
 namespace assay::reports {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 #include "detector/contact/four_points.h"
 #include "reports/bench/suites.h"
 

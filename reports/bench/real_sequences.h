@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 #include "reports/bench/suites.h"
 
 namespace assay::reports {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 #include "detector/detector.h"
 #include "detector/step/stages.h"
 #include "reports/bench/bench_report.h"

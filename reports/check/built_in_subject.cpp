@@ -3,8 +3,10 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "detector/detector.h"
 #include "detector/search/stopwatch.h"
-#include "properties/worker/case_player.h"
+#include "properties/judging/case_options.h"
+#include "properties/worker/given_view.h"
 #include "reports/check/subject.h"
 
 namespace assay::reports {
@@ -13,7 +15,8 @@ namespace {
 using detector::StepResult;
 
 detector::Options options_of(const BuiltInChoice& choice, const CheckInput& input) {
-  detector::Options options = properties::options_of(input.c);
+  detector::Options options;
+  if (const auto* c = input.steps->case_file()) options = properties::options_of(*c);
   options.culling = choice.culling.value_or(options.culling);
   options.start = choice.start.value_or(options.start);
   options.pairs = choice.pairs.value_or(options.pairs);
@@ -24,13 +27,13 @@ detector::Options options_of(const BuiltInChoice& choice, const CheckInput& inpu
 
 class BuiltIn : public Subject {
  public:
-  // `player` is empty if a limit was reached before there was one.
-  BuiltIn(std::optional<properties::CasePlayer> player, double create_ms,
-          const detector::Options& options, const corpus::Case& c, Limits& limits)
-      : player_(std::move(player)),
+  // `made` is empty if a limit was reached before there was one.
+  BuiltIn(std::optional<detector::Detector> made, double create_ms,
+          const detector::Options& options, const detector::Triangles& triangles, Limits& limits)
+      : detector_(std::move(made)),
         create_ms_(create_ms),
         options_(options),
-        case_(c),
+        triangles_(triangles),
         limits_(limits) {}
 
   std::string title() const override {
@@ -51,8 +54,12 @@ class BuiltIn : public Subject {
     return options_.arithmetic != detector::Arithmetic::exact;
   }
 
-  StepResult answer(std::size_t s, const detector::StopFunction& stop) override try {
-    return player_ ? player_->play(s, stop) : undecided();
+  StepResult answer(std::size_t, const CheckedStep& step,
+                    const detector::StopFunction& stop) override try {
+    if (!detector_) return undecided();
+    const auto given = properties::given_view(step.view, options_.culling);
+    return step.commit ? detector_->step(step.x_t0, step.x_t1, given, stop)
+                       : detector_->evaluate(step.x_t0, step.x_t1, given, stop);
   } catch (const std::bad_alloc&) {
     limits_.memory_failed();
     return undecided();
@@ -67,9 +74,9 @@ class BuiltIn : public Subject {
     return properties::compare(result, judgement, options_);
   }
 
-  std::string stage_that_lost(std::size_t s, detector::TrianglePair pair) const override {
-    if (!player_) return "";
-    return properties::stage_that_lost(case_.triangles, player_->x_t0(s), player_->x_t1(s), pair);
+  std::string stage_that_lost(const CheckedStep& step, detector::TrianglePair pair) const override {
+    if (!detector_) return "";
+    return properties::stage_that_lost(triangles_, step.x_t0, step.x_t1, pair);
   }
 
  private:
@@ -79,10 +86,10 @@ class BuiltIn : public Subject {
     return result;
   }
 
-  std::optional<properties::CasePlayer> player_;
+  std::optional<detector::Detector> detector_;
   double create_ms_;
   detector::Options options_;
-  const corpus::Case& case_;
+  const detector::Triangles& triangles_;
   Limits& limits_;
 };
 
@@ -91,21 +98,22 @@ class BuiltIn : public Subject {
 Expected<std::unique_ptr<Subject>> make_built_in(const BuiltInChoice& choice,
                                                  const CheckInput& input, Limits& limits) {
   const detector::Options options = options_of(choice, input);
-  std::optional<properties::CasePlayer> player;
+  std::optional<detector::Detector> detector;
   double create_ms = 0;
   try {
     const detector::Stopwatch watch(create_ms);
-    auto made = properties::CasePlayer::make(input.c, options, {}, limits.stop_function());
+    auto made = detector::Detector::create(input.steps->triangles(), input.steps->first_frame(),
+                                           options, limits.stop_function());
     if (made) {
-      player = std::move(made.value());
+      detector = std::move(made.value());
     } else if (made.error().error != detector::InputError::stopped) {
       return Refusal(fmt::format("{}: {}", input.file, made.error().message));
     }
   } catch (const std::bad_alloc&) {
     limits.memory_failed();
   }
-  return std::unique_ptr<Subject>(
-      std::make_unique<BuiltIn>(std::move(player), create_ms, options, input.c, limits));
+  return std::unique_ptr<Subject>(std::make_unique<BuiltIn>(std::move(detector), create_ms, options,
+                                                            input.steps->triangles(), limits));
 }
 
 }  // namespace assay::reports

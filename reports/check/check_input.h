@@ -1,22 +1,21 @@
 // The mesh and the steps that `check` is given.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_file.h"
-#include "properties/judging/case_check.h"
+#include "reports/check/checked_steps.h"
 
 namespace assay::reports {
 
 struct CheckInput {
-  corpus::Case c;    // made from frames it has no view, options or expected facts
   std::string file;  // the first file
-  bool is_case_file = false;
+  std::unique_ptr<CheckedSteps> steps;
 };
 
-// Reads frames of one mesh (two or more), or one case file. Fails if its options are not
-// understood.
+// Takes frames of one mesh (two or more), which are read as their steps come, or reads one case
+// file. Fails if its options are not understood. REQUIRES a file.
 corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files);
 
 }  // namespace assay::reports

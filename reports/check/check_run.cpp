@@ -7,6 +7,7 @@
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
 #include "detector/step_result.h"
+#include "properties/judging/case_check.h"
 #include "reports/check/check_report.h"
 #include "reports/check/claims_tally.h"
 #include "reports/check/plugin_text.h"
@@ -28,14 +29,12 @@ constexpr double longest_check_seconds = 7 * 24 * 3600.0;
 
 class CheckRun {
  public:
-  CheckRun(const CheckQuestion& question, const CheckInput& input, detector::Topology mesh,
+  CheckRun(const CheckQuestion& question, CheckedSteps& steps, detector::Topology mesh,
            Subject& subject, Limits& limits, const CheckListener& listener)
       : question_(question),
-        case_(input.c),
-        is_case_file_(input.is_case_file),
+        steps_(steps),
         mesh_(std::move(mesh)),
         subject_(subject),
-        script_(corpus::steps_of(input.c)),
         limits_(limits),
         listener_(listener),
         oracle_(question.jobs, subject.asked(), limits),
@@ -50,7 +49,10 @@ class CheckRun {
     nlohmann::ordered_json steps = nlohmann::ordered_json::array();
     if (begin()) {
       for (std::size_t s = 0; s < step_count(); ++s) {
-        steps.push_back(run_step(s));
+        const auto step = read_step(s);
+        if (!step) return Refusal(step.error());
+        auto json = run_step(s, step.value());
+        if (question_.wants_report) steps.push_back(std::move(json));
         if (refused_) return Refusal(*refused_);
         if (outcome_.unsound) break;
       }
@@ -70,13 +72,13 @@ class CheckRun {
  private:
   void say(const std::string& text) const { listener_.say(text); }
 
-  std::size_t step_count() const { return script_.size(); }
+  std::size_t step_count() const { return steps_.count(); }
 
   void announce() const {
     std::size_t unclosed = 0;
     for (const auto& component : mesh_.components) unclosed += component.is_cycle ? 0 : 1;
     say(fmt::format("{} triangles, {} vertices, {} component{}", mesh_.triangles.size(),
-                    case_.frames[0].rows(), mesh_.components.size(),
+                    steps_.first_frame().rows(), mesh_.components.size(),
                     mesh_.components.size() == 1 ? "" : "s"));
     if (unclosed) {
       say(fmt::format(" ({} unclosed{})", unclosed,
@@ -119,16 +121,20 @@ class CheckRun {
             s == 0 ? subject_.create_ms() : std::nullopt};
   }
 
-  nlohmann::ordered_json run_step(std::size_t s) {
+  // The limits are on work, and reading is none.
+  corpus::Expected<CheckedStep> read_step(std::size_t s) {
+    const Limits::Pause pause(limits_);
+    return steps_.step(s);
+  }
+
+  nlohmann::ordered_json run_step(std::size_t s, const CheckedStep& step) {
     Progress progress(fmt::format("step {}/{}", s + 1, step_count()));
     const detector::StopFunction stop = [&] {
       progress.tick();
       return limits_.exceeded() || (listener_.stop && listener_.stop());
     };
-    const auto &x_t0 = start_of(case_, script_[s]), &x_t1 = end_of(case_, script_[s]);
-
     progress.phase("detector");
-    detector::StepResult result = subject_.answer(s, stop);
+    detector::StepResult result = subject_.answer(s, step, stop);
     std::string told_error;
     if (result.answer == Answer::error) {
       const auto error = subject_.error_of(s, result);
@@ -151,18 +157,19 @@ class CheckRun {
     }
 
     progress.phase("oracle");
-    const auto [judgement, oracle_ms] = oracle_.judge(x_t0, x_t1, case_.triangles, stop);
+    const auto [judgement, oracle_ms] =
+        oracle_.judge(step.x_t0, step.x_t1, steps_.triangles(), stop);
     const auto diff = subject_.judge(s, result, judgement);
     progress.finish();
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
     tally_.add(diff, result, judgement);
     say(step_text(s + 1, result, &judgement, oracle_ms, &diff, shown_work(s)) + told_error);
-    if (diff.outcome == Outcome::defect) print_defect(s, diff);
+    if (diff.outcome == Outcome::defect) print_defect(step, diff);
     auto json = json_of(result, &judgement, oracle_ms, &diff);
     if (question_.second_opinion) {
       progress.phase("second opinion");
-      json["second_opinion"] = ask_second_opinion(s, judgement, stop, progress);
+      json["second_opinion"] = ask_second_opinion(s, step, judgement, stop, progress);
     }
     return json;
   }
@@ -178,13 +185,13 @@ class CheckRun {
     return step_json(result, judgement, oracle_ms, diff);
   }
 
-  nlohmann::ordered_json ask_second_opinion(std::size_t s, const oracle::StepJudgement& judgement,
+  nlohmann::ordered_json ask_second_opinion(std::size_t s, const CheckedStep& step,
+                                            const oracle::StepJudgement& judgement,
                                             const detector::StopFunction& stop,
                                             Progress& progress) {
     const double share = *question_.second_opinion;
     const auto [opinion, milliseconds] =
-        oracle_.second_opinion(start_of(case_, script_[s]), end_of(case_, script_[s]),
-                               case_.triangles, judgement, share, stop);
+        oracle_.second_opinion(step.x_t0, step.x_t1, steps_.triangles(), judgement, share, stop);
     progress.finish();
     say(second_opinion_text(opinion, milliseconds));
     outcome_.undecided |= !opinion.complete;
@@ -197,7 +204,7 @@ class CheckRun {
   // chosen again.
   std::string replay_line(std::size_t s) const {
     const auto& files = question_.files;
-    const bool file_a_frame = files.size() == case_.frames.size();
+    const bool file_a_frame = files.size() == steps_.frames();
     std::string input;
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (!file_a_frame || i == s || i == s + 1) input += " " + files[i];
@@ -205,10 +212,10 @@ class CheckRun {
     return fmt::format("assay check{} --second-opinion {}", input, *question_.second_opinion);
   }
 
-  void print_defect(std::size_t s, const properties::StepDiff& diff) const {
+  void print_defect(const CheckedStep& step, const properties::StepDiff& diff) const {
     if (diff.missing.empty()) return;
     const auto& lost = diff.missing.front();
-    const std::string stage = subject_.stage_that_lost(s, lost.pair);
+    const std::string stage = subject_.stage_that_lost(step, lost.pair);
     if (stage.empty()) return;
     say(fmt::format("  triangles {} and {} were lost at: {}\n", lost.pair.a, lost.pair.b, stage));
   }
@@ -216,24 +223,22 @@ class CheckRun {
   // Whether the facts of the case are to be checked. They are facts of the built-in detector; a
   // plug-in is judged by the oracle alone.
   bool has_facts() const {
-    return is_case_file_ && !question_.no_oracle && question_.detector.library.empty();
+    return steps_.case_file() && !question_.no_oracle && question_.detector.library.empty();
   }
 
   // A case states what is true of it, so an answer that differs is a defect.
   void check_facts() {
-    const auto report = properties::check_case(case_, question_.built_in.culling, question_.jobs,
-                                               question_.built_in.arithmetic);
+    const auto report = properties::check_case(*steps_.case_file(), question_.built_in.culling,
+                                               question_.jobs, question_.built_in.arithmetic);
     for (const auto& line : report.failed) say(fmt::format("expected facts: {}\n", line));
     outcome_.facts_differ = !report.failed.empty();
     outcome_.defect |= outcome_.facts_differ;
   }
 
   const CheckQuestion& question_;
-  const corpus::Case& case_;
-  bool is_case_file_;
+  CheckedSteps& steps_;
   detector::Topology mesh_;
   Subject& subject_;
-  std::vector<corpus::CaseStep> script_;
   Limits& limits_;
   const CheckListener& listener_;
   TimedOracle oracle_;
@@ -247,13 +252,19 @@ class CheckRun {
 Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener) {
-  const auto& c = input.c;
-  if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows()))
+  const auto vertices = input.steps->first_frame().rows();
+  if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
     return Refusal(fmt::format("{}: {}", input.file, bad->message));
+  const bool is_plugin = !question.detector.library.empty();
+  if (is_plugin) {
+    auto whole = input.steps->read_whole();
+    if (!whole) return Refusal(whole.error());
+    input.steps = std::move(whole.value());
+  }
   Limits limits(question.time_limit, question.memory_limit);
   BuiltInChoice built_in = question.built_in;
   built_in.threads = static_cast<std::uint32_t>(question.threads);
-  auto subject = question.detector.library.empty()
+  auto subject = !is_plugin
                      ? make_built_in(built_in, input, limits)
                      : make_plugin_subject(worker, question.detector.library,
                                            {question.time_limit.value_or(longest_check_seconds),
@@ -263,8 +274,9 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
                                             std::max<std::uint64_t>(question.threads, 1)},
                                            input);
   if (!subject) return subject.error();
-  auto mesh = detector::make_topology(c.triangles, c.frames[0].rows());
-  return CheckRun(question, input, std::move(mesh), *subject.value(), limits, listener).run();
+  auto mesh = detector::make_topology(input.steps->triangles(), vertices);
+  return CheckRun(question, *input.steps, std::move(mesh), *subject.value(), limits, listener)
+      .run();
 }
 
 }  // namespace assay::reports

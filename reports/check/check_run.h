@@ -40,8 +40,9 @@ struct CheckAnswer {
   nlohmann::ordered_json report;  // schema assay-check/1; null unless wanted
 };
 
-// Checks one mesh. The coordinates of `input` are rounded if a plug-in's contract says so.
-// `worker` is the program assay-worker, for a plug-in.
+// Checks one mesh. The steps of `input` are used up; for a plug-in they become those that its
+// contract takes. If a file that is read on the way is refused, `listener` was told of all steps
+// before its frame. `worker` is the program assay-worker, for a plug-in.
 Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
                                  const std::filesystem::path& worker,
                                  const CheckListener& listener);

@@ -25,14 +25,14 @@ properties::PluginDescription in_print(properties::PluginDescription description
 class Plugin : public Subject {
  public:
   Plugin(properties::WorkerProcess worker, properties::PluginDescription description,
-         std::string library, std::uint64_t threads, const corpus::Case& c,
+         std::string library, std::uint64_t threads, std::shared_ptr<const corpus::Case> c,
          std::size_t steps_left_out)
       : worker_(std::move(worker)),
         description_(in_print(std::move(description))),
         claims_(claims_on_steps(description_)),
         library_(std::move(library)),
         threads_(threads),
-        case_(c),
+        case_(std::move(c)),
         steps_left_out_(steps_left_out) {}
 
   std::string title() const override {
@@ -63,8 +63,8 @@ class Plugin : public Subject {
   properties::JudgedRun begin() override {
     const std::size_t times = claims_.deterministic ? 2 : 1;
     runs_ =
-        worker_.run(case_, std::vector<properties::Configuration>(times, {description_.name, {}}));
-    return properties::judge_run(case_, runs_[0], {}, claims_, description_.contract,
+        worker_.run(*case_, std::vector<properties::Configuration>(times, {description_.name, {}}));
+    return properties::judge_run(*case_, runs_[0], {}, claims_, description_.contract,
                                  times == 2 ? &runs_[1] : nullptr);
   }
 
@@ -74,7 +74,7 @@ class Plugin : public Subject {
 
   std::string printed() const override { return runs_[0].printed; }
 
-  StepResult answer(std::size_t s, const detector::StopFunction&) override {
+  StepResult answer(std::size_t s, const CheckedStep&, const detector::StopFunction&) override {
     return s < runs_[0].steps.size() ? runs_[0].steps[s] : not_reached();
   }
 
@@ -93,11 +93,13 @@ class Plugin : public Subject {
                              const oracle::StepJudgement& judgement) const override {
     if (s < runs_[0].steps.size())
       return properties::compare_step(runs_[0], s, judgement, claims_, description_.contract,
-                                      case_.triangles);
-    return properties::compare(result, judgement, claims_, description_.contract, case_.triangles);
+                                      case_->triangles);
+    return properties::compare(result, judgement, claims_, description_.contract, case_->triangles);
   }
 
-  std::string stage_that_lost(std::size_t, detector::TrianglePair) const override { return ""; }
+  std::string stage_that_lost(const CheckedStep&, detector::TrianglePair) const override {
+    return "";
+  }
 
  private:
   static StepResult not_reached() {
@@ -111,7 +113,7 @@ class Plugin : public Subject {
   properties::Claims claims_;  // on steps
   std::string library_;
   std::uint64_t threads_;
-  const corpus::Case& case_;
+  std::shared_ptr<const corpus::Case> case_;
   const std::size_t steps_left_out_;
   std::vector<properties::CaseRun> runs_;
 };
@@ -129,17 +131,18 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::filesystem::pa
   if (!parts.steps && !parts.candidates)
     return Refusal(
         fmt::format("{}: it holds no steps, but a query alone: assay check-queries", library));
-  auto seen = properties::contracted(input.c, description.value().contract);
+  auto seen = properties::contracted(*input.steps->whole(), description.value().contract);
   if (!seen) {
     return Refusal(fmt::format("{}: nothing of it is within the contract of {}: {}", input.file,
                                description.value().name,
                                joined(phrases_of(description.value().contract), ", ")));
   }
-  const std::size_t left_out = corpus::steps_of(input.c).size() - corpus::steps_of(*seen).size();
-  input.c = std::move(*seen);
-  return std::unique_ptr<Subject>(std::make_unique<Plugin>(std::move(worker),
-                                                           std::move(description.value()), library,
-                                                           limits.threads, input.c, left_out));
+  const std::size_t given = input.steps->count();
+  const auto taken = std::make_shared<const corpus::Case>(std::move(*seen));
+  input.steps = steps_of_case(taken, false);
+  return std::unique_ptr<Subject>(
+      std::make_unique<Plugin>(std::move(worker), std::move(description.value()), library,
+                               limits.threads, taken, given - input.steps->count()));
 }
 
 }  // namespace assay::reports

@@ -41,24 +41,27 @@ class Subject {
   // If it does not hold, there may be no steps to ask for.
   virtual properties::JudgedRun begin() { return {}; }
 
-  // The detector's answer to a step. Steps are asked for in order, each once.
-  virtual detector::StepResult answer(std::size_t step, const detector::StopFunction& stop) = 0;
+  // The detector's answer to step s, which is `step`. Steps are asked for in order, each once.
+  virtual detector::StepResult answer(std::size_t s, const CheckedStep& step,
+                                      const detector::StopFunction& stop) = 0;
   // Why a step ended with an error. `refused` is set if the input is to blame, and not the
   // detector.
   struct StepError {
     std::string message;
     bool refused = false;
   };
-  virtual StepError error_of(std::size_t step, const detector::StepResult& result) const = 0;
+  virtual StepError error_of(std::size_t s, const detector::StepResult& result) const = 0;
 
   // The features that the oracle is to be asked for.
   virtual oracle::AskedFeatures asked() const { return oracle::AskedFeatures::all; }
   // Whether the steps have answers. Those of a library of candidates alone have none.
   virtual bool has_answers() const { return true; }
-  virtual properties::StepDiff judge(std::size_t step, const detector::StepResult& result,
+  virtual properties::StepDiff judge(std::size_t s, const detector::StepResult& result,
                                      const oracle::StepJudgement& judgement) const = 0;
-  // The stage of the detector that lost a missing pair; empty if its stages are not known.
-  virtual std::string stage_that_lost(std::size_t step, detector::TrianglePair pair) const = 0;
+  // The stage of the detector that lost a missing pair of a step; empty if its stages are not
+  // known.
+  virtual std::string stage_that_lost(const CheckedStep& step,
+                                      detector::TrianglePair pair) const = 0;
 };
 
 // The options of the built-in detector that the user states. The others are those of the case, or
@@ -71,12 +74,13 @@ struct BuiltInChoice {
   std::uint32_t threads = 1;  // 0: all cores
 };
 
-// `input` must outlive the subject. Its coordinates are rounded if the plug-in's contract says so.
-// The program `worker` runs the plug-in and ends whatever takes longer or more memory than
-// `limits`. If `limits` end the built-in detector before it is made, each of its steps is
-// undecided.
+// If `limits` end the built-in detector before it is made, each of its steps is undecided. `input`
+// must outlive the subject.
 Expected<std::unique_ptr<Subject>> make_built_in(const BuiltInChoice& choice,
                                                  const CheckInput& input, Limits& limits);
+// The program `worker` runs the plug-in and ends whatever takes longer or more memory than
+// `limits`. REQUIRES a whole case, because the worker is sent all of it. Then the steps of `input`
+// are those that the plug-in's contract takes, with coordinates rounded if it says so.
 Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::filesystem::path& worker,
                                                        const std::string& library,
                                                        const properties::WorkerLimits& limits,

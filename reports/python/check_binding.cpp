@@ -49,18 +49,17 @@ CheckQuestion question_of(const py::dict& given) {
 }
 
 CheckInput input_of(const py::object& triangles, const py::list& frames) {
-  CheckInput input;
-  input.file = "frames";
-  input.c.triangles = TrianglesArgument(triangles, "triangles").view();
+  corpus::Case c;
+  c.triangles = TrianglesArgument(triangles, "triangles").view();
   for (const auto& frame : frames) {
     const PositionsArgument x(py::reinterpret_borrow<py::object>(frame), "a frame");
-    input.c.frames.emplace_back(x.view());
-    if (const auto bad = detector::check_positions(x.view(), input.c.frames[0].rows())) raise(*bad);
+    c.frames.emplace_back(x.view());
+    if (const auto bad = detector::check_positions(x.view(), c.frames[0].rows())) raise(*bad);
   }
-  if (input.c.frames.size() < 2) throw py::value_error("a step needs two frames or more");
-  if (const auto bad = detector::check_triangles(input.c.triangles, input.c.frames[0].rows()))
-    raise(*bad);
-  return input;
+  if (c.frames.size() < 2) throw py::value_error("a step needs two frames or more");
+  if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
+  return {"frames",
+          reports::steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), false)};
 }
 
 // Returns the report as JSON, what is printed, and the exit code.

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 
 namespace assay::python {
 namespace {

@@ -47,6 +47,10 @@ detector::StopFunction Limits::stop_function() {
   return [this] { return exceeded(); };
 }
 
+Limits::Pause::Pause(Limits& limits) : limits_(limits), begin_(processor_seconds()) {}
+
+Limits::Pause::~Pause() { limits_.begin_ += processor_seconds() - begin_; }
+
 std::uint64_t resident_bytes() {
   std::ifstream statm("/proc/self/statm");
   std::uint64_t total_pages = 0, resident_pages = 0;

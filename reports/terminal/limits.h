@@ -28,6 +28,19 @@ class Limits {
 
   detector::StopFunction stop_function();
 
+  // What this process does while there is one of these takes none of the time.
+  class Pause {
+   public:
+    explicit Pause(Limits& limits);
+    ~Pause();
+    Pause(const Pause&) = delete;
+    Pause& operator=(const Pause&) = delete;
+
+   private:
+    Limits& limits_;
+    double begin_;
+  };
+
  private:
   std::optional<double> seconds_;
   std::optional<std::uint64_t> bytes_;

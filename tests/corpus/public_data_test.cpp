@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 #include "corpus/queries/query_csv.h"
 
 namespace assay::corpus {

@@ -1,7 +1,7 @@
 // The parts of suite `claims`.
 #pragma once
 
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 #include "reports/bench/suites.h"
 
 namespace assay::reports {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 #include "detector/options.h"
 #include "reports/bench/bench_report.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "corpus/formats/mesh_reader.h"
+#include "corpus/formats/sequence_reader.h"
 #include "detector/options.h"
 #include "reports/bench/suites.h"
 

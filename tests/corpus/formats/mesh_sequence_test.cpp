@@ -1,8 +1,10 @@
 // Sequences of frames, and the writer: what is written reads back bit by bit.
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "corpus/formats/mesh_writer.h"
+#include "corpus/formats/sequence_reader.h"
 #include "tests/corpus/scratch.h"
 
 namespace assay::corpus {
@@ -50,6 +52,75 @@ TEST_F(MeshSequence, NoFramesAndBadFrames) {
   EXPECT_EQ(read_sequence({}).error().kind, FileProblem::no_frames);
   const Paths paths = {write("a.obj", obj_tetrahedron), folder() / "absent.obj"};
   EXPECT_EQ(read_sequence(paths).error().kind, FileProblem::cannot_open);
+}
+
+TEST_F(MeshSequence, EachFrameIsReadOnceWhenItIsAskedFor) {
+  const Paths paths = {write("a.obj", obj_tetrahedron), folder() / "b.off", folder() / "c.ply"};
+  SequenceReader reader(paths);
+  EXPECT_EQ(reader.frames(), 3U);
+  // A file is there only while its frame is read.
+  ASSERT_TRUE(reader.next());
+  EXPECT_EQ(reader.triangles().rows(), 4);
+  std::filesystem::remove(paths[0]);
+  write("b.off", off_tetrahedron);
+  EXPECT_EQ(reader.next().value().rows(), 4);
+  std::filesystem::remove(paths[1]);
+  EXPECT_FALSE(reader.at_end());
+  write("c.ply", ply_tetrahedron);
+  ASSERT_TRUE(reader.next());
+  EXPECT_TRUE(reader.at_end());
+}
+
+TEST_F(MeshSequence, AFrameThatIsBadEndsNeitherTheReaderNorWhatWasReadBefore) {
+  const Paths paths = {write("a.obj", obj_tetrahedron), write("b.off", "OFF\n4 4 6\n0 0 0\n"),
+                       write("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")};
+  SequenceReader reader(paths);
+  ASSERT_TRUE(reader.next());
+  EXPECT_EQ(reader.next().error().kind, FileProblem::truncated);
+  EXPECT_EQ(reader.next().error().kind, FileProblem::truncated);
+  write("b.off", off_tetrahedron);
+  ASSERT_TRUE(reader.next());
+  const auto other = reader.next();
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().kind, FileProblem::vertex_counts_differ);
+  EXPECT_NE(other.error().message.find("a.obj"), std::string::npos) << other.error().message;
+  EXPECT_NE(other.error().message.find("c.obj"), std::string::npos) << other.error().message;
+}
+
+TEST_F(MeshSequence, WhatIsSeenWithoutReading) {
+  const auto kind = [&](const std::string& name, std::string_view bytes) {
+    const auto looked = look_at_mesh(write(name, bytes));
+    return looked ? std::nullopt : std::optional(looked.error().kind);
+  };
+  using enum FileProblem;
+  EXPECT_EQ(kind("a.obj", obj_tetrahedron), std::nullopt);
+  EXPECT_EQ(kind("of_no_known_name", ply_tetrahedron), std::nullopt);
+  EXPECT_EQ(kind("a.xyz", obj_tetrahedron), unknown_format);
+  EXPECT_EQ(kind("empty.ply", ""), empty_file);
+  EXPECT_EQ(kind("plain.obj.gz", obj_tetrahedron), corrupt_gzip);
+  EXPECT_EQ(kind("a.xyz.gz", gzip(obj_tetrahedron)), unknown_format);
+  EXPECT_EQ(kind("a.xyz.gz", gzip(off_tetrahedron)), std::nullopt);
+  EXPECT_EQ(kind("empty.off.gz", gzip("")), empty_file);
+  EXPECT_EQ(kind("cut.off.gz", gzip(off_tetrahedron).substr(0, 40)), corrupt_gzip);
+  // The format may be told only by several members together.
+  EXPECT_EQ(kind("a.gz", gzip("pl") + gzip(ply_tetrahedron.substr(2))), std::nullopt);
+  // What is behind the start is not seen.
+  std::string large(off_tetrahedron);
+  for (int i = 0; i < 100000; ++i) large += std::to_string(i * 7919 % 100003) + "\n";
+  EXPECT_EQ(kind("large.off", large), std::nullopt);
+  EXPECT_EQ(kind("large.off.gz", gzip(large).substr(0, 100000)), std::nullopt);
+  EXPECT_EQ(look_at_mesh(folder() / "absent.obj").error().kind, cannot_open);
+  EXPECT_EQ(look_at_mesh(folder()).error().kind, is_directory);
+}
+
+TEST_F(MeshSequence, LookingAheadNamesTheFirstFileThatCannotBeRead) {
+  Paths paths = {write("a.obj", obj_tetrahedron), write("b.obj", "nonsense")};
+  ASSERT_TRUE(SequenceReader(paths).look_ahead());
+  paths.push_back(folder() / "absent.obj");
+  paths.push_back(folder() / "absent_too.obj");
+  const auto ahead = SequenceReader(paths).look_ahead();
+  ASSERT_FALSE(ahead);
+  EXPECT_NE(ahead.error().message.find("absent.obj"), std::string::npos) << ahead.error().message;
 }
 
 TEST_F(MeshSequence, WrittenFramesReadBackBitByBit) {

@@ -1,0 +1,142 @@
+// `check` on long sequences of files: the memory of a few frames, and what is told of a sequence
+// with a bad frame in it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "reports/terminal/limits.h"
+#include "tests/reports/program.h"
+
+namespace assay::tests {
+namespace {
+
+class LongSequence : public testing::Test {
+ protected:
+  // The frames of a sphere that grows.
+  std::vector<std::string> sphere(int triangles, int frames) const {
+    const std::string folder = scratch / "sphere";
+    EXPECT_EQ(run_assay("scene breathing-sphere --size " + std::to_string(triangles) +
+                        " --frames " + std::to_string(frames) + " --out " + folder)
+                  .exit_code,
+              0);
+    std::vector<std::string> files;
+    for (const auto& file : std::filesystem::directory_iterator(folder))
+      files.push_back(file.path().string());
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+
+  std::uint64_t peak_memory(const std::string& frames) const {
+    const std::string report = scratch / "report.json";
+    EXPECT_EQ(run_assay("check --no-oracle --json " + report + frames).exit_code, 0);
+    return nlohmann::json::parse(read_text(report)).at("peak_memory_bytes");
+  }
+
+  const Scratch scratch;
+};
+
+TEST_F(LongSequence, TakesTheMemoryOfAFewFrames) {
+  constexpr std::size_t many = 300;
+  const auto files = sphere(20000, 3);
+  std::string few, all;  // there and back, again and again
+  for (const auto& file : files) few += " " + file;
+  for (std::size_t f = 0; f < many; ++f) all += " " + files[f % 4 == 3 ? 1 : f % 4];
+  // 10,000 vertices of 24 bytes: 70 MB more if all were kept. What is left is for the report.
+  constexpr std::size_t a_frame = 240000;
+  EXPECT_LT(peak_memory(all), peak_memory(few) + many * a_frame / 5);
+}
+
+class BadLateFrame : public LongSequence {
+ protected:
+  void SetUp() override {
+    files = sphere(80, 5);
+    good = read_text(files[3]);
+  }
+
+  std::string arguments() const {
+    std::string all = "check --threads 1 --jobs 1";
+    for (const auto& file : files) all += " " + file;
+    return all;
+  }
+
+  static void expect_one_line(const Outcome& outcome, const std::vector<std::string>& words) {
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    for (const auto& word : words)
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+  }
+
+  // The fourth frame is found to be bad when its step comes.
+  void expect_two_steps(const std::string& text, const std::vector<std::string>& words) {
+    SCOPED_TRACE(words.back());
+    files[3] = scratch.write("bad.obj", text);
+    const std::string report = scratch / "report.json";
+    const Outcome outcome = run_assay(arguments() + " --json " + report);
+    expect_one_line(outcome, words);
+    EXPECT_NE(outcome.out.find("; 4 steps;"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("step 1: free"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("step 2: free"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("step 3"), std::string::npos) << outcome.out;
+    EXPECT_FALSE(std::filesystem::exists(report));
+  }
+
+  // The file is refused before anything is told.
+  void expect_nothing_told(const std::string& file, const std::string& arguments) {
+    const Outcome outcome = run_assay(arguments);
+    expect_one_line(outcome, {file});
+    EXPECT_EQ(outcome.out, "");
+  }
+
+  std::vector<std::string> files;
+  std::string good;
+};
+
+TEST_F(BadLateFrame, EndsTheCheckAfterTheStepsBeforeIt) {
+  const std::string tetrahedron =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  expect_two_steps(tetrahedron, {"frame_0000.ply", "bad.obj", "vertices"});
+  expect_two_steps("v nan 0 0\n" + tetrahedron, {"bad.obj", "finite"});
+  expect_two_steps(good.substr(0, good.size() - 20), {"bad.obj"});
+  // The same vertices, and one triangle that begins with another of its corners.
+  std::string other = good;
+  std::rotate(other.end() - 12, other.end() - 8, other.end());
+  expect_two_steps(other, {"frame_0000.ply", "bad.obj", "triangles"});
+}
+
+TEST_F(BadLateFrame, IsRefusedAtOnceWhereThatCanBeSeen) {
+  files[3] = scratch / "absent.ply";
+  expect_nothing_told("absent.ply", arguments());
+  files[3] = scratch.write("frame.xyz", "1 2 3\n");
+  expect_nothing_told("frame.xyz", arguments());
+  files[3] = scratch.write("empty.obj", "");
+  expect_nothing_told("empty.obj", arguments());
+}
+
+TEST_F(BadLateFrame, IsRefusedAtOnceForAPlugInBecauseItIsSentTheWholeCase) {
+  files[3] = scratch.write("cut.ply", good.substr(0, good.size() - 20));
+  expect_nothing_told("cut.ply",
+                      arguments() + " --detector " ASSAY_PLUGIN_DIR "/plugin_example.so");
+}
+
+// As long as `seconds` of processor time.
+void work(double seconds) {
+  const std::clock_t begin = std::clock();
+  while (static_cast<double>(std::clock() - begin) < seconds * CLOCKS_PER_SEC) {
+  }
+}
+
+TEST(ReadingFrames, TakesNoneOfTheTimeLimit) {
+  reports::Limits limits(0.05, {});
+  {
+    const reports::Limits::Pause pause(limits);
+    work(0.1);
+  }
+  EXPECT_FALSE(limits.exceeded());
+  work(0.1);
+  EXPECT_TRUE(limits.exceeded());
+}
+
+}  // namespace
+}  // namespace assay::tests
