@@ -4,7 +4,8 @@
 #include "oracle/query/algebraic_rung.h"
 #include "oracle/query/axis_rung.h"
 #include "oracle/query/interval_rung.h"
-#include "oracle/query/simple_zero.h"
+#include "oracle/query/quadratic_rung.h"
+#include "oracle/query/times/simple_zero.h"
 
 namespace assay::oracle {
 
@@ -24,7 +25,10 @@ ContactAnswer answer(const FourPoints& q, detector::Want want) {
   if (quick.decision == detector::Decision::yes) {
     return {true, simple_zero_time(polynomials.coplanarity(), quick.s, quick.e), Rung::interval};
   }
-  const AlgebraicAnswer full = algebraic_answer(polynomials, want);
+  if (const auto closed = quadratic_answer(polynomials, want)) {
+    return {closed->contact, closed->first, Rung::quadratic};
+  }
+  const ExactAnswer full = algebraic_answer(polynomials, want);
   return {full.contact, full.first, Rung::algebraic};
 }
 
@@ -38,6 +42,9 @@ void RungCounts::add(Rung rung) {
     case Rung::interval:
       ++interval;
       return;
+    case Rung::quadratic:
+      ++quadratic;
+      return;
     case Rung::algebraic:
       ++algebraic;
       return;
@@ -47,6 +54,7 @@ void RungCounts::add(Rung rung) {
 RungCounts& RungCounts::operator+=(const RungCounts& other) {
   axis += other.axis;
   interval += other.interval;
+  quadratic += other.quadratic;
   algebraic += other.algebraic;
   return *this;
 }
