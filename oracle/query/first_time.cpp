@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "oracle/processor_state.h"
-#include "oracle/query/algebraic_rung.h"
+#include "oracle/query/algebraic_answer.h"
 #include "oracle/query/contact.h"
 #include "oracle/query/times/algebraic_times.h"
 

@@ -1,12 +1,13 @@
 // How signs are found. Let p = a t^2 + b t + c with a > 0 and d = b^2 - 4ac > 0, let r be the zero
 // (-b + s sqrt(d)) / 2a with s = -1 or 1, and q = q2 t^2 + q1 t + q0.
 //
-// 1. At r is a q = a q - q2 p = u t + v, where u = a q1 - q2 b and v = a q0 - q2 c.
+// 1. At r is a q = a q - q2 p = u t + v, where u = a q1 - q2 b and v = a q0 - q2 c. Where q has a
+//    higher degree, so many steps of this kind make it linear.
 // 2. 2a (u r + v) = A + s u sqrt(d), where A = 2av - bu. If the two terms do not have opposite
 //    signs, theirs is the sign. Else it is the sign of A times that of
 //    A^2 - u^2 d = 4a (a v^2 - b u v + c u^2); the bracket is the resultant of p and u t + v.
 //
-// If a = 0 and b > 0, then r = -c/b and b^2 q(r) = (q2 c - q1 b) c + q0 b^2.
+// If a = 0 and b > 0, then r = -c/b and b^n q(r) is found by Horner's rule.
 //
 // r > t exactly when r - t, a linear polynomial at r, is positive. The zeros of two polynomials
 // are compared by the sign of the one polynomial and of its derivative at the zero of the other:
@@ -92,13 +93,26 @@ int QuadraticTime::sign_of_linear(const Integer& u, const Integer& v) const {
 }
 
 int QuadraticTime::sign(const IntegerPolynomial& q) const {
-  assert(q.degree() <= 2);
   if (q.degree() <= 0) return q.is_zero() ? 0 : sgn(q.c[0]);
-  if (q.degree() == 1) return sign_of_linear(q.c[1], q.c[0]);
   if (zero_ == Zero::only) {
-    return sgn(Integer((q.c[2] * c_ - q.c[1] * b_) * c_ + q.c[0] * b_ * b_));
+    Integer value = q.c.back(), power = b_;
+    for (int i = q.degree() - 1; i >= 0; --i, power *= b_) value = q.c[i] * power - value * c_;
+    return sgn(value);
   }
-  return sign_of_linear(a_ * q.c[1] - q.c[2] * b_, a_ * q.c[0] - q.c[2] * c_);
+  if (q.degree() == 1) return sign_of_linear(q.c[1], q.c[0]);
+  if (q.degree() == 2) {
+    return sign_of_linear(a_ * q.c[1] - q.c[2] * b_, a_ * q.c[0] - q.c[2] * c_);
+  }
+  IntegerPolynomial rest = q;
+  while (rest.degree() > 1) {
+    const Integer top = std::move(rest.c.back());
+    rest.c.pop_back();
+    for (Integer& x : rest.c) x *= a_;
+    rest.c[rest.c.size() - 1] -= top * b_;
+    rest.c[rest.c.size() - 2] -= top * c_;
+    while (!rest.is_zero() && rest.c.back() == 0) rest.c.pop_back();
+  }
+  return sign(rest);
 }
 
 int QuadraticTime::compare(const QuadraticTime& other) const {
@@ -110,7 +124,7 @@ int QuadraticTime::compare(const QuadraticTime& other) const {
   return slope != static_cast<int>(other.zero_) || value > 0 ? slope : 0;
 }
 
-int QuadraticTime::compare_with(double t) const {
+int QuadraticTime::compare(double t) const {
   if (t == 0) return sign_of_linear(1, 0);
   // r - t = (2^k r - m) / 2^k with an integer m; no exponent is positive, because t <= 1.
   int exponent = 0;
@@ -132,7 +146,7 @@ double QuadraticTime::guess() const {
 }
 
 detector::TimeEnclosure QuadraticTime::enclosure() const {
-  return enclose_time(guess(), 0, 1, [this](double t) { return compare_with(t); });
+  return enclose_time(guess(), 0, 1, [this](double t) { return compare(t); });
 }
 
 }  // namespace assay::oracle

@@ -15,10 +15,12 @@ class QuadraticTime {
   // Appends the distinct real zeros of p, ascending. REQUIRES degree 1 or 2.
   static void append_zeros(const IntegerPolynomial& p, std::vector<QuadraticTime>& to);
 
-  // The exact sign of q(r). REQUIRES degree <= 2. Some 10 products of integers.
+  // The exact sign of q(r). Some 10 products of integers where q has degree 2.
   int sign(const IntegerPolynomial& q) const;
   // The exact sign of r - other.
   int compare(const QuadraticTime& other) const;
+  // The exact sign of r - t. REQUIRES 0 <= t <= 1.
+  int compare(double t) const;
   // REQUIRES 0 <= r <= 1.
   detector::TimeEnclosure enclosure() const;
 
@@ -28,7 +30,6 @@ class QuadraticTime {
   QuadraticTime(Integer a, Integer b, Integer c, Zero zero);
   // The exact sign of u r + v.
   int sign_of_linear(const Integer& u, const Integer& v) const;
-  int compare_with(double t) const;
   double guess() const;
 
   Integer a_, b_, c_;  // r is a zero of a t^2 + b t + c; a = 0 and b > 0 if it is the only one

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "oracle/query/times/exact_times.h"
@@ -16,9 +17,10 @@ class QuadraticTimes final : public ExactTimes {
   explicit QuadraticTimes(std::span<const IntegerPolynomial> polynomials);
 
   int size() const override;
-  // REQUIRES degree <= 2.
   int sign(const IntegerPolynomial& q, int i) const override;
   detector::TimeEnclosure enclosure(int i) const override;
+  // Gives the times away.
+  std::vector<QuadraticTime> take() { return std::move(times_); }
 
  private:
   std::vector<QuadraticTime> times_;

@@ -92,10 +92,8 @@ void judge_bends(const BenchSettings& settings, BenchReport& report) {
       if (each.value <= dearest.value) continue;
       dearest = each;
       where = fmt::format(
-          "dearest step: {} triangles, step {}, {} of {} queries quadratic, {} "
-          "algebraic; bootstrap",
-          scene.triangles.rows(), step, judged.rungs.quadratic, judged.feature_candidates,
-          judged.rungs.algebraic);
+          "dearest step: {} triangles, step {}, {} of {} queries by rung quadratic; bootstrap",
+          scene.triangles.rows(), step, judged.rungs.quadratic, judged.feature_candidates);
     }
   }
   report.add("oracle, a feature candidate of the bend scene", "us", dearest,

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "oracle/query/algebraic_rung.h"
+#include "oracle/query/algebraic_answer.h"
 #include "oracle/query/axis_rung.h"
 #include "oracle/query/contact.h"
 #include "oracle/query/interval_rung.h"
@@ -61,10 +61,9 @@ TEST(ContactLaws, RungsAgree) {
     ContactPolynomials polynomials(query.q);
     const ExactAnswer full = algebraic_answer(polynomials, Want::first_time);
     EXPECT_FALSE(separated_by_axis(query.q) && full.contact);
-    if (const auto closed = quadratic_answer(polynomials, Want::first_time)) {
-      EXPECT_EQ(closed->contact, full.contact);
-      EXPECT_EQ(closed->first, full.first);
-    }
+    const ExactAnswer closed = quadratic_answer(polynomials, Want::first_time);
+    EXPECT_EQ(closed.contact, full.contact);
+    EXPECT_EQ(closed.first, full.first);
     for (const Want want : {Want::yes_no, Want::first_time}) {
       const IntervalAnswer quick = interval_answer(query.q, want);
       if (quick.decision == detector::Decision::open) continue;

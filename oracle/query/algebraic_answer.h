@@ -1,5 +1,6 @@
-// The rung "algebraic": the complete exact test by CGAL's algebraic kernel. 0.1 to 0.4 ms; if the
-// exponents of the coordinates spread over all doubles, 7 ms on average and up to 0.1 s.
+// The answer of quadratic_answer by other means: CGAL's algebraic kernel. No rung, but what that
+// rung is compared with. 0.1 to 0.4 ms; if the exponents of the coordinates spread over all
+// doubles, 7 ms on average and up to 0.1 s.
 #pragma once
 
 #include "oracle/query/contact_events.h"

@@ -1,4 +1,4 @@
-#include "oracle/query/algebraic_rung.h"
+#include "oracle/query/algebraic_answer.h"
 
 #include "oracle/query/times/algebraic_times.h"
 
