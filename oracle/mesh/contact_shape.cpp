@@ -22,12 +22,6 @@ Integer discriminant(const IntegerPolynomial& f) {
          18 * a * b * c * d;
 }
 
-IntegerPolynomial derivative(const IntegerPolynomial& f) {
-  IntegerPolynomial d;
-  for (std::size_t k = 1; k < f.c.size(); ++k) d.c.push_back(f.c[k] * static_cast<unsigned>(k));
-  return d;
-}
-
 // True when F has a root of multiplicity 2 or more and its derivative a zero in the enclosure.
 // Such a root is a rational number, because F is a cubic with rational coefficients.
 bool has_double_root_at(const IntegerPolynomial& f, const TimeEnclosure& first) {

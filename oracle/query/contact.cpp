@@ -1,10 +1,11 @@
 #include "oracle/query/contact.h"
 
 #include "oracle/processor_state.h"
-#include "oracle/query/algebraic_rung.h"
+#include "oracle/query/algebraic_answer.h"
 #include "oracle/query/axis_rung.h"
 #include "oracle/query/interval_rung.h"
-#include "oracle/query/simple_zero.h"
+#include "oracle/query/quadratic_rung.h"
+#include "oracle/query/times/simple_zero.h"
 
 namespace assay::oracle {
 
@@ -24,8 +25,16 @@ ContactAnswer answer(const FourPoints& q, detector::Want want) {
   if (quick.decision == detector::Decision::yes) {
     return {true, simple_zero_time(polynomials.coplanarity(), quick.s, quick.e), Rung::interval};
   }
-  const AlgebraicAnswer full = algebraic_answer(polynomials, want);
-  return {full.contact, full.first, Rung::algebraic};
+  const ExactAnswer full = quadratic_answer(polynomials, want);
+  return {full.contact, full.first, Rung::quadratic};
+}
+
+std::optional<detector::TimeEnclosure> answer_by_kernel(const FourPoints& q) {
+  require_exact_processor_state();
+  ContactPolynomials polynomials(q);
+  const ExactAnswer full = algebraic_answer(polynomials, detector::Want::first_time);
+  if (!full.contact) return {};
+  return full.first;
 }
 
 }  // namespace
@@ -38,8 +47,8 @@ void RungCounts::add(Rung rung) {
     case Rung::interval:
       ++interval;
       return;
-    case Rung::algebraic:
-      ++algebraic;
+    case Rung::quadratic:
+      ++quadratic;
       return;
   }
 }
@@ -47,12 +56,20 @@ void RungCounts::add(Rung rung) {
 RungCounts& RungCounts::operator+=(const RungCounts& other) {
   axis += other.axis;
   interval += other.interval;
-  algebraic += other.algebraic;
+  quadratic += other.quadratic;
   return *this;
 }
 
 ContactAnswer vertex_face_contact(const detector::VertexFace& query, detector::Want want) {
   return answer(four_points(query), want);
+}
+
+std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::VertexFace& query) {
+  return answer_by_kernel(four_points(query));
+}
+
+std::optional<detector::TimeEnclosure> first_time_by_kernel(const detector::EdgeEdge& query) {
+  return answer_by_kernel(four_points(query));
 }
 
 ContactAnswer edge_edge_contact(const detector::EdgeEdge& query, detector::Want want) {

@@ -13,8 +13,9 @@
 #include <cmath>
 
 #include "oracle/processor_state.h"
-#include "oracle/query/algebraic_rung.h"
+#include "oracle/query/algebraic_answer.h"
 #include "oracle/query/contact.h"
+#include "oracle/query/times/algebraic_times.h"
 
 namespace assay::oracle {
 namespace {
@@ -126,7 +127,7 @@ ClaimCheck check_first_time(const Query& query, const detector::TimeEnclosure& c
   if (!in_step || !well_formed) return {false, ClaimRung::signs};
   ContactPolynomials polynomials(points_of(query));
   if (proved_by_signs(polynomials, claim)) return {true, ClaimRung::signs};
-  const AlgebraicAnswer solved = algebraic_answer(polynomials, detector::Want::first_time);
+  const ExactAnswer solved = algebraic_answer(polynomials, detector::Want::first_time);
   return {solved.contact && solved.first == claim, ClaimRung::solved};
 }
 

@@ -47,6 +47,12 @@ IntegerPolynomial linear(const Integer& at_t0, const Integer& at_t1) {
   return trimmed({at_t0, at_t1 - at_t0});
 }
 
+IntegerPolynomial derivative(const IntegerPolynomial& p) {
+  IntegerPolynomial d;
+  for (std::size_t k = 1; k < p.c.size(); ++k) d.c.push_back(p.c[k] * static_cast<unsigned>(k));
+  return d;
+}
+
 int sign_at(const IntegerPolynomial& p, double t) {
   if (p.is_zero()) return 0;
   if (t == 0) return sgn(p.c.front());

@@ -25,6 +25,8 @@ IntegerPolynomial operator*(const IntegerPolynomial& a, const IntegerPolynomial&
 // The linear polynomial with these values at t=0 and t=1.
 IntegerPolynomial linear(const Integer& at_t0, const Integer& at_t1);
 
+IntegerPolynomial derivative(const IntegerPolynomial& p);
+
 // The exact sign of p at t. REQUIRES t finite and >= 0.
 int sign_at(const IntegerPolynomial& p, double t);
 

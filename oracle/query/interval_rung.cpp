@@ -19,7 +19,7 @@ constexpr double largest_coordinate = 0x1p300;
 // ends, so at the greatest depth they and 1 minus them are still exact doubles.
 constexpr double split_at = 15.0 / 32.0;
 constexpr int most_depth = 9;
-// If a query needs more pieces, the algebraic rung is the cheaper one.
+// If a query needs more pieces, the rung "quadratic" is the cheaper one.
 constexpr int most_pieces = 40;
 
 struct Piece {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "oracle/query/algebraic_times.h"
 #include "oracle/query/integer_scale.h"
+#include "oracle/query/times/algebraic_times.h"
 
 namespace assay::oracle {
 

@@ -23,7 +23,7 @@ struct QueryTally {
 // Compares every method, and the invariance that `pick` chooses (or the next one that can be
 // applied), with the oracle's timed answer: verdicts are equal, times are equal in every bit, and
 // a known contact is found and is not late. Returns what contradicts, or nothing. The dearest part
-// is the oracle, which is asked three to five times.
+// is the algebraic kernel.
 std::optional<std::string> check_query(const GeneratedQuery& made, std::uint64_t pick,
                                        QueryTally& tally);
 

@@ -27,6 +27,12 @@ MethodAnswer oracle_yes_no(const Query& query) {
   return {decision(ask_oracle(query, Want::yes_no).contact), {}};
 }
 
+MethodAnswer algebraic_kernel(const Query& query) {
+  const auto first = query.first_group == 1 ? oracle::first_time_by_kernel(vertex_face(query))
+                                            : oracle::first_time_by_kernel(edge_edge(query));
+  return {decision(first.has_value()), first};
+}
+
 MethodAnswer detector_yes_no(const Query& query) {
   return {decision(detector::test_contact(query, Want::yes_no).contact), {}};
 }
@@ -56,6 +62,7 @@ MethodAnswer second_referee(const Query& query) {
 
 constexpr std::array methods = {
     QueryMethod{"oracle, yes or no", oracle_yes_no},
+    QueryMethod{"algebraic kernel", algebraic_kernel},
     QueryMethod{"detector, yes or no", detector_yes_no},
     QueryMethod{"detector, timed", detector_timed},
     QueryMethod{"detector, integers alone", detector_integers},

@@ -24,8 +24,9 @@ struct QueryMethod {
 };
 
 // All methods but the oracle's timed answer, with which they are compared: the oracle asked for
-// yes or no, the detector's ladder (yes or no, and timed), the detector's integers alone, and the
-// second referee, which has no times and leaves touches open.
+// yes or no, CGAL's algebraic kernel without the oracle's rungs, the detector's ladder (yes or no,
+// and timed), the detector's integers alone, and the second referee, which has no times and leaves
+// touches open.
 std::span<const QueryMethod> query_methods();
 
 oracle::ContactAnswer ask_oracle(const Query& query, detector::Want want);

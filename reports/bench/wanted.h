@@ -92,11 +92,13 @@ inline constexpr Wanted memory_a_thread_percent = at_most(10);
 // that is read here.
 inline constexpr Wanted marking_percent = at_most(5);
 
-// The oracle: the rod-twist step on two threads, its memory beyond that of the mesh itself, and
-// the mean of a simulation query, yes or no.
+// The oracle: the rod-twist step on two threads, its memory beyond that of the mesh itself, the
+// mean of a simulation query, yes or no, and a step of scene bend over its feature candidates:
+// where the mirrored ends of the tube meet, queries are degenerate.
 inline constexpr Wanted oracle_rod_twist_s = at_most(30);
 inline constexpr Wanted oracle_rod_twist_gb = at_most(3);
 inline constexpr Wanted oracle_simulation_query_us = at_most(20);
+inline constexpr Wanted oracle_planar_candidate_us = at_most(10);
 
 // A campaign: the steps that oracle and detector, in all its configurations, judge in a second on
 // a core.

@@ -40,7 +40,7 @@ struct Method {
 const Method& method_of(QueryMethod method) {
   using detector::Arithmetic;
   static const std::array<Method, 6> methods = {{
-      {{"axis", "interval", "algebraic", "", ""}, answer_by_oracle},
+      {{"axis", "interval", "quadratic", "", ""}, answer_by_oracle},
       {{"", "", "", "", ""}, answer_by_referee},
       {{"axis", "filter", "fixed", "unbounded", ""}, answer_by_detector<Arithmetic::exact>},
       {{"axis", "filter", "", "", "open"}, answer_by_detector<Arithmetic::bounded>},

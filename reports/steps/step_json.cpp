@@ -138,7 +138,7 @@ Json step_json(const detector::StepResult& result, const oracle::StepJudgement* 
       {"rungs",
        {{"axis", judgement->rungs.axis},
         {"interval", judgement->rungs.interval},
-        {"algebraic", judgement->rungs.algebraic}}},
+        {"quadratic", judgement->rungs.quadratic}}},
       {"time_ms", oracle_ms}};
   step["diff"] = to_json(*diff);
   return step;

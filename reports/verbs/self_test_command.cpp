@@ -35,10 +35,10 @@ double share_of(std::uint64_t part, std::uint64_t whole) {
 }
 
 void print_row(const std::string& name, const QueryTally& t, double seconds) {
-  const std::uint64_t judged = t.rungs.axis + t.rungs.interval + t.rungs.algebraic;
+  const std::uint64_t judged = t.rungs.axis + t.rungs.interval + t.rungs.quadratic;
   fmt::print("{:<14}{:>10}{:>10}{:>16}{:>8}{:>9.2f}{:>12.2f}{:>13.2f}{:>9.1f}\n", name, t.queries,
              t.contacts, t.contradictions, t.open, share_of(t.rungs.axis, judged),
-             share_of(t.rungs.interval, judged), share_of(t.rungs.algebraic, judged), seconds);
+             share_of(t.rungs.interval, judged), share_of(t.rungs.quadratic, judged), seconds);
   std::fflush(stdout);
 }
 
@@ -86,7 +86,7 @@ void announce(const SelfTestRequest& request) {
     }
   }
   fmt::print("{:<14}{:>10}{:>10}{:>16}{:>8}{:>9}{:>12}{:>13}{:>9}\n", "family", "queries",
-             "contacts", "contradictions", "open", "axis %", "interval %", "algebraic %", "s");
+             "contacts", "contradictions", "open", "axis %", "interval %", "quadratic %", "s");
   std::fflush(stdout);
 }
 

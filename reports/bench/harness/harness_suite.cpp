@@ -13,6 +13,7 @@
 #include "reports/bench/peak_memory.h"
 #include "reports/bench/query_sets.h"
 #include "reports/bench/real_sequences.h"
+#include "reports/bench/timed_step.h"
 
 namespace assay::reports {
 namespace {
@@ -60,6 +61,35 @@ void ask_simulation_queries(const BenchSettings& settings, BenchReport& report) 
   report.add("oracle, a simulation query, yes/no", "us",
              scaled(bootstrap_median(samples[0]), 1e-3 / count), wanted::oracle_simulation_query_us,
              fmt::format("mean of {} queries; bootstrap over rounds", count));
+}
+
+// In the last steps of scene bend the mirrored ends of a tube meet, so many queries stay in one
+// plane or meet on the border of a feature. The row is of the dearest step of any size.
+void judge_bends(const BenchSettings& settings, BenchReport& report) {
+  constexpr int frames = 21;
+  Estimate dearest;
+  std::string where;
+  for (const int triangles : {180, settings.triangles(1'000), settings.triangles(10'000)}) {
+    const auto scene = bench_scene("bend", triangles, frames);
+    for (std::size_t step = 0; step + 1 < scene.frames.size(); ++step) {
+      oracle::StepJudgement judged;
+      const auto judge = [&] {
+        judged =
+            oracle::judge_step({scene.frames[step], scene.frames[step + 1]}, scene.triangles, {});
+      };
+      const auto samples = interleave(settings.rounds(5), {[&] { return ns_of(judge); }});
+      const auto candidates = static_cast<double>(judged.feature_candidates);
+      if (candidates == 0) continue;
+      const Estimate each = scaled(bootstrap_median(samples[0]), 1e-3 / candidates);
+      if (each.value <= dearest.value) continue;
+      dearest = each;
+      where = fmt::format(
+          "dearest step: {} triangles, step {}, {} of {} queries by rung quadratic; bootstrap",
+          scene.triangles.rows(), step, judged.rungs.quadratic, judged.feature_candidates);
+    }
+  }
+  report.add("oracle, a feature candidate of the bend scene", "us", dearest,
+             wanted::oracle_planar_candidate_us, where);
 }
 
 struct Trials {
@@ -125,6 +155,8 @@ BenchReport harness_suite(const BenchSettings& settings, Progress& progress) {
   }
   progress.phase("oracle, queries");
   ask_simulation_queries(settings, report);
+  progress.phase("oracle, scene bend");
+  judge_bends(settings, report);
   for (const auto& family : properties::families()) {
     progress.phase(std::string(family.name));
     judge_family(family, settings, report);

@@ -53,7 +53,7 @@ bool same_bytes(const StepJudgement& a, const StepJudgement& b) {
   };
   return a.answer == b.answer && a.complete == b.complete && a.first == b.first &&
          a.feature_candidates == b.feature_candidates && a.rungs.axis == b.rungs.axis &&
-         a.rungs.interval == b.rungs.interval && a.rungs.algebraic == b.rungs.algebraic &&
+         a.rungs.interval == b.rungs.interval && a.rungs.quadratic == b.rungs.quadratic &&
          std::equal(a.pairs.begin(), a.pairs.end(), b.pairs.begin(), b.pairs.end(),
                     [&](const auto& x, const auto& y) { return key(x) == key(y); });
 }

@@ -3,11 +3,12 @@
 
 #include <cstdio>
 
-#include "oracle/query/algebraic_rung.h"
+#include "oracle/query/algebraic_answer.h"
 #include "oracle/query/axis_rung.h"
 #include "oracle/query/contact.h"
 #include "oracle/query/interval_rung.h"
-#include "oracle/query/simple_zero.h"
+#include "oracle/query/quadratic_rung.h"
+#include "oracle/query/times/simple_zero.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {
@@ -58,8 +59,11 @@ void for_random_queries(std::uint64_t seed, const Law& law) {
 TEST(ContactLaws, RungsAgree) {
   for_random_queries(11, [](const FeatureQuery& query) {
     ContactPolynomials polynomials(query.q);
-    const AlgebraicAnswer full = algebraic_answer(polynomials, Want::first_time);
+    const ExactAnswer full = algebraic_answer(polynomials, Want::first_time);
     EXPECT_FALSE(separated_by_axis(query.q) && full.contact);
+    const ExactAnswer closed = quadratic_answer(polynomials, Want::first_time);
+    EXPECT_EQ(closed.contact, full.contact);
+    EXPECT_EQ(closed.first, full.first);
     for (const Want want : {Want::yes_no, Want::first_time}) {
       const IntervalAnswer quick = interval_answer(query.q, want);
       if (quick.decision == detector::Decision::open) continue;

@@ -65,7 +65,7 @@ TEST(ContactAxis, SwappedOrderIsNotSeparated) {
 }
 
 TEST(ContactAxis, TouchingIsNotSeparated) {
-  expect(over_resting_face({1, 1, 1}, {1, 1, 0}), {true, Rung::algebraic, at(1)});
+  expect(over_resting_face({1, 1, 1}, {1, 1, 0}), {true, Rung::quadratic, at(1)});
 }
 
 TEST(ContactInterval, PassesBeside) {
@@ -94,20 +94,20 @@ TEST(ContactInterval, FirstOfThreeZeros) {
   EXPECT_LE(answer.first.hi, 0.5);
 }
 
-TEST(ContactAlgebraic, ContactOnAnEdgeOfTheFace) {
-  expect(over_resting_face({2, 0, 1}, {2, 0, -1}), {true, Rung::algebraic, at(0.5)});
+TEST(ContactQuadratic, ContactOnAnEdgeOfTheFace) {
+  expect(over_resting_face({2, 0, 1}, {2, 0, -1}), {true, Rung::quadratic, at(0.5)});
 }
 
-TEST(ContactAlgebraic, ContactAtACornerOfTheFace) {
-  expect(over_resting_face({4, 0, 3}, {4, 0, -1}), {true, Rung::algebraic, at(0.75)});
+TEST(ContactQuadratic, ContactAtACornerOfTheFace) {
+  expect(over_resting_face({4, 0, 3}, {4, 0, -1}), {true, Rung::quadratic, at(0.75)});
 }
 
-TEST(ContactAlgebraic, StartsInContact) {
-  expect(over_resting_face({1, 1, 0}, {1, 1, 5}), {true, Rung::algebraic, at(0)});
+TEST(ContactQuadratic, StartsInContact) {
+  expect(over_resting_face({1, 1, 0}, {1, 1, 5}), {true, Rung::quadratic, at(0)});
 }
 
-TEST(ContactAlgebraic, EndsInContact) {
-  expect(over_resting_face({1, 1, 5}, {1, 1, 0}), {true, Rung::algebraic, at(1)});
+TEST(ContactQuadratic, EndsInContact) {
+  expect(over_resting_face({1, 1, 5}, {1, 1, 0}), {true, Rung::quadratic, at(1)});
 }
 
 // The point moves along y, two corners of the face along z, and F = c (2t - 1)^2: at t=1/2 alone
@@ -118,12 +118,12 @@ VertexFace double_zero(double x) {
       {rest({0, 0, 0}), MovingPoint{{4, 0, -1}, {4, 0, 1}}, MovingPoint{{0, 0, -1}, {0, 0, 1}}}};
 }
 
-TEST(ContactAlgebraic, DoubleZeroTouches) {
-  expect(double_zero(1), {true, Rung::algebraic, at(0.5)});
-  expect(double_zero(4), {true, Rung::algebraic, at(0.5)});
+TEST(ContactQuadratic, DoubleZeroTouches) {
+  expect(double_zero(1), {true, Rung::quadratic, at(0.5)});
+  expect(double_zero(4), {true, Rung::quadratic, at(0.5)});
 }
 
-TEST(ContactAlgebraic, DoubleZeroWithoutContact) {
+TEST(ContactQuadratic, DoubleZeroWithoutContact) {
   EXPECT_FALSE(vertex_face_contact(double_zero(5), Want::yes_no).contact);
   EXPECT_FALSE(vertex_face_contact(double_zero(5), Want::first_time).contact);
 }
@@ -135,26 +135,26 @@ VertexFace irrational_time(double length) {
           {rest({0, 0, 0}), MovingPoint{{length, 0, 0}, {length, 0, length}}, rest({0, 4, 0})}};
 }
 
-TEST(ContactAlgebraic, IrrationalTimeOnAnEdge) {
+TEST(ContactQuadratic, IrrationalTimeOnAnEdge) {
   const double root_half = 0x1.6a09e667f3bccp-1;  // the double below the square root of 1/2
-  expect(irrational_time(3), {true, Rung::algebraic, around(root_half)});
+  expect(irrational_time(3), {true, Rung::quadratic, around(root_half)});
   EXPECT_FALSE(vertex_face_contact(irrational_time(1), Want::first_time).contact);
 }
 
 TEST(ContactDegenerate, NoMotion) {
-  expect(over_resting_face({1, 1, 0}, {1, 1, 0}), {true, Rung::algebraic, at(0)});
+  expect(over_resting_face({1, 1, 0}, {1, 1, 0}), {true, Rung::quadratic, at(0)});
   EXPECT_FALSE(vertex_face_contact(over_resting_face({3, 3, 0}, {3, 3, 0}), Want::yes_no).contact);
   EXPECT_TRUE(vertex_face_contact(over_resting_face({2, 2, 0}, {2, 2, 0}), Want::yes_no).contact);
 }
 
 TEST(ContactDegenerate, CoplanarThroughoutResting) {
   // In the plane of the face from outside over its edge x + y = 4.
-  expect(over_resting_face({4, 4, 0}, {0, 0, 0}), {true, Rung::algebraic, at(0.5)});
+  expect(over_resting_face({4, 4, 0}, {0, 0, 0}), {true, Rung::quadratic, at(0.5)});
   // Past the corner.
   EXPECT_FALSE(
       vertex_face_contact(over_resting_face({5, -1, 0}, {-1, -1, 0}), Want::first_time).contact);
   // Through the corner (4,0).
-  expect(over_resting_face({5, -1, 0}, {3, 1, 0}), {true, Rung::algebraic, at(0.5)});
+  expect(over_resting_face({5, -1, 0}, {3, 1, 0}), {true, Rung::quadratic, at(0.5)});
 }
 
 TEST(ContactDegenerate, CoplanarThroughoutInAMovingPlane) {
@@ -164,15 +164,15 @@ TEST(ContactDegenerate, CoplanarThroughoutInAMovingPlane) {
   };
   const VertexFace q = {lifted(4, 4, 0, 0),
                         {lifted(0, 0, 0, 0), lifted(4, 0, 4, 0), lifted(0, 4, 0, 4)}};
-  expect(q, {true, Rung::algebraic, at(0.5)});
+  expect(q, {true, Rung::quadratic, at(0.5)});
 }
 
 TEST(ContactDegenerate, CollinearThroughout) {
   const EdgeEdge meet = {{MovingPoint{{0, 0, 0}, {3, 3, 3}}, {{1, 1, 1}, {4, 4, 4}}},
                          {rest({2, 2, 2}), rest({9, 9, 9})}};
-  expect(meet, {true, Rung::algebraic, around(below_third)});
+  expect(meet, {true, Rung::quadratic, around(below_third)});
   const EdgeEdge apart = {{rest({0, 0, 0}), rest({1, 1, 1})}, {rest({1, 1, 1}), rest({2, 2, 2})}};
-  expect(apart, {true, Rung::algebraic, at(0)});
+  expect(apart, {true, Rung::quadratic, at(0)});
   const EdgeEdge gap = {{rest({0, 0, 0}), rest({1, 1, 1})}, {rest({2, 2, 2}), rest({3, 3, 3})}};
   expect(gap, {false, Rung::axis});
 }
@@ -187,27 +187,27 @@ TEST(ContactDegenerate, EdgesTurningOnOneLine) {
     return std::array<MovingPoint, 2>{rest({a, 0, 0}), rest({b, 0, 0})};
   };
   EXPECT_TRUE(edge_edge_contact({turning(0, 2), resting(1, 3)}, Want::yes_no).contact);
-  expect(EdgeEdge{turning(0, 2), resting(2, 3)}, {true, Rung::algebraic, at(0.5)});
+  expect(EdgeEdge{turning(0, 2), resting(2, 3)}, {true, Rung::quadratic, at(0.5)});
   EXPECT_FALSE(edge_edge_contact({turning(0, 2), resting(3, 4)}, Want::yes_no).contact);
 }
 
 TEST(ContactDegenerate, AllPointsCoincide) {
   const Point p = {1, 2, 3};
-  expect(VertexFace{rest(p), {rest(p), rest(p), rest(p)}}, {true, Rung::algebraic, at(0)});
-  expect(EdgeEdge{{rest(p), rest(p)}, {rest(p), rest(p)}}, {true, Rung::algebraic, at(0)});
+  expect(VertexFace{rest(p), {rest(p), rest(p), rest(p)}}, {true, Rung::quadratic, at(0)});
+  expect(EdgeEdge{{rest(p), rest(p)}, {rest(p), rest(p)}}, {true, Rung::quadratic, at(0)});
 }
 
 TEST(ContactDegenerate, PointsMeetOnce) {
   const MovingPoint a = {{0, 0, 0}, {2, 4, 6}}, b = {{2, 4, 6}, {0, 0, 0}};
-  expect(VertexFace{a, {b, b, b}}, {true, Rung::algebraic, at(0.5)});
-  expect(EdgeEdge{{a, a}, {b, b}}, {true, Rung::algebraic, at(0.5)});
+  expect(VertexFace{a, {b, b, b}}, {true, Rung::quadratic, at(0.5)});
+  expect(EdgeEdge{{a, a}, {b, b}}, {true, Rung::quadratic, at(0.5)});
   const MovingPoint c = {{2, 4, 6}, {0, 1, 0}};
   EXPECT_FALSE(edge_edge_contact({{a, a}, {c, c}}, Want::first_time).contact);
 }
 
 TEST(ContactDegenerate, ZeroLengthEdgeThroughAnEdge) {
   const MovingPoint p = {{1, 0, 1}, {1, 0, -1}};
-  expect(EdgeEdge{{p, p}, {rest({0, 0, 0}), rest({2, 0, 0})}}, {true, Rung::algebraic, at(0.5)});
+  expect(EdgeEdge{{p, p}, {rest({0, 0, 0}), rest({2, 0, 0})}}, {true, Rung::quadratic, at(0.5)});
   const MovingPoint miss = {{1, 0.5, 1}, {1, 0.5, -1}};
   EXPECT_FALSE(
       edge_edge_contact({{miss, miss}, {rest({0, 0, 0}), rest({2, 0, 0})}}, Want::yes_no).contact);
@@ -215,7 +215,7 @@ TEST(ContactDegenerate, ZeroLengthEdgeThroughAnEdge) {
 
 TEST(ContactDegenerate, SliverFaceIsASegment) {
   VertexFace q = {{{1, 0, 1}, {1, 0, -1}}, {rest({0, 0, 0}), rest({1, 0, 0}), rest({2, 0, 0})}};
-  expect(q, {true, Rung::algebraic, at(0.5)});
+  expect(q, {true, Rung::quadratic, at(0.5)});
   q.vertex = {{3, 0, 1}, {3, 0, -1}};
   EXPECT_FALSE(vertex_face_contact(q, Want::yes_no).contact);
 }
@@ -223,7 +223,7 @@ TEST(ContactDegenerate, SliverFaceIsASegment) {
 TEST(ContactDegenerate, ParallelEdgesSlide) {
   const EdgeEdge q = {{MovingPoint{{-3, 0, 0}, {1, 0, 0}}, {{-2, 0, 0}, {2, 0, 0}}},
                       {rest({0, 0, 0}), rest({1, 0, 0})}};
-  expect(q, {true, Rung::algebraic, at(0.5)});
+  expect(q, {true, Rung::quadratic, at(0.5)});
   EdgeEdge beside = q;
   beside.b = {rest({0, 1, 0}), rest({1, 1, 0})};
   expect(beside, {false, Rung::axis});
@@ -249,11 +249,11 @@ TEST(RungCounts, AddUp) {
   RungCounts counts;
   counts.add(Rung::axis);
   counts.add(Rung::interval);
-  counts.add(Rung::algebraic);
+  counts.add(Rung::quadratic);
   counts += counts;
   EXPECT_EQ(counts.axis, 2U);
   EXPECT_EQ(counts.interval, 2U);
-  EXPECT_EQ(counts.algebraic, 2U);
+  EXPECT_EQ(counts.quadratic, 2U);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(ExtremeNumbers, GreatestDoubles) {
       through_face(greatest_double, greatest_double, -greatest_double), Want::first_time);
   EXPECT_TRUE(hit.contact);
   EXPECT_EQ(hit.first, (detector::TimeEnclosure{0.5, 0.5}));
-  EXPECT_EQ(static_cast<int>(hit.rung), static_cast<int>(Rung::algebraic));
+  EXPECT_EQ(static_cast<int>(hit.rung), static_cast<int>(Rung::quadratic));
 }
 
 TEST(ExtremeNumbers, DenormalBesideGreatest) {

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "oracle/mesh/box_tree.h"
-#include "oracle/query/algebraic_times.h"
 #include "oracle/query/integer_scale.h"
-#include "oracle/query/simple_zero.h"
-#include "oracle/query/time_enclosure.h"
+#include "oracle/query/times/algebraic_times.h"
+#include "oracle/query/times/simple_zero.h"
+#include "oracle/query/times/time_enclosure.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

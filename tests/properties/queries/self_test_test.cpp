@@ -162,7 +162,7 @@ TEST(SelfTest, ResultDoesNotDependOnJobs) {
     EXPECT_TRUE(one.complete && three.complete);
     EXPECT_EQ(one.tally.queries, three.tally.queries);
     EXPECT_EQ(one.tally.contacts, three.tally.contacts);
-    EXPECT_EQ(one.tally.rungs.algebraic, three.tally.rungs.algebraic);
+    EXPECT_EQ(one.tally.rungs.quadratic, three.tally.rungs.quadratic);
     EXPECT_EQ(one.tally.contradictions, 0u);
   }
 }

@@ -300,6 +300,7 @@ TEST(MeasuringArena, SavesWhatOtherLanesWouldDo) {
 TEST_F(Suites, Harness) {
   const auto report = run(harness_suite);
   for (const char* row : {"oracle, rod-twist step", "oracle, a simulation query, yes/no",
+                          "oracle, a feature candidate of the bend scene",
                           "judged steps a second and core, closed-generic",
                           "judged steps a second and core, unclosed-degenerate"}) {
     EXPECT_TRUE(has(report, row)) << row;
@@ -311,6 +312,7 @@ TEST_F(Suites, Harness) {
   };
   EXPECT_EQ(wants("judged steps a second and core, closed-generic"), 100);
   EXPECT_EQ(wants("judged steps a second and core, closed-degenerate"), 10);
+  EXPECT_EQ(wants("oracle, a feature candidate of the bend scene"), 10);
 }
 
 TEST(BenchCommand, RefusesWhatItCannotDo) {

@@ -11,7 +11,7 @@ namespace {
 TEST(SelfTestCommand, HoldsAndSaysSeedAndCounts) {
   const auto outcome = run_assay("self-test --queries 100 --seed 7 --jobs 2");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  for (const char* part : {"seed 7", "small-int ", "cube-2 ", "left out", "steps ", "algebraic %",
+  for (const char* part : {"seed 7", "small-int ", "cube-2 ", "left out", "steps ", "quadratic %",
                            "no contradiction in", "invariances"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
   }

@@ -1,4 +1,4 @@
-#include "oracle/query/simple_zero.h"
+#include "oracle/query/times/simple_zero.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "oracle/query/time_enclosure.h"
+#include "oracle/query/times/time_enclosure.h"
 
 namespace assay::oracle {
 

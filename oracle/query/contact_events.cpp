@@ -1,9 +1,6 @@
-#include "oracle/query/algebraic_rung.h"
+#include "oracle/query/contact_events.h"
 
 #include <algorithm>
-#include <vector>
-
-#include "oracle/query/algebraic_times.h"
 
 namespace assay::oracle {
 
@@ -35,7 +32,7 @@ std::vector<IntegerPolynomial> event_polynomials(ContactPolynomials& polynomials
   return {start};
 }
 
-bool contact_at(ContactPolynomials& polynomials, const AlgebraicTimes& times, int i) {
+bool contact_at(ContactPolynomials& polynomials, const ExactTimes& times, int i) {
   for (int axis = 0; axis < 3; ++axis) {
     bool positive = false, negative = false;
     for (const IntegerPolynomial& side : polynomials.sides(axis)) {
@@ -60,8 +57,8 @@ bool contact_at(ContactPolynomials& polynomials, const AlgebraicTimes& times, in
   return true;
 }
 
-AlgebraicAnswer algebraic_answer(ContactPolynomials& polynomials, detector::Want want) {
-  const AlgebraicTimes times(event_polynomials(polynomials));
+ExactAnswer first_contact(ContactPolynomials& polynomials, const ExactTimes& times,
+                          detector::Want want) {
   for (int i = 0; i < times.size(); ++i) {
     if (!contact_at(polynomials, times, i)) continue;
     if (want == detector::Want::yes_no) return {true, {}};

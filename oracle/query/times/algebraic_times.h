@@ -8,24 +8,20 @@
 #include <memory>
 #include <span>
 
-#include "detector/mesh/step_types.h"
-#include "oracle/query/integer_polynomial.h"
+#include "oracle/query/times/exact_times.h"
 
 namespace assay::oracle {
 
-class AlgebraicTimes {
+class AlgebraicTimes final : public ExactTimes {
  public:
   // Finds the distinct zeros in [0,1] of all the polynomials together, ascending. REQUIRES that no
   // polynomial is identically zero.
   explicit AlgebraicTimes(std::span<const IntegerPolynomial> polynomials);
-  ~AlgebraicTimes();
-  AlgebraicTimes(const AlgebraicTimes&) = delete;
-  AlgebraicTimes& operator=(const AlgebraicTimes&) = delete;
+  ~AlgebraicTimes() override;
 
-  int size() const;
-  // The exact sign of q at the i-th time.
-  int sign(const IntegerPolynomial& q, int i) const;
-  detector::TimeEnclosure enclosure(int i) const;
+  int size() const override;
+  int sign(const IntegerPolynomial& q, int i) const override;
+  detector::TimeEnclosure enclosure(int i) const override;
 
  private:
   struct Zeros;

@@ -1,4 +1,4 @@
-#include "oracle/query/algebraic_times.h"
+#include "oracle/query/times/algebraic_times.h"
 
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/Gmpq.h>
@@ -10,7 +10,7 @@
 #include <iterator>
 #include <vector>
 
-#include "oracle/query/time_enclosure.h"
+#include "oracle/query/times/time_enclosure.h"
 
 namespace assay::oracle {
 

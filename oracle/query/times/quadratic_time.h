@@ -1,0 +1,39 @@
+// A zero of a polynomial of degree 1 or 2, as an exact number whose signs are closed formulas.
+#pragma once
+
+#include <vector>
+
+#include "detector/mesh/step_types.h"
+#include "oracle/query/integer_polynomial.h"
+
+namespace assay::oracle {
+
+// Held is r = -c/b, or r = (-b -+ sqrt(b^2 - 4ac)) / 2a with a > 0, by its integers and by which of
+// the two zeros it is. No root is ever taken, and nothing is isolated or refined.
+class QuadraticTime {
+ public:
+  // Appends the distinct real zeros of p, ascending. REQUIRES degree 1 or 2.
+  static void append_zeros(const IntegerPolynomial& p, std::vector<QuadraticTime>& to);
+
+  // The exact sign of q(r). Some 10 products of integers where q has degree 2.
+  int sign(const IntegerPolynomial& q) const;
+  // The exact sign of r - other.
+  int compare(const QuadraticTime& other) const;
+  // The exact sign of r - t. REQUIRES 0 <= t <= 1.
+  int compare(double t) const;
+  // REQUIRES 0 <= r <= 1.
+  detector::TimeEnclosure enclosure() const;
+
+ private:
+  enum class Zero : signed char { lesser = -1, only = 0, greater = 1 };
+
+  QuadraticTime(Integer a, Integer b, Integer c, Zero zero);
+  // The exact sign of u r + v.
+  int sign_of_linear(const Integer& u, const Integer& v) const;
+  double guess() const;
+
+  Integer a_, b_, c_;  // r is a zero of a t^2 + b t + c; a = 0 and b > 0 if it is the only one
+  Zero zero_;
+};
+
+}  // namespace assay::oracle
