@@ -26,16 +26,15 @@ inline bool has_workers(const PacedStop* pace) {
   return pace && pace->workers() && !pace->workers()->is_alone();
 }
 
-// Calls run(begin, end, lane) for pieces of at most `most` items. False if the stop function ended
+// Calls run(begin, end, lane) for pieces of at most `most` items. It returns the work that the
+// piece took, for loops whose work is known only when it is done. False if the stop function ended
 // it. Without a pace it never ends early, and the calling thread does it all.
 template <class Run>
-bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_each,
-                    PacedStop* pace, Run run) {
+bool for_all_counted(std::size_t count, std::size_t most, PacedStop* pace, Run run) {
   if (!has_workers(pace) || count <= most) {
     for (std::size_t begin = 0; begin < count; begin += most) {
-      const std::size_t end = std::min(begin + most, count);
-      run(begin, end, std::size_t{0});
-      if (pace && pace->after((end - begin) * work_of_each)) return false;
+      const std::uint64_t work = run(begin, std::min(begin + most, count), std::size_t{0});
+      if (pace && pace->after(work)) return false;
     }
     return true;
   }
@@ -43,13 +42,21 @@ bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_e
   const auto caller = std::this_thread::get_id();
   pace->workers()->share_out(count, most, [&](const LoopPiece& piece) {
     if (is_ended.load(std::memory_order_relaxed)) return;
-    run(piece.begin, piece.end, piece.lane);
-    if (std::this_thread::get_id() == caller &&
-        pace->after((piece.end - piece.begin) * work_of_each)) {
-      is_ended = true;
-    }
+    const std::uint64_t work = run(piece.begin, piece.end, piece.lane);
+    if (std::this_thread::get_id() == caller && pace->after(work)) is_ended = true;
   });
   return !pace->stopped();
+}
+
+// The same for items each of which costs work_of_each; run returns nothing.
+template <class Run>
+bool for_all_pieces(std::size_t count, std::size_t most, std::uint64_t work_of_each,
+                    PacedStop* pace, Run run) {
+  return for_all_counted(count, most, pace,
+                         [&](std::size_t begin, std::size_t end, std::size_t lane) {
+                           run(begin, end, lane);
+                           return (end - begin) * work_of_each;
+                         });
 }
 
 // Calls body(i) for i = 0 .. count - 1, each of which costs work_of_each. False if it was ended.

@@ -19,9 +19,6 @@ Representatives::Representatives(const Topology& mesh, PacedStop* pace)
   choose_all(mesh, types, pace);
 }
 
-// Most features lie between triangles of one type, so their lowest triangle represents them. Each
-// triangle asks for itself whether that is so, and the workers share the triangles out. The few
-// features between several types are left to one thread, which chooses for one after the other.
 // Most features lie between triangles of one type, and the lowest of these represents them. Each
 // triangle finds out for itself whether it does, so the workers share the triangles out.
 bool Representatives::choose_all(const Topology& mesh, const std::vector<TriangleType>& types,

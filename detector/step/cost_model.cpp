@@ -1,7 +1,9 @@
 #include "detector/step/cost_model.h"
 
 #include <algorithm>
+#include <atomic>
 
+#include "detector/parallel/for_all.h"
 #include "detector/view/view_signs.h"
 
 namespace assay::detector {
@@ -42,19 +44,28 @@ constexpr double cost_of_test = 1.5, cost_of_ghost_pair = 9, cost_of_crossing = 
 // Whether more than `limit` triangles lie in the boxes of ghosts of components that are not free.
 bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double limit,
                           PacedStop& pace) {
-  SearchCounts counts;
-  double pairs = 0;
+  // The workers add up the pairs of their ghosts. None of them goes on when the sum is too large,
+  // and whether it is depends on no order, although the sum that is then reached does.
+  std::atomic<double> pairs = 0;
   constexpr std::uint64_t work_of_box = 10;
-  const auto count = [&](std::int32_t) { return ++pairs <= limit; };
+  constexpr std::size_t ghosts_of_piece = 32;
   for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
     if (marks.free[c]) continue;
-    for (const auto ghost : step.ghosts(c)) {
-      const auto box =
-          step.tree.box_of_triangle(step.surface.all().triangles[at(ghost)], step.motion);
-      const std::uint64_t before = counts.box_tests;
-      if (!search_box(step.tree, box, counts, count)) return true;
-      if (pace.after(work_of_box + counts.box_tests - before)) return true;
-    }
+    const auto ghosts = step.ghosts(c);
+    const auto count_near = [&](std::size_t begin, std::size_t end, std::size_t) {
+      SearchCounts counts;
+      double sum = 0;
+      const auto count = [&](std::int32_t) { return ++sum <= limit; };
+      for (std::size_t i = begin; i < end && pairs.load() <= limit; ++i) {
+        const auto box =
+            step.tree.box_of_triangle(step.surface.all().triangles[at(ghosts[i])], step.motion);
+        if (!search_box(step.tree, box, counts, count)) break;
+      }
+      pairs.fetch_add(sum);
+      return (end - begin) * work_of_box + counts.box_tests;
+    };
+    if (!for_all_counted(ghosts.size(), ghosts_of_piece, &pace, count_near)) return true;
+    if (pairs.load() > limit) return true;
   }
   return false;
 }

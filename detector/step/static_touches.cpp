@@ -1,6 +1,10 @@
 #include "detector/step/static_touches.h"
 
+#include <algorithm>
+#include <atomic>
+
 #include "detector/boundary/hole_tree.h"
+#include "detector/parallel/for_all.h"
 
 namespace assay::detector {
 namespace {
@@ -9,6 +13,7 @@ constexpr std::size_t tests_between_stops = 256;
 // In box tests, the work to make a triangle's box and compare it with the roots of the holes'
 // trees.
 constexpr std::uint64_t work_to_look = 40;
+constexpr std::size_t triangles_of_piece = 32;
 
 }  // namespace
 
@@ -35,10 +40,7 @@ bool add_ghost_touches(const GivenStep& step, StepCost& cost, const FloatGrid& g
   const SteppedMesh still = step.motion.at_start();
   const auto holes = make_hole_trees(all, step.ghosts(c), grid, still);
   const FacePairTest faces(still, step.elementary, true);
-  GhostCounts counts;
-  for (const auto t : in_doubt) {
-    const std::uint64_t before = counts.work();
-    if (touched[at(t)]) continue;
+  const auto touches = [&](std::int32_t t, GhostCounts& counts) {
     const auto& corners = all.triangles[at(t)];
     const auto corner = [&](std::size_t i) { return grid(still, corners[i]); };
     const MovingBox box = box_of(corner(0), corner(1), corner(2));
@@ -46,16 +48,24 @@ bool add_ghost_touches(const GivenStep& step, StepCost& cost, const FloatGrid& g
       ++counts.pairs;
       return faces.meet(all.triangles[at(ghost)], corners, counts);
     };
-    for (const auto& hole : holes) {
-      if (!hole.any_near(box, meets)) continue;
-      touched[at(t)] = 1;
-      break;
+    return std::any_of(holes.begin(), holes.end(),
+                       [&](const HoleTree& hole) { return hole.any_near(box, meets); });
+  };
+  // The workers share the triangles out. Each triangle is marked and counted for itself alone.
+  std::atomic<std::uint64_t> pairs = 0, elementary_tests = 0;
+  const auto look_at = [&](std::size_t begin, std::size_t end, std::size_t) {
+    GhostCounts counts;
+    for (const auto t : in_doubt.subspan(begin, end - begin)) {
+      if (!touched[at(t)] && touches(t, counts)) touched[at(t)] = 1;
     }
-    if (cost.pace.after(work_to_look + counts.work() - before)) return false;
-  }
-  cost.counts.release.pairs += counts.pairs;
-  cost.counts.release.elementary_tests += counts.elementary_tests;
-  return true;
+    pairs += counts.pairs;
+    elementary_tests += counts.elementary_tests;
+    return work_to_look * (end - begin) + counts.work();
+  };
+  const bool completed = for_all_counted(in_doubt.size(), triangles_of_piece, &cost.pace, look_at);
+  cost.counts.release.pairs += pairs;
+  cost.counts.release.elementary_tests += elementary_tests;
+  return completed;
 }
 
 }  // namespace assay::detector
