@@ -26,9 +26,9 @@ inline bool has_workers(const PacedStop* pace) {
   return pace && pace->workers() && !pace->workers()->is_alone();
 }
 
-// Calls run(begin, end, lane) for pieces of at most `most` items. It returns the work that the
-// piece took, for loops whose work is known only when it is done. False if the stop function ended
-// it. Without a pace it never ends early, and the calling thread does it all.
+// Calls run(begin, end, lane) for pieces of at most `most` items. `run` returns the work that its
+// piece took, so this is for loops whose work is known only when it is done. False if the stop
+// function ended the loop. Without a pace it never ends early, and the calling thread does it all.
 template <class Run>
 bool for_all_counted(std::size_t count, std::size_t most, PacedStop* pace, Run run) {
   if (!has_workers(pace) || count <= most) {

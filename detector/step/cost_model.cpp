@@ -48,21 +48,21 @@ bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double 
   // and whether it is depends on no order, although the sum that is then reached does.
   std::atomic<double> pairs = 0;
   constexpr std::uint64_t work_of_box = 10;
-  constexpr std::size_t ghosts_of_piece = 32;
+  constexpr std::size_t ghosts_of_piece = 1;  // because one may have the whole mesh in its box
   for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
     if (marks.free[c]) continue;
     const auto ghosts = step.ghosts(c);
-    const auto count_near = [&](std::size_t begin, std::size_t end, std::size_t) {
+    const auto count_near = [&](std::size_t i, std::size_t, std::size_t) {
       SearchCounts counts;
       double sum = 0;
       const auto count = [&](std::int32_t) { return ++sum <= limit; };
-      for (std::size_t i = begin; i < end && pairs.load() <= limit; ++i) {
+      if (pairs.load() <= limit) {
         const auto box =
             step.tree.box_of_triangle(step.surface.all().triangles[at(ghosts[i])], step.motion);
-        if (!search_box(step.tree, box, counts, count)) break;
+        search_box(step.tree, box, counts, count);
       }
-      pairs.fetch_add(sum);
-      return (end - begin) * work_of_box + counts.box_tests;
+      if (sum > 0) pairs.fetch_add(sum);
+      return work_of_box + counts.box_tests;
     };
     if (!for_all_counted(ghosts.size(), ghosts_of_piece, &pace, count_near)) return true;
     if (pairs.load() > limit) return true;

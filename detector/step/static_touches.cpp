@@ -13,7 +13,8 @@ constexpr std::size_t tests_between_stops = 256;
 // In box tests, the work to make a triangle's box and compare it with the roots of the holes'
 // trees.
 constexpr std::uint64_t work_to_look = 40;
-constexpr std::size_t triangles_of_piece = 32;
+// One, because a triangle may lie in the boxes of all ghosts of a large hole.
+constexpr std::size_t triangles_of_piece = 1;
 
 }  // namespace
 
@@ -53,14 +54,15 @@ bool add_ghost_touches(const GivenStep& step, StepCost& cost, const FloatGrid& g
   };
   // The workers share the triangles out. Each triangle is marked and counted for itself alone.
   std::atomic<std::uint64_t> pairs = 0, elementary_tests = 0;
-  const auto look_at = [&](std::size_t begin, std::size_t end, std::size_t) {
+  const auto look_at = [&](std::size_t i, std::size_t, std::size_t) {
+    const auto t = in_doubt[i];
     GhostCounts counts;
-    for (const auto t : in_doubt.subspan(begin, end - begin)) {
-      if (!touched[at(t)] && touches(t, counts)) touched[at(t)] = 1;
+    if (!touched[at(t)] && touches(t, counts)) touched[at(t)] = 1;
+    if (counts.pairs > 0) {
+      pairs += counts.pairs;
+      elementary_tests += counts.elementary_tests;
     }
-    pairs += counts.pairs;
-    elementary_tests += counts.elementary_tests;
-    return work_to_look * (end - begin) + counts.work();
+    return work_to_look + counts.work();
   };
   const bool completed = for_all_counted(in_doubt.size(), triangles_of_piece, &cost.pace, look_at);
   cost.counts.release.pairs += pairs;

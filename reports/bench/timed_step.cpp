@@ -23,11 +23,6 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-Detector made(Expected<Detector> detector, const std::string& name) {
-  if (!detector) throw UnusableData(name + ": " + detector.error().message);
-  return std::move(detector.value());
-}
-
 }  // namespace
 
 std::uint64_t result_hash(const StepResult& result) {
@@ -95,6 +90,18 @@ double TimedStep::positive_share() {
 
 Options bench_options(Culling culling, Arithmetic arithmetic) {
   return {culling, Start::clean, Pairs::all, arithmetic};
+}
+
+Options options_of_sequence(Culling culling, bool starts_clean, std::uint32_t threads) {
+  Options options = bench_options(culling);
+  if (!starts_clean) options.start = Start::verified;
+  options.threads = threads;
+  return options;
+}
+
+Detector made(Expected<Detector> detector, const std::string& name) {
+  if (!detector) throw UnusableData(name + ": " + detector.error().message);
+  return std::move(detector.value());
 }
 
 corpus::Sequence bench_scene(const std::string& name, int triangles, int frames) {

@@ -49,6 +49,14 @@ class TimedStep {
 detector::Options bench_options(detector::Culling culling,
                                 detector::Arithmetic arithmetic = detector::Arithmetic::exact);
 
+// The same for a sequence played with so many threads. If nobody vouches for its start, it is
+// verified.
+detector::Options options_of_sequence(detector::Culling culling, bool starts_clean,
+                                      std::uint32_t threads);
+
+// The detector. Throws UnusableData, with this name, if the mesh was refused.
+detector::Detector made(detector::Expected<detector::Detector> detector, const std::string& name);
+
 // A scene of corpus/. It cannot fail, because names and sizes are those of the benches.
 corpus::Sequence bench_scene(const std::string& name, int triangles, int frames);
 

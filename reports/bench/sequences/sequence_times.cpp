@@ -29,15 +29,14 @@ class Play {
       : name_(name), sequence_(sequence), starts_clean_(starts_clean), report_(report) {}
 
   std::vector<double> run(const SequenceVariant& variant) {
-    Options options = bench_options(variant.culling);
-    if (!starts_clean_) options.start = Start::verified;
-    options.threads = variant.threads;
-    auto made = Detector::create(sequence_.triangles, sequence_.frames[0], options);
-    if (!made) throw UnusableData(fmt::format("{}: {}", name_, made.error().message));
+    auto detector =
+        made(Detector::create(sequence_.triangles, sequence_.frames[0],
+                              options_of_sequence(variant.culling, starts_clean_, variant.threads)),
+             name_);
     std::vector<double> ms;
     for (std::size_t s = 0; s + 1 < sequence_.frames.size(); ++s) {
       const auto begin = std::chrono::steady_clock::now();
-      StepResult result = made.value().step(sequence_.frames[s], sequence_.frames[s + 1]);
+      StepResult result = detector.step(sequence_.frames[s], sequence_.frames[s + 1]);
       const std::chrono::duration<double, std::milli> taken =
           std::chrono::steady_clock::now() - begin;
       ms.push_back(taken.count());

@@ -271,8 +271,10 @@ TEST_F(Suites, Sequences) {
 
 TEST_F(Suites, Threads) {
   const auto report = run(threads_suite);
-  for (const char* row : {"plain pass: one thread over", "free step: one thread over",
-                          "free step's gain over the plain pass's", "a public sequence"}) {
+  for (const char* row :
+       {"plain pass: one thread over", "free step: one thread over",
+        "free step's gain over the plain pass's", "crumpling-sphere: memory a further thread, of 4",
+        "crumpling-sphere, auto: 16 cores, by the critical path", "a public sequence"}) {
     EXPECT_TRUE(has(report, row)) << row;
   }
 }
