@@ -165,12 +165,21 @@ void BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion) 
 
 bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace) {
   constexpr std::uint64_t work_of_node = 4;
+  forget_fit();
   if (!points_.assign(motion, pace)) return false;
-  return for_each_upward(work_of_node, &pace, [&](std::int32_t node) {
+  const bool completed = for_each_upward(work_of_node, &pace, [&](std::int32_t node) {
     const std::int32_t child = child_[at(node)];
     boxes_[at(node)] = child < 0 ? points_.box(mesh.triangles[at(~child)])
                                  : join(boxes_[at(child)], boxes_[at(child) + 1]);
   });
+  if (completed) fitted_to_ = {motion.vertices_t0.data(), motion.vertices_t1.data()};
+  return completed;
+}
+
+bool BoundingVolumeTree::fit_once(const Topology& mesh, const SteppedMesh& motion,
+                                  PacedStop& pace) {
+  const Arrays arrays = {motion.vertices_t0.data(), motion.vertices_t1.data()};
+  return arrays == fitted_to_ || refit(mesh, motion, pace);
 }
 
 }  // namespace assay::detector

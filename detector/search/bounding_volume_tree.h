@@ -74,9 +74,18 @@ class BoundingVolumeTree {
   void refit(const Topology& mesh, const SteppedMesh& motion);
   // The same. False if `pace` was stopped; some boxes are then those of another step.
   bool refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace);
+  // Does nothing if the boxes were last fitted to the same arrays of positions; else as refit. So
+  // the stages of a step that search the same motion fit the boxes once. REQUIRES that positions in
+  // these arrays have not changed since forget_fit().
+  bool fit_once(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace);
+  void forget_fit() { fitted_to_ = {}; }
 
  private:
   struct Builder;
+  struct Arrays {
+    const double *t0 = nullptr, *t1 = nullptr;
+    friend bool operator==(const Arrays&, const Arrays&) = default;
+  };
   // A subtree of at most nodes_of_block nodes: its top, and below it the nodes first .. last - 1.
   struct Block {
     std::int32_t top, first, last;
@@ -90,6 +99,7 @@ class BoundingVolumeTree {
   std::vector<std::int32_t> component_;
   std::vector<std::int32_t> component_root_;  // by component
   std::vector<MovingBox> boxes_;
+  Arrays fitted_to_;
   RoundedPositions points_;
   std::vector<Block> blocks_;
   std::vector<std::int32_t> above_blocks_;  // the nodes in no block, ascending

@@ -32,10 +32,10 @@ class PatchProofs {
                                                PacedStop& pace) const = 0;
 };
 
-// Of small patches (a dozen triangles) and of large ones (a hundred), the share that is proved
-// free over the step.
+// Of patches of a dozen triangles, of three dozen and of a hundred, the share that is proved free
+// over the step.
 struct ProvableShares {
-  double of_small = 0, of_large = 0;
+  double of_small = 0, of_medium = 0, of_large = 0;
 };
 
 // Two triangles, in any order.
@@ -97,10 +97,10 @@ class PairSearch {
   // `pace` was stopped, the result must not be used.
   virtual std::unique_ptr<MeshSearch> prepare(const Topology& mesh, const BoundingVolumeTree& tree,
                                               PacedStop& pace) const;
-  // Fits the tree to a step, before the searches of that step.
+  // Fits the tree to a step, before the searches of that step, unless an earlier stage has done so.
   virtual bool fit(BoundingVolumeTree& tree, const Topology& mesh, const SteppedMesh& motion,
                    PacedStop& pace) const {
-    return tree.refit(mesh, motion, pace);
+    return tree.fit_once(mesh, motion, pace);
   }
   virtual bool search(const SearchInput& input, SearchCounts& counts,
                       const PairSink& sink) const = 0;

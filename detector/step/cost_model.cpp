@@ -1,33 +1,11 @@
 #include "detector/step/cost_model.h"
 
 #include <algorithm>
-#include <atomic>
 
-#include "detector/parallel/for_all.h"
-#include "detector/view/view_signs.h"
+#include "detector/step/estimates.h"
 
 namespace assay::detector {
 namespace {
-
-// The share of pairs that are left out because both triangles lie in V+ or both in V-. Near pairs
-// have equal signs more often than far ones, so of a component with p positive and n negative
-// triangles of m, at least about (p^2 + n^2) / m^2 of the pairs are left out.
-double saved_share(const GivenStep& step, const StepMarks& marks, bool all_clean) {
-  double saved = 0, count = 0;
-  for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
-    std::size_t positive = 0, negative = 0;
-    for (const auto t : step.own_triangles(c)) {
-      if (!all_clean && !marks.clean[at(t)]) continue;
-      positive += marks.signs[at(t)] == ViewSign::positive;
-      negative += marks.signs[at(t)] == ViewSign::negative;
-    }
-    const auto p = static_cast<double>(positive), n = static_cast<double>(negative),
-               m = static_cast<double>(step.own_triangles(c).size());
-    saved += (p * p + n * n) / m;
-    count += m;
-  }
-  return saved / count;
-}
 
 // A pair that is left out saves about a third of a candidate's cost, because the boxes above it are
 // still tested (measured on meshes whose V+ and V- lie upon each other).
@@ -41,46 +19,18 @@ constexpr double least_share = 0.125;
 // costs as much as 1.5 candidates. A winding number looks at each triangle, for 20 ns.
 constexpr double cost_of_test = 1.5, cost_of_ghost_pair = 9, cost_of_crossing = 0.1;
 
-// Whether more than `limit` triangles lie in the boxes of ghosts of components that are not free.
-bool has_more_ghost_pairs(const GivenStep& step, const StepMarks& marks, double limit,
-                          PacedStop& pace) {
-  // The workers add up the pairs of their ghosts. None of them goes on when the sum is too large,
-  // and whether it is depends on no order, although the sum that is then reached does.
-  std::atomic<double> pairs = 0;
-  constexpr std::uint64_t work_of_box = 10;
-  constexpr std::size_t ghosts_of_piece = 1;  // because one may have the whole mesh in its box
-  for (std::size_t c = 0; c < marks.primitives.size(); ++c) {
-    if (marks.free[c]) continue;
-    const auto ghosts = step.ghosts(c);
-    const auto count_near = [&](std::size_t i, std::size_t, std::size_t) {
-      SearchCounts counts;
-      double sum = 0;
-      const auto count = [&](std::int32_t) { return ++sum <= limit; };
-      if (pairs.load() <= limit) {
-        const auto box =
-            step.tree.box_of_triangle(step.surface.all().triangles[at(ghosts[i])], step.motion);
-        search_box(step.tree, box, counts, count);
-      }
-      if (sum > 0) pairs.fetch_add(sum);
-      return work_of_box + counts.box_tests;
-    };
-    if (!for_all_counted(ghosts.size(), ghosts_of_piece, &pace, count_near)) return true;
-    if (pairs.load() > limit) return true;
-  }
-  return false;
-}
-
 // A sample costs about what 500 triangles cost the view test, so it is drawn from large components
-// alone. A triangle whose sign doubles leave open takes integers, for 3 us.
-constexpr std::size_t sample_size = 64, worth_sampling = 4'096;
+// alone, and an eighth of it suffices if doubles tell nearly all of these signs. A triangle whose
+// sign doubles leave open takes integers, for 3 us.
+constexpr std::size_t sample_size = 64, first_sample = 8, worth_sampling = 4'096;
 constexpr double cost_of_open = 15;
 
 // Costs in candidates a triangle: cones take 0.1 us a triangle. If patches of a hundred triangles
-// are not free, a proof is asked for at each of the many small ones, for half a microsecond a
-// triangle. Worths: proofs leave out pairs of neighbours, of which about half lie within small
-// patches that are free, and nearly all within large ones.
-constexpr double cost_of_cones = 0.6, cost_of_small = 3, worth_of_small = 0.5,
-                 worth_of_large = 0.45, least_provable = 0.5;
+// are not free, a proof is asked for at each of the many smaller ones. Worths: proofs leave out
+// pairs of neighbours, of which about half lie within small patches that are free, three quarters
+// within medium ones, and nearly all within large ones.
+constexpr double cost_of_cones = 0.6, cost_of_small = 2, cost_of_medium = 1, worth_of_small = 0.5,
+                 worth_of_medium = 0.25, worth_of_large = 0.2, least_provable = 0.5;
 
 constexpr std::uint64_t longest_pause = 32;
 
@@ -142,20 +92,10 @@ bool CostModel::worth_classifying(const GivenStep& step, const StepMarks& marks)
       saved += m;
       continue;
     }
-    std::size_t positive = 0, negative = 0;
-    ViewCounts rungs;
-    for (std::size_t i = 0; i < sample_size; ++i) {
-      const auto& v = step.surface.mesh.triangles[at(own[i * own.size() / sample_size])];
-      const MovingTriangle triangle = {step.motion.path(v[0]), step.motion.path(v[1]),
-                                       step.motion.path(v[2])};
-      const ViewSign sign = view_sign(triangle, marks.primitives[c], rungs, Arithmetic::bounded);
-      positive += sign == ViewSign::positive;
-      negative += sign == ViewSign::negative;
-    }
-    const double p = static_cast<double>(positive) / sample_size,
-                 n = static_cast<double>(negative) / sample_size;
-    saved += m * (p * p + n * n);
-    open += m * static_cast<double>(rungs.open) / sample_size;
+    auto sample = sample_signs(step, marks.primitives[c], own, first_sample);
+    if (!sample.is_clear()) sample = sample_signs(step, marks.primitives[c], own, sample_size);
+    saved += m * sample.saved();
+    open += m * sample.share_of(sample.rungs.open);
   }
   const double hoped = worth_of_saved * saved / count * static_cast<double>(expected_candidates());
   if (saved / count >= least_share && cost_of_open * open <= hoped) return true;
@@ -164,12 +104,19 @@ bool CostModel::worth_classifying(const GivenStep& step, const StepMarks& marks)
 }
 
 bool CostModel::worth_sweeping(const GivenStep& step, const StepMarks& marks, PacedStop& pace) {
-  share_of_signs_ = share_ = saved_share(step, marks, true);
+  share_of_signs_ = share_ = saved_share(step, marks);
   const double hoped = worth_of_saved * share_ * static_cast<double>(expected_candidates());
   if (share_ < least_share || state_.overhead > hoped)
     return does_without(ViewUse::saving_too_little);
+  // A triangle that was in contact will likely be so again, and the closure then tests it against
+  // all others. If too many were, their release need not be tried.
+  if (step.known && !step.known->met.empty()) {
+    const auto untouched = untouched_before(step);
+    share_ = saved_share(step, marks, &untouched);
+    if (share_ < least_share) return does_without(ViewUse::among_dirty);
+  }
   if (surface_.is_closed()) return true;
-  if (!step.tree.refit(surface_.mesh, step.motion, pace)) return false;
+  if (!step.tree.fit_once(surface_.mesh, step.motion, pace)) return false;
   const double saved = share_ * static_cast<double>(expected_candidates());
   return !has_more_ghost_pairs(step, marks, saved / cost_of_ghost_pair, pace) ||
          does_without(ViewUse::among_ghosts);
@@ -180,22 +127,23 @@ bool CostModel::worth_proving(const StepMarks& marks, CandidateSearch& candidate
   if (marks.has_views() && marks.all_free()) return false;
   const double asked = candidates.asked_share();
   const std::size_t triangles = surface_.mesh.triangles.size();
-  constexpr ProvableShares at_best = {1, 1};
+  constexpr ProvableShares at_best = {1, 1, 1};
   return worth_proving(at_best, asked, triangles) &&
          worth_proving(candidates.provable_shares(), asked, triangles);
 }
 
 bool CostModel::worth_proving(const ProvableShares& provable, double asked, std::size_t triangles) {
-  const double hoped = (worth_of_small * provable.of_small + worth_of_large * provable.of_large) *
-                       asked * static_cast<double>(adjacent_);
-  const double cost = cost_of_cones + cost_of_small * (1 - provable.of_large);
-  proves_ = provable.of_small >= least_provable && hoped >= cost * static_cast<double>(triangles);
+  const auto [small, medium, large] = provable;
+  const double worth = worth_of_small * small + worth_of_medium * medium + worth_of_large * large;
+  const double hoped = worth * asked * static_cast<double>(adjacent_);
+  const double cost = cost_of_cones + cost_of_small * (1 - medium) + cost_of_medium * (1 - large);
+  proves_ = small >= least_provable && hoped >= cost * static_cast<double>(triangles);
   return proves_;
 }
 
 bool CostModel::worth_using(const GivenStep& step, const StepMarks& marks,
                             const StepCounts& counts) {
-  share_ = saved_share(step, marks, false);
+  share_ = saved_share(step, marks, &marks.clean);
   if (share_ >= least_share) return true;
   if (!step.known) {
     use_ = ViewUse::start_unknown;

@@ -18,6 +18,9 @@
 // When views are due, anchors are chosen again first if they have worn: they had served for
 // least_anchor_age steps, and views did not pay or saved an eighth of the pairs less than at best.
 //
+// A step after one in which most triangles were in contact does not try to release them: they will
+// likely be in contact again. Then views do not pay either.
+//
 // Example: on a sheet seen along itself views do not pay in steps 1, 3, 6, 11, 20; the pauses
 // between these are of 1, 2, 4 and 8 steps.
 #pragma once

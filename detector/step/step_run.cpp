@@ -21,6 +21,7 @@ StepRun::StepRun(StepContext& context, const StepState* known, const SteppedMesh
              .motion = motion,
              .known = known},
       cost_{.pace = PacedStop(stop, context.workers)} {
+  context_.tree.forget_fit();  // the caller may have written new positions into the same arrays
   marks_.clean.assign(mesh_.triangles.size(), 0);
   marks_.touched.assign(mesh_.triangles.size(), 0);
   marks_.free.assign(mesh_.components.size(), 0);
@@ -90,7 +91,7 @@ bool StepRun::find_start() {
 bool StepRun::sweep_ghosts() {
   if (!marks_.has_views() || marks_.all_free() || given_.surface.is_closed()) return true;
   Stopwatch watch(result_.times.ghosts);
-  if (!given_.tree.refit(mesh_, given_.motion, cost_.pace)) return false;
+  if (!given_.tree.fit_once(mesh_, given_.motion, cost_.pace)) return false;
   GhostSweep sweep{given_.surface, given_.tree, given_.motion, given_.elementary, !given_.known};
   marks_.near_ghosts.assign(mesh_.triangles.size(), 0);
   sweep.near = &marks_.near_ghosts;

@@ -42,6 +42,7 @@
 #include <optional>
 
 #include "detector/parallel/workers.h"
+#include "detector/traditional/sample_patches.h"
 
 namespace assay::detector {
 namespace {
@@ -55,10 +56,13 @@ struct KeptPatches {
   PatchContours contours;
   std::vector<ContourUnion> joined;  // working memory of each lane
   std::vector<DirectionSet> cones;   // by node, for the present step
-  KeptPatches(PatchContours of, const Topology& mesh, const BoundingVolumeTree& tree)
+  SamplePatches samples;
+  KeptPatches(PatchContours of, SamplePatches few, const Topology& mesh,
+              const BoundingVolumeTree& tree)
       : contours(std::move(of)),
         joined(1, ContourUnion(mesh.vertex_triangles.starts.size())),
-        cones(tree.node_count()) {}
+        cones(tree.node_count()),
+        samples(std::move(few)) {}
 };
 
 class PatchCones : public PatchProofs {
@@ -156,61 +160,6 @@ class PatchCones : public PatchProofs {
   SearchCounts& counts_;
 };
 
-// A patch of at most `most` triangles, found from `seed` across edges. It does not depend on the
-// tree, so what a step decides by it does not depend on the positions that the detector was made
-// with.
-std::vector<std::int32_t> patch_around(const Topology& mesh, std::int32_t seed, std::size_t most) {
-  std::vector<std::int32_t> patch = {seed};
-  for (std::size_t i = 0; i < patch.size(); ++i) {
-    for (const auto e : mesh.triangle_edges[at(patch[i])]) {
-      for (const auto t : mesh.edge_triangles.row(e)) {
-        if (patch.size() == most) return patch;
-        if (std::find(patch.begin(), patch.end(), t) == patch.end()) patch.push_back(t);
-      }
-    }
-  }
-  return patch;
-}
-
-// The directed edges of the triangles after opposite ones have cancelled.
-std::vector<DirectedEdge> boundary_of(const Topology& mesh, std::span<const std::int32_t> patch) {
-  std::vector<DirectedEdge> boundary;
-  for (const auto t : patch) {
-    const auto& corners = mesh.triangles[at(t)];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const bool falls = corners[(i + 1) % 3] > corners[(i + 2) % 3];
-      const DirectedEdge edge = 2 * mesh.triangle_edges[at(t)][i] + (falls ? 1 : 0);
-      const auto opposite = std::find(boundary.begin(), boundary.end(), edge ^ 1);
-      if (opposite == boundary.end()) {
-        boundary.push_back(edge);
-      } else {
-        boundary.erase(opposite);
-      }
-    }
-  }
-  return boundary;
-}
-
-// The boundary as one walk that passes no vertex twice, or nothing if it is no such walk.
-std::vector<std::int32_t> walk_along(const Topology& mesh, std::vector<DirectedEdge> boundary) {
-  const auto end_of = [&](DirectedEdge e, bool last) {
-    return mesh.edges[at(e / 2)][(e % 2 != 0) != last ? 1 : 0];
-  };
-  std::vector<std::int32_t> walk;
-  while (!boundary.empty()) {
-    const auto next = walk.empty() ? boundary.begin()
-                                   : std::find_if(boundary.begin(), boundary.end(), [&](auto e) {
-                                       return end_of(e, false) == walk.back();
-                                     });
-    if (next == boundary.end()) return {};
-    const auto to = end_of(*next, true);
-    if (std::find(walk.begin(), walk.end(), to) != walk.end()) return {};
-    walk.push_back(to);
-    boundary.erase(next);
-  }
-  return walk;
-}
-
 }  // namespace
 
 class NormalConeSearch::OfMesh : public MeshSearch {
@@ -231,34 +180,35 @@ class NormalConeSearch::OfMesh : public MeshSearch {
     return scheme_.descend(input, &cones, counts, sink);
   }
 
+  // A large patch that is free keeps all patches within it free. If all large ones are, the others
+  // are not looked at.
   ProvableShares provable_shares(const Topology& mesh) const override {
-    constexpr std::size_t small = 12, large = 96;
-    const std::size_t patches = std::clamp<std::size_t>(mesh.triangles.size() / 512, 4, 32);
     MovingContour moving(*motion_);
-    const auto share = [&](std::size_t of_a_patch, std::size_t count) {
-      std::size_t free = 0;
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto seed = (2 * i + 1) * mesh.triangles.size() / (2 * count);
-        free +=
-            is_free(mesh, moving, patch_around(mesh, static_cast<std::int32_t>(seed), of_a_patch));
-      }
-      return static_cast<double>(free) / static_cast<double>(count);
-    };
-    return {share(small, patches), share(large, patches / 4)};
+    const double of_large = share_of(kept_.samples.large, mesh, moving);
+    if (of_large == 1) return {1, 1, 1};
+    return {share_of(kept_.samples.small, mesh, moving),
+            share_of(kept_.samples.medium, mesh, moving), of_large};
   }
 
  private:
-  bool is_free(const Topology& mesh, MovingContour& moving,
-               const std::vector<std::int32_t>& patch) const {
+  double share_of(std::span<const SamplePatch> patches, const Topology& mesh,
+                  MovingContour& moving) const {
+    const auto free = std::count_if(patches.begin(), patches.end(), [&](const SamplePatch& patch) {
+      return is_free(mesh, moving, patch);
+    });
+    return static_cast<double>(free) / static_cast<double>(patches.size());
+  }
+
+  bool is_free(const Topology& mesh, MovingContour& moving, const SamplePatch& patch) const {
+    if (patch.contour.empty()) return false;
     DirectionSet cone = ~DirectionSet{0};
-    for (const auto t : patch) {
+    for (const auto t : patch.triangles) {
       const auto& v = mesh.triangles[at(t)];
       cone &= scheme_.faced({motion_->path(v[0]), motion_->path(v[1]), motion_->path(v[2])});
       if (cone == 0) return false;
     }
-    const auto contour = walk_along(mesh, boundary_of(mesh, patch));
-    return !contour.empty() &&
-           scheme_.stays_simple(moving, contour, nearest_direction(cone, moving.area(contour)));
+    return scheme_.stays_simple(moving, patch.contour,
+                                nearest_direction(cone, moving.area(patch.contour)));
   }
 
   const NormalConeSearch& scheme_;
@@ -270,8 +220,8 @@ std::unique_ptr<MeshSearch> NormalConeSearch::prepare(const Topology& mesh,
                                                       const BoundingVolumeTree& tree,
                                                       PacedStop& pace) const {
   const auto maker = contour_maker(mesh);
-  return std::make_unique<OfMesh>(
-      *this, KeptPatches(PatchContours(mesh, tree, *maker, &pace), mesh, tree));
+  return std::make_unique<OfMesh>(*this, KeptPatches(PatchContours(mesh, tree, *maker, &pace),
+                                                     sample_patches(mesh, *maker), mesh, tree));
 }
 
 }  // namespace assay::detector

@@ -28,6 +28,24 @@ InputError create_error(const Triangles& t, const Positions& x) {
   return made.error().error;
 }
 
+// A simulation writes each step into the same two arrays.
+TEST(Detector, L3_StepsMayComeInTheSameArrays) {
+  Triangles two(16, 3);
+  two << octahedron(), octahedron().array() + 6;
+  Positions x_t0(12, 3);
+  x_t0 << octahedron_positions(1), octahedron_positions(1).rowwise() + Eigen::RowVector3d(8, 0, 0);
+  Positions x_t1 = x_t0;
+  for (const auto culling : {Culling::bvh, Culling::normal_cone, Culling::view_point,
+                             Culling::view_auto, Culling::automatic}) {
+    Positions now = x_t0, next = x_t1;
+    Detector detector = make(two, now, culling);
+    ASSERT_EQ(detector.step(now, next).answer, Answer::free);
+    now = next;
+    next.bottomRows(6).col(0).array() -= 7;
+    EXPECT_EQ(detector.step(now, next).answer, Answer::collision) << static_cast<int>(culling);
+  }
+}
+
 TEST(Detector, L12_NamedErrors) {
   const Positions x = octahedron_positions(1);
   EXPECT_EQ(create_error(Triangles(0, 3), x), InputError::no_triangles);

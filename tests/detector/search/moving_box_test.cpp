@@ -171,6 +171,39 @@ TEST(MovingBox, NodesHoldTheirTriangles) {
 }
 
 // One power of two for all axes brings every position of the step near 1: that of the longest.
+TEST(MovingBox, BoxesAreFittedOnceToTheArraysOfAStep) {
+  Positions x(4, 3);
+  x << 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0;
+  Triangles sheet(2, 3);
+  sheet << 0, 1, 2, 1, 3, 2;
+  const Topology mesh = make_topology(sheet, 4);
+  BoundingVolumeTree tree(mesh, x);
+  Positions moved = x.rowwise() + Eigen::RowVector3d(0, 0, 1);
+  const SteppedMesh step = {x, moved}, still = step.at_start();
+  PacedStop never(never_stops);
+  const auto top = [&] { return tree.box(BoundingVolumeTree::root).hi_t1; };
+  const auto same = [](FloatLanes a, FloatLanes b) { return !any(a != b); };
+  ASSERT_TRUE(tree.fit_once(mesh, step, never));
+  const auto fitted = top();
+  ASSERT_TRUE(tree.fit_once(mesh, still, never));
+  EXPECT_FALSE(same(top(), fitted)) << "another array of t=1";
+  ASSERT_TRUE(tree.fit_once(mesh, step, never));
+  EXPECT_TRUE(same(top(), fitted));
+  moved.col(2).setConstant(0.75);
+  ASSERT_TRUE(tree.fit_once(mesh, step, never));
+  EXPECT_TRUE(same(top(), fitted)) << "the same arrays are not looked at again";
+  tree.forget_fit();
+  ASSERT_TRUE(tree.fit_once(mesh, step, never));
+  EXPECT_FALSE(same(top(), fitted));
+  const StopFunction always = [] { return true; };
+  tree.forget_fit();
+  PacedStop stopping(always);
+  while (!stopping.after(1'000'000)) {
+  }
+  EXPECT_FALSE(tree.fit_once(mesh, step, stopping));
+  EXPECT_FALSE(tree.fit_once(mesh, step, stopping)) << "what was stopped is not fitted";
+}
+
 TEST(FloatGrid, ScalesAllAxesByTheLongest) {
   for (Eigen::Index longest = 0; longest < 3; ++longest) {
     Positions x = positions({{-1, -1, -1}, {1, 1, 1}});

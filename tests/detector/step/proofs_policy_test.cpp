@@ -38,7 +38,8 @@ struct Sheet {
   Positions crumpled() const {
     Positions x = flat;
     for (Eigen::Index v = 0; v < x.rows(); ++v)
-      for (int k = 0; k < 3; ++k) x(v, k) += 4 * std::sin(12.9898 * double(v) + 78.2 * k);
+      for (int k = 0; k < 3; ++k)
+        x(v, k) += std::fmod(41.3 * (double(v) + 1) * (double(v) + 7 * k), 2.);
     return x;
   }
   Triangles triangles;
@@ -46,8 +47,8 @@ struct Sheet {
 };
 
 StepResult step(const Triangles& triangles, const Positions& x_t0, const Positions& x_t1,
-                Culling culling = Culling::automatic) {
-  return Detector::create(triangles, x_t0, {culling, Start::clean}).value().step(x_t0, x_t1);
+                Culling culling = Culling::automatic, Start start = Start::clean) {
+  return Detector::create(triangles, x_t0, {culling, start}).value().step(x_t0, x_t1);
 }
 
 TEST(ProofsPolicy, L14_AFlatSheetIsProvedFreeAtOnce) {
@@ -61,8 +62,8 @@ TEST(ProofsPolicy, L14_AFlatSheetIsProvedFreeAtOnce) {
 TEST(ProofsPolicy, L14_ACrumpledSheetIsNotAskedForProofs) {
   const Sheet sheet(30);
   const Positions x = sheet.crumpled(), moved = x.rowwise() + Eigen::RowVector3d(0, 0, 1);
-  const auto result = step(sheet.triangles, x, moved),
-             bvh = step(sheet.triangles, x, moved, Culling::bvh);
+  const auto result = step(sheet.triangles, x, moved, Culling::automatic, Start::unknown),
+             bvh = step(sheet.triangles, x, moved, Culling::bvh, Start::unknown);
   EXPECT_EQ(result.counts.search.contour_tests, 0u);
   EXPECT_EQ(result.counts.search.candidate_pairs, bvh.counts.search.candidate_pairs);
   tests::expect_same_contacts(result, bvh);
@@ -112,12 +113,14 @@ TEST(ProofsPolicy, WhatIsHopedForIsHeldAgainstTheCostOfCones) {
   const std::uint64_t adjacent = adjacent_pairs(surface.mesh);
   const std::size_t triangles = surface.mesh.triangles.size();
   CostModel policy(surface, adjacent, {});
-  EXPECT_TRUE(policy.worth_proving({1, 1}, 1, triangles));
-  EXPECT_TRUE(policy.worth_proving({1, .5}, 1, triangles));
-  EXPECT_FALSE(policy.worth_proving({.4, 1}, 1, triangles)) << "few patches are free";
-  EXPECT_FALSE(policy.worth_proving({.7, 0}, 1, triangles)) << "only small patches are free";
-  EXPECT_FALSE(policy.worth_proving({1, 1}, .05, triangles)) << "few neighbours are asked for";
-  EXPECT_FALSE(policy.worth_proving({1, 1}, 1, 2 * adjacent)) << "cones cost more than they save";
+  EXPECT_TRUE(policy.worth_proving({1, 1, 1}, 1, triangles));
+  EXPECT_TRUE(policy.worth_proving({1, .75, .5}, 1, triangles));
+  EXPECT_TRUE(policy.worth_proving({1, 1, 0}, 1, triangles)) << "medium patches are free";
+  EXPECT_FALSE(policy.worth_proving({.4, 1, 1}, 1, triangles)) << "few patches are free";
+  EXPECT_FALSE(policy.worth_proving({.7, 0, 0}, 1, triangles)) << "only small patches are free";
+  EXPECT_FALSE(policy.worth_proving({1, 1, 1}, .05, triangles)) << "few neighbours are asked for";
+  EXPECT_FALSE(policy.worth_proving({1, 1, 1}, 1, 2 * adjacent))
+      << "cones cost more than they save";
 }
 
 }  // namespace

@@ -87,6 +87,22 @@ TEST(ViewPolicy, L15_DirtyAtAnUnknownStartTheNextStepIsLookedAt) {
 }
 
 // A pair left out saves a third of its cost.
+// Of the signs of all triangles enough would be saved. But what was in contact counts as dirty.
+TEST(ViewPolicy, WhereTooMuchWasInContactReleaseIsNotTried) {
+  TwoOpen mesh;
+  StepState state;
+  const GivenStep given = mesh.given(&state);
+  const StepMarks marks = mesh.marks(false, false);
+  for (const auto& [in_contact, is_swept] :
+       {std::pair(0, true), {2, true}, {8, true}, {12, false}, {14, false}}) {
+    state.met.clear();
+    for (std::int32_t t = 0; t < in_contact; t += 2) state.met.push_back({t, t + 1});
+    CostModel policy(mesh.surface, 1'000'000, {});
+    EXPECT_EQ(policy.worth_sweeping(given, marks, mesh.pace), is_swept) << in_contact;
+    EXPECT_EQ(policy.use(), is_swept ? ViewUse::used : ViewUse::among_dirty);
+  }
+}
+
 TEST(ViewPolicy, WhatViewsHaveCostMustBeSavedByTheSigns) {
   EXPECT_EQ(least_pairs(true, true, 100), 300u);
   EXPECT_EQ(least_pairs(true, true, 1000), 3000u);
