@@ -58,7 +58,7 @@ class EagerMeshSearch : public detector::MeshSearch {
     return search_->search(input, counts, sink);
   }
   detector::ProvableShares provable_shares(const detector::Topology&) const override {
-    return {1, 1};
+    return {1, 1, 1};
   }
 
  private:
