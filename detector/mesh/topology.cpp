@@ -53,12 +53,15 @@ bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
     if (!sort_by_key(uses, room, vertex_count, vertex, pace)) return false;
   }
   mesh.triangle_edges.resize(mesh.triangles.size());
-  return for_each_paced(uses.size(), work_of_corner, pace, [&](std::size_t i) {
+  const auto take = [&](std::size_t i) {
     const auto& [edge, corner] = uses[i];
     if (mesh.edges.empty() || mesh.edges.back() != edge) mesh.edges.push_back(edge);
     mesh.triangle_edges[at(corner / 3)][at(corner % 3)] =
         static_cast<std::int32_t>(mesh.edges.size()) - 1;
-  });
+  };
+  const bool completed = for_each_paced(uses.size(), work_of_corner, pace, take);
+  mesh.edges.shrink_to_fit();
+  return completed;
 }
 
 std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
@@ -93,10 +96,16 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
   };
   if (!for_each_paced(vertex_count, work_of_triangle, pace, take_vertex)) return false;
   mesh.component_of_triangle.resize(mesh.triangles.size());
-  return for_each_paced(mesh.triangles.size(), work_of_triangle, pace, [&](std::size_t t) {
+  const auto take_triangle = [&](std::size_t t) {
     const auto c = number[at(root_of(parent, mesh.triangles[t][0]))];
     mesh.component_of_triangle[t] = c;
     mesh.components[at(c)].triangles.push_back(static_cast<std::int32_t>(t));
+  };
+  if (!for_each_paced(mesh.triangles.size(), work_of_triangle, pace, take_triangle)) return false;
+  constexpr std::uint64_t work_to_shrink = 5;
+  return for_each_paced(mesh.components.size(), work_to_shrink, pace, [&](std::size_t c) {
+    mesh.components[c].vertices.shrink_to_fit();
+    mesh.components[c].triangles.shrink_to_fit();
   });
 }
 

@@ -154,8 +154,7 @@ void BoundingVolumeTree::make_blocks() {
 
 MovingBox BoundingVolumeTree::box_of_triangle(const std::array<std::int32_t, 3>& corners,
                                               const SteppedMesh& motion) const {
-  const FloatGrid& f = points_.grid();
-  return box_of(f(motion, corners[0]), f(motion, corners[1]), f(motion, corners[2]));
+  return box_of(grid_(motion, corners[0]), grid_(motion, corners[1]), grid_(motion, corners[2]));
 }
 
 void BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion) {
@@ -166,10 +165,12 @@ void BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion) 
 bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace) {
   constexpr std::uint64_t work_of_node = 4;
   forget_fit();
-  if (!points_.assign(motion, pace)) return false;
+  RoundedPositions points;  // given back before the search takes room for its own
+  if (!points.assign(motion, pace)) return false;
+  grid_ = points.grid();
   const bool completed = for_each_upward(work_of_node, &pace, [&](std::int32_t node) {
     const std::int32_t child = child_[at(node)];
-    boxes_[at(node)] = child < 0 ? points_.box(mesh.triangles[at(~child)])
+    boxes_[at(node)] = child < 0 ? points.box(mesh.triangles[at(~child)])
                                  : join(boxes_[at(child)], boxes_[at(child) + 1]);
   });
   if (completed) fitted_to_ = {motion.vertices_t0.data(), motion.vertices_t1.data()};

@@ -61,7 +61,7 @@ class BoundingVolumeTree {
                           [&](std::size_t i) { body(above_blocks_[last - i]); });
   }
 
-  const FloatGrid& grid() const { return points_.grid(); }
+  const FloatGrid& grid() const { return grid_; }
   // The box over the step of the last refit.
   const MovingBox& box(std::int32_t node) const { return boxes_[at(node)]; }
   // The box of any triangle, a ghost for example, on the same grid as the boxes of the nodes and
@@ -100,7 +100,7 @@ class BoundingVolumeTree {
   std::vector<std::int32_t> component_root_;  // by component
   std::vector<MovingBox> boxes_;
   Arrays fitted_to_;
-  RoundedPositions points_;
+  FloatGrid grid_;
   std::vector<Block> blocks_;
   std::vector<std::int32_t> above_blocks_;  // the nodes in no block, ascending
 };

@@ -46,8 +46,9 @@ bool RoundedPositions::assign(const SteppedMesh& motion, PacedStop& pace) {
   constexpr std::uint64_t work_of_vertex = 3;
   grid_ = FloatGrid(motion, &pace);
   if (pace.stopped()) return false;
-  points_.resize(static_cast<std::size_t>(motion.size()));
-  return for_all_paced(points_.size(), work_of_vertex, pace, [&](std::size_t v) {
+  const auto count = static_cast<std::size_t>(motion.size());
+  points_ = std::make_unique_for_overwrite<RoundedPoint[]>(count);
+  return for_all_paced(count, work_of_vertex, pace, [&](std::size_t v) {
     points_[v] = grid_(motion, static_cast<std::int32_t>(v));
   });
 }

@@ -10,7 +10,7 @@
 // over the step, which fail as soon as a motion is longer than the things that move.
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "detector/mesh/paced_stop.h"
 #include "detector/mesh/types.h"
@@ -126,7 +126,7 @@ class RoundedPositions {
 
  private:
   FloatGrid grid_;
-  std::vector<RoundedPoint> points_;
+  std::unique_ptr<RoundedPoint[]> points_;
 };
 
 }  // namespace assay::detector
