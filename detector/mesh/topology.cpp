@@ -52,16 +52,18 @@ bool make_edges(Topology& mesh, std::size_t vertex_count, PacedStop& pace) {
     const auto vertex = [end](const EdgeUse& of) { return of.edge[end]; };
     if (!sort_by_key(uses, room, vertex_count, vertex, pace)) return false;
   }
+  std::size_t count = 0;  // so that no room is taken for more
+  const auto is_new = [&](std::size_t i) { return i == 0 || uses[i].edge != uses[i - 1].edge; };
+  if (!for_each_paced(uses.size(), 1, pace, [&](std::size_t i) { count += is_new(i); }))
+    return false;
+  mesh.edges.reserve(count);
   mesh.triangle_edges.resize(mesh.triangles.size());
-  const auto take = [&](std::size_t i) {
-    const auto& [edge, corner] = uses[i];
-    if (mesh.edges.empty() || mesh.edges.back() != edge) mesh.edges.push_back(edge);
+  return for_each_paced(uses.size(), work_of_corner, pace, [&](std::size_t i) {
+    if (is_new(i)) mesh.edges.push_back(uses[i].edge);
+    const auto corner = uses[i].corner;
     mesh.triangle_edges[at(corner / 3)][at(corner % 3)] =
         static_cast<std::int32_t>(mesh.edges.size()) - 1;
-  };
-  const bool completed = for_each_paced(uses.size(), work_of_corner, pace, take);
-  mesh.edges.shrink_to_fit();
-  return completed;
+  });
 }
 
 std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t v) {
@@ -85,28 +87,48 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
   if (!for_each_paced(mesh.triangles.size(), work_of_triangle, pace, join)) return false;
   // Components are numbered by lowest vertex; vertices of no triangle belong to none.
   std::vector<std::int32_t> number(vertex_count, -1);
-  const auto take_vertex = [&](std::size_t v) {
-    if (mesh.vertex_triangles.row(static_cast<std::int32_t>(v)).empty()) return;
-    const auto root = root_of(parent, static_cast<std::int32_t>(v));
-    if (number[at(root)] < 0) {
-      number[at(root)] = static_cast<std::int32_t>(mesh.components.size());
-      mesh.components.emplace_back();
+  struct Size {
+    std::size_t vertices = 0, triangles = 0;
+  };
+  std::vector<Size> sizes;
+  const auto row = [&](std::size_t v) {
+    return mesh.vertex_triangles.row(static_cast<std::int32_t>(v));
+  };
+  const auto root = [&](std::int32_t v) { return at(root_of(parent, v)); };
+  const auto number_vertex = [&](std::size_t v) {
+    if (row(v).empty()) return;
+    auto& c = number[root(static_cast<std::int32_t>(v))];
+    if (c < 0) {
+      c = static_cast<std::int32_t>(sizes.size());
+      sizes.emplace_back();
     }
-    mesh.components[at(number[at(root)])].vertices.push_back(static_cast<std::int32_t>(v));
+    ++sizes[at(c)].vertices;
   };
-  if (!for_each_paced(vertex_count, work_of_triangle, pace, take_vertex)) return false;
+  if (!for_each_paced(vertex_count, work_of_triangle, pace, number_vertex)) return false;
   mesh.component_of_triangle.resize(mesh.triangles.size());
-  const auto take_triangle = [&](std::size_t t) {
-    const auto c = number[at(root_of(parent, mesh.triangles[t][0]))];
-    mesh.component_of_triangle[t] = c;
-    mesh.components[at(c)].triangles.push_back(static_cast<std::int32_t>(t));
+  const auto number_triangle = [&](std::size_t t) {
+    mesh.component_of_triangle[t] = number[root(mesh.triangles[t][0])];
+    ++sizes[at(mesh.component_of_triangle[t])].triangles;
   };
-  if (!for_each_paced(mesh.triangles.size(), work_of_triangle, pace, take_triangle)) return false;
-  constexpr std::uint64_t work_to_shrink = 5;
-  return for_each_paced(mesh.components.size(), work_to_shrink, pace, [&](std::size_t c) {
-    mesh.components[c].vertices.shrink_to_fit();
-    mesh.components[c].triangles.shrink_to_fit();
-  });
+  if (!for_each_paced(mesh.triangles.size(), work_of_triangle, pace, number_triangle)) return false;
+  mesh.components.resize(sizes.size());
+  const auto reserve = [&](std::size_t c) {
+    mesh.components[c].vertices.reserve(sizes[c].vertices);
+    mesh.components[c].triangles.reserve(sizes[c].triangles);
+  };
+  const auto take_vertex = [&](std::size_t v) {
+    if (row(v).empty()) return;
+    const auto c = number[root(static_cast<std::int32_t>(v))];
+    mesh.components[at(c)].vertices.push_back(static_cast<std::int32_t>(v));
+  };
+  const auto take_triangle = [&](std::size_t t) {
+    mesh.components[at(mesh.component_of_triangle[t])].triangles.push_back(
+        static_cast<std::int32_t>(t));
+  };
+  constexpr std::uint64_t work_to_reserve = 5;
+  return for_each_paced(sizes.size(), work_to_reserve, pace, reserve) &&
+         for_each_paced(vertex_count, work_of_triangle, pace, take_vertex) &&
+         for_each_paced(mesh.triangles.size(), work_of_triangle, pace, take_triangle);
 }
 
 bool find_cycles(Topology& mesh, PacedStop& pace) {

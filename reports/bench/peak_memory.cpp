@@ -30,8 +30,15 @@ bool forget_peak() {
   return static_cast<bool>(file);
 }
 
-double measured_in_child(const std::function<void()>& work) {
+double measured_in_child(const std::function<void()>& work, const std::function<void()>& prepare) {
   constexpr double unknown = -1;
+  if (prepare) {
+    // This is malloc's own value before it has freed anything. Set by hand, it stays.
+    constexpr int smallest_given_back = 128 * 1024;
+    mallopt(M_MMAP_THRESHOLD, smallest_given_back);
+    prepare();
+    malloc_trim(0);
+  }
   if (!forget_peak()) return unknown;
   const auto before = status_bytes("VmRSS:"), file_before = status_bytes("RssFile:");
   work();
@@ -45,7 +52,8 @@ double measured_in_child(const std::function<void()>& work) {
 
 }  // namespace
 
-std::optional<double> peak_memory_of(const std::function<void()>& work) {
+std::optional<double> peak_memory_of(const std::function<void()>& work,
+                                     const std::function<void()>& prepare) {
   int ends[2];
   if (pipe(ends) != 0) return std::nullopt;
   malloc_trim(0);
@@ -53,7 +61,7 @@ std::optional<double> peak_memory_of(const std::function<void()>& work) {
   if (child == 0) {
     double bytes = -1;
     try {
-      bytes = measured_in_child(work);
+      bytes = measured_in_child(work, prepare);
     } catch (...) {  // the parent learns of it from the exit code
       _exit(1);
     }

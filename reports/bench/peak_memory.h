@@ -12,6 +12,12 @@ namespace assay::reports {
 // need threads that the parent has started. Freed memory that the parent still holds is given back
 // first, so that the child cannot reuse it unnoticed. Nothing if the system does not tell (/proc)
 // or the child failed.
-std::optional<double> peak_memory_of(const std::function<void()>& work);
+//
+// `prepare`, if given, runs in the child first and does not count. What the work reads is best made
+// there: large blocks that prepare or the work free go back to the system at once, whereas a parent
+// that has freed much keeps a memory full of holes, which the child inherits and fills differently
+// each time.
+std::optional<double> peak_memory_of(const std::function<void()>& work,
+                                     const std::function<void()>& prepare = {});
 
 }  // namespace assay::reports

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "reports/bench/contact_step.h"
 #include "reports/bench/interleave.h"
@@ -67,25 +68,37 @@ int repetitions(int triangles) {
 // With fewer triangles than this, pages are too coarse a measure of memory.
 constexpr int least_for_memory = 20'000;
 
-void measure_memory(const std::string& label, const corpus::Sequence& step, BenchReport& report) {
-  const auto bytes = peak_memory_of([&] {
+// The highest memory of preprocessing and a step, in bytes.
+struct Memory {
+  std::optional<double> of_free, of_contact;
+};
+
+// REQUIRES a process that has not freed much yet (peak_memory.h). Steps are made in its children.
+Memory memory_of(int wanted_triangles) {
+  std::optional<corpus::Sequence> step;
+  const auto work = [&] {
     auto made =
-        Detector::create(step.triangles, step.frames[0], bench_options(Culling::view_point));
-    const StepResult result = made.value().step(step.frames[0], step.frames[1]);
+        Detector::create(step->triangles, step->frames[0], bench_options(Culling::view_point));
+    const StepResult result = made.value().step(step->frames[0], step->frames[1]);
     keep(result);
-  });
-  if (!bytes) {
-    report.add_no_data("memory, " + label, "/proc/self");
-    return;
-  }
-  const auto triangles = static_cast<double>(step.triangles.rows());
-  report.add(fmt::format("memory, {}, {} triangles", label, triangles), "bytes/triangle",
-             exactly(*bytes / triangles), wanted::memory_bytes_a_triangle,
+  };
+  return {
+      peak_memory_of(work, [&] { step = bench_scene("breathing-sphere", wanted_triangles, 11); }),
+      peak_memory_of(work,
+                     [&] { step = step_at_first_contact("dented-sphere", wanted_triangles); })};
+}
+
+void add_memory(const std::string& label, std::optional<double> bytes, Eigen::Index triangles,
+                BenchReport& report) {
+  const std::string name = "memory, " + label;
+  if (!bytes) return report.add_no_data(name, "/proc/self");
+  report.add(fmt::format("{}, {} triangles", name, triangles), "bytes/triangle",
+             exactly(*bytes / static_cast<double>(triangles)), wanted::memory_bytes_a_triangle,
              "highest over preprocessing and a step");
 }
 
-void measure(int wanted_triangles, const BenchSettings& settings, Growths& growths,
-             BenchReport& report) {
+void measure(int wanted_triangles, const std::optional<Memory>& memory,
+             const BenchSettings& settings, Growths& growths, BenchReport& report) {
   const auto sphere = bench_scene("breathing-sphere", wanted_triangles, 11);
   const std::span free_frames(sphere.frames.data(), 3);
   const auto triangles = static_cast<double>(sphere.triangles.rows());
@@ -101,8 +114,7 @@ void measure(int wanted_triangles, const BenchSettings& settings, Growths& growt
   growths.free.add(triangles, samples[0], free.result().counts.free_components ? "" : "NOT free",
                    report);
   growths.create.add(triangles, samples[1], "a sphere", report);
-  const bool measures_memory = wanted_triangles >= least_for_memory;
-  if (measures_memory) measure_memory("free step", sphere, report);
+  if (memory) add_memory("free step", memory->of_free, sphere.triangles.rows(), report);
 
   const auto dented = step_at_first_contact("dented-sphere", wanted_triangles);
   if (!dented) return;
@@ -112,7 +124,8 @@ void measure(int wanted_triangles, const BenchSettings& settings, Growths& growt
                       fmt::format("{} pairs, V+ {:.1f} %", contact.result().pairs.size(),
                                   100 * contact.positive_share()),
                       report);
-  if (measures_memory) measure_memory("step with contacts", *dented, report);
+  if (memory)
+    add_memory("step with contacts", memory->of_contact, dented->triangles.rows(), report);
 }
 
 }  // namespace
@@ -120,13 +133,16 @@ void measure(int wanted_triangles, const BenchSettings& settings, Growths& growt
 BenchReport growth_suite(const BenchSettings& settings, Progress& progress) {
   BenchReport report("growth");
   Growths growths;
-  int last = 0;
-  for (const int size : full_sizes) {
-    const int triangles = settings.triangles(size);
-    if (triangles == last) continue;
-    last = triangles;
+  std::map<int, std::optional<Memory>> sizes;
+  for (const int size : full_sizes) sizes[settings.triangles(size)];
+  for (auto& [triangles, memory] : sizes) {
+    if (triangles < least_for_memory) continue;
+    progress.phase(fmt::format("memory, {} triangles", triangles));
+    memory = memory_of(triangles);
+  }
+  for (const auto& [triangles, memory] : sizes) {
     progress.phase(fmt::format("{} triangles", triangles));
-    measure(triangles, settings, growths, report);
+    measure(triangles, memory, settings, growths, report);
   }
   for (const Growth* growth : {&growths.create, &growths.free, &growths.contact}) {
     growth->judge(report);

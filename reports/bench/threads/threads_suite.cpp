@@ -29,13 +29,14 @@ constexpr Eigen::Index least_for_memory = 20'000;
 // and before this process has threads, because threads do not outlive a fork.
 void measure_memory(const RealSequence& real, BenchReport& report) {
   const auto bytes_of = [&](std::uint32_t threads) {
-    return peak_memory_of([&] {
+    const auto work = [&] {
       auto detector = made(
           Detector::create(real.frames.triangles, real.frames.frames[0],
                            options_of_sequence(Culling::automatic, real.starts_clean, threads)),
           real.name);
       play(detector, real.frames);
-    });
+    };
+    return peak_memory_of(work, [] {});
   };
   const auto alone = bytes_of(1);
   for (const std::uint32_t threads : {2u, 4u, 8u}) {
