@@ -26,6 +26,12 @@ struct LawTally {
   friend bool operator==(const LawTally&, const LawTally&) = default;
 };
 
+// Under which cullings a campaign has to meet the premise of a law. What is clean from step to step
+// goes other ways under each culling: view-point knows it after every step, and view-auto may have
+// done a step without views. So a law about it that is met under one culling says nothing of the
+// others.
+enum class MetUnder : std::uint8_t { any_culling, each_culling, each_that_chooses_views };
+
 struct Law {
   std::string_view name;       // "L4_AllPositiveIsCollisionFree_Line"
   std::string_view number;     // "L1" .. "L15"; "sets", "claim", "change" for what has no number
@@ -35,6 +41,7 @@ struct Law {
   // A LawTable checks the law on one case in so many, because laws that run the case again are
   // dear.
   int one_in = 1;
+  MetUnder met_under = MetUnder::any_culling;
 };
 
 // All laws in a fixed order: by number, then sets, claims, changes.

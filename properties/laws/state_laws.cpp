@@ -127,35 +127,39 @@ constexpr Law state_law_table[] = {
     {"L8_CarriedCleanIsClean", "L8",
      "What a step that continues from a committed one starts with as clean touches nothing of S "
      "then, and is of one layer in each component.",
-     "layers", each_step<carried_clean_is_clean>},
+     "layers", each_step<carried_clean_is_clean>, 1, MetUnder::each_culling},
     {"L8_WhatIsNotCleanStaysDirty", "L8",
      "What was in contact with its own component, touched by a ghost, or dirty, and is not clean "
      "at the end, is dirty in the next step.",
-     "pair set, triangles touched by ghosts, layers", each_step<what_is_not_clean_stays_dirty>},
+     "pair set, triangles touched by ghosts, layers", each_step<what_is_not_clean_stays_dirty>, 1,
+     MetUnder::each_culling},
     {"L8_CleanAndUntouchedStaysClean", "L8",
      "What is clean at the start, in no contact with its own component and touched by no ghost, is "
      "untouched and of one layer at the end, and starts the next step as clean.",
-     "pair set, triangles touched by ghosts, layers", each_step<clean_and_untouched_stays_clean>},
+     "pair set, triangles touched by ghosts, layers", each_step<clean_and_untouched_stays_clean>, 1,
+     MetUnder::each_culling},
     {"L9_DirtyIsTheOraclesAccount", "L9",
      "What a step that continues from a committed one starts with as dirty is exactly what was "
      "dirty, touched by a ghost or in contact with its own component until then, and is not "
      "untouched and of the common layer of its component now.",
-     "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>},
+     "pair set, triangles touched by ghosts, layers", each_step<dirty_is_the_oracles_account>, 1,
+     MetUnder::each_culling},
     {"L9_NewStartIsTheOraclesLayers", "L9",
      "At a new start that is verified, dirty is what touches something of S or is not of the "
      "common layer of its component; under view-auto, which looks and asks for no layers, all of "
      "that is dirty.",
-     "layers", each_step<new_start_is_the_oracles_layers>},
+     "layers", each_step<new_start_is_the_oracles_layers>, 1, MetUnder::each_culling},
     {"L9_AllPositiveAtTheStartReleases", "L9",
      "Where all of S is positive at t=0 and has winding number 1 at the primitive, the component "
      "is clean, whatever came before.",
-     "view signs at rest, winding number, layers", each_step<all_positive_at_the_start_releases>},
+     "view signs at rest, winding number, layers", each_step<all_positive_at_the_start_releases>, 1,
+     MetUnder::each_culling},
     {"L15_StepsWithoutViewsAreInTheAccount", "L15",
      "What starts as dirty after a step without views is what that step left in doubt, less what "
      "is untouched and of the common layer now: after a first step of closed components what is "
      "dirty by L9 at a verified start; of components with ghosts, all were in doubt.",
      "pair set, triangles touched by ghosts, layers",
-     each_step<steps_without_views_are_in_the_account>},
+     each_step<steps_without_views_are_in_the_account>, 1, MetUnder::each_that_chooses_views},
 };
 
 }  // namespace

@@ -131,6 +131,12 @@ std::string laws_text(const RunFindings& findings) {
     out += fmt::format("{:52} {:>9} {:>6.0f}% {:>7}{}\n", law->name, tally.premise, close,
                        tally.broken,
                        properties::starved(*law, tally, wanted).empty() ? "" : "  too few");
+    std::string under;
+    for (const auto& [culling, premise] :
+         properties::premises_by_culling(findings.tally.counts, *law)) {
+      under += fmt::format("{}{} {}", under.empty() ? "" : ", ", culling, premise);
+    }
+    if (!under.empty()) out += fmt::format("    premise under {}\n", under);
   }
   return out;
 }

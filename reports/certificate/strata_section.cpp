@@ -116,9 +116,15 @@ Json laws_json(const RunFindings& findings) {
     return nullptr;
   Json list = Json::array();
   for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
+    Json by_culling = Json::object();
+    for (const auto& [culling, premise] :
+         properties::premises_by_culling(findings.tally.counts, *law)) {
+      by_culling[culling] = premise;
+    }
     list.push_back({{"law", law->name},
                     {"number", law->number},
                     {"premises", tally.premise},
+                    {"by_culling", std::move(by_culling)},
                     {"close", tally.close},
                     {"broken", tally.broken}});
   }

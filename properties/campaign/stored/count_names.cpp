@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "properties/judging/case_options.h"
+
 namespace assay::properties {
 namespace {
 
@@ -10,6 +12,26 @@ constexpr std::string_view tag_prefix = "tag:", contact_prefix = "block:", first
 std::string law_count(std::string_view law, const char* name) {
   return fmt::format("law:{}/{}", law, name);
 }
+std::string premise_under(std::string_view law, std::string_view culling) {
+  return fmt::format("law:{}/premise/{}", law, culling);
+}
+
+// The cullings with view sets, by which alone laws are met.
+std::vector<detector::Culling> cullings_of(MetUnder met_under) {
+  using detector::Culling;
+  switch (met_under) {
+    case MetUnder::any_culling:
+      return {};
+    case MetUnder::each_culling:
+      return {Culling::automatic, Culling::view_auto, Culling::view_point, Culling::view_line};
+    case MetUnder::each_that_chooses_views:
+      return {Culling::automatic, Culling::view_auto};
+  }
+  return {};
+}
+
+// So much of what is wanted of all cullings together is wanted of each.
+constexpr std::uint64_t least_of_a_culling = 10;
 
 LawTally tally_of(const Counts& counts, std::string_view law) {
   LawTally tally;
@@ -44,10 +66,22 @@ std::uint64_t count_of(const Counts& counts, std::string_view name) {
   return found == counts.end() ? 0 : found->second;
 }
 
-void add_law(Counts& counts, std::string_view law, const LawTally& tally) {
-  counts[law_count(law, "premise")] += tally.premise;
-  counts[law_count(law, "close")] += tally.close;
-  counts[law_count(law, "broken")] += tally.broken;
+void add_law(Counts& counts, const Law& law, const LawTally& tally, std::string_view culling) {
+  counts[law_count(law.name, "premise")] += tally.premise;
+  counts[law_count(law.name, "close")] += tally.close;
+  counts[law_count(law.name, "broken")] += tally.broken;
+  if (law.met_under != MetUnder::any_culling)
+    counts[premise_under(law.name, culling)] += tally.premise;
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> premises_by_culling(const Counts& counts,
+                                                                       const Law& law) {
+  std::vector<std::pair<std::string, std::uint64_t>> list;
+  for (const auto culling : cullings_of(law.met_under)) {
+    const std::string name = name_of(culling);
+    list.emplace_back(name, count_of(counts, premise_under(law.name, name)));
+  }
+  return list;
 }
 
 std::vector<std::pair<const Law*, LawTally>> laws_in(const Counts& counts) {
@@ -82,6 +116,12 @@ std::vector<std::string> starved_laws(const Counts& counts, std::uint64_t wanted
   for (const auto& [law, tally] : laws_in(counts)) {
     auto line = starved(*law, tally, wanted_premises);
     if (!line.empty()) lines.push_back(std::move(line));
+    for (const auto& [culling, premise] : premises_by_culling(counts, *law)) {
+      if (least_of_a_culling * premise >= wanted_premises) continue;
+      lines.push_back(fmt::format("the premise of {} held {} times under {}, {} are wanted",
+                                  law->name, premise, culling,
+                                  (wanted_premises + least_of_a_culling - 1) / least_of_a_culling));
+    }
   }
   return lines;
 }

@@ -6,6 +6,7 @@
 #include "properties/campaign/stored/store.h"
 #include "properties/campaign/trials/trial.h"
 #include "properties/generators/tag_table.h"
+#include "properties/judging/case_options.h"
 #include "properties/laws/facts/case_facts.h"
 #include "properties/laws/law_table.h"
 
@@ -37,7 +38,7 @@ void count_laws(const LawTable& table, const Configuration& configuration, CaseT
   for (std::size_t i = 0; i < all.size(); ++i) {
     const LawTally& law_tally = table.tallies()[i];
     if (law_tally.premise == 0) continue;
-    add_law(tally.counts, all[i].name, law_tally);
+    add_law(tally.counts, all[i], law_tally, name_of(configuration.options.culling));
     if (law_tally.broken > 0) {
       tally.broken.push_back(
           {std::string(all[i].name), configuration.name, law_tally.first_broken});

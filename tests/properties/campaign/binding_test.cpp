@@ -67,6 +67,8 @@ TEST(Starved, LawsAreNamed) {
   for (const auto& law : laws()) {
     counts["law:" + std::string(law.name) + "/premise"] = 100;
     counts["law:" + std::string(law.name) + "/close"] = 25;
+    for (const char* culling : {"auto", "view-auto", "view-point", "view-line"})
+      counts["law:" + std::string(law.name) + "/premise/" + culling] = 50;
   }
   EXPECT_TRUE(starved_laws(counts, 100).empty());
   EXPECT_EQ(starved_laws(counts, 101).size(), laws().size());
@@ -76,6 +78,20 @@ TEST(Starved, LawsAreNamed) {
   counts.erase("law:" + name + "/premise");
   EXPECT_NE(starved_laws(counts, 1).at(0).find("held 0 times"), std::string::npos);
   EXPECT_TRUE(starved_laws(counts, 0).empty());
+  const auto under = [&](const char* law, const char* culling) -> std::uint64_t& {
+    return counts["law:" + std::string(law) + "/premise/" + culling];
+  };
+  const std::size_t before = starved_laws(counts, 100).size();
+  under("L8_CarriedCleanIsClean", "view-line") = 4;  // a tenth of 100 is 10
+  under("L15_StepsWithoutViewsAreInTheAccount", "auto") = 0;
+  under("L15_StepsWithoutViewsAreInTheAccount", "view-point") = 0;  // it has views in every step
+  under("L4_AllPositiveIsCollisionFree_Line", "auto") = 0;          // any culling will do
+  const auto lines = starved_laws(counts, 100);
+  ASSERT_EQ(lines.size(), before + 2);
+  EXPECT_NE(std::find(lines.begin(), lines.end(),
+                      "the premise of L8_CarriedCleanIsClean held 4 times under view-line, 10 are "
+                      "wanted"),
+            lines.end());
   EXPECT_EQ(broken_laws(counts), 0u);
   counts["law:" + name + "/broken"] = 3;
   EXPECT_EQ(broken_laws(counts), 1u);

@@ -47,7 +47,10 @@ inline RunFindings good_findings() {
   LawTally law_tally;
   law_tally.premise = 8;
   law_tally.close = 2;
-  for (const auto& law : laws()) add_law(f.tally.counts, law.name, law_tally);
+  for (const auto& law : laws()) {
+    for (const char* culling : {"auto", "view-auto", "view-point", "view-line"})
+      add_law(f.tally.counts, law, law_tally, culling);
+  }
   f.evidence.canaries = {{"c", "1/1", 7}};
   f.evidence.faults = {
       fault_proof("a", FaultStatus::planted, true), fault_proof("b", FaultStatus::planted, true),
