@@ -116,10 +116,10 @@ Json laws_json(const RunFindings& findings) {
     return nullptr;
   Json list = Json::array();
   for (const auto& [law, tally] : properties::laws_in(findings.tally.counts)) {
-    Json by_culling = Json::object();
+    Json by_culling = Json::array();
     for (const auto& [culling, premise] :
          properties::premises_by_culling(findings.tally.counts, *law)) {
-      by_culling[culling] = premise;
+      by_culling.push_back({{"culling", culling}, {"premises", premise}});
     }
     list.push_back({{"law", law->name},
                     {"number", law->number},

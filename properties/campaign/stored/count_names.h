@@ -1,7 +1,7 @@
 // The names under which a campaign counts what it meets in its trials, and what the counts say.
 //
-// The names: "law:NAME/premise", "/close" and "/broken" count steps (law.h); of a law that has to be
-// met under several cullings "law:NAME/premise/CULLING" counts them too. "tag:NAME" counts
+// The names: "law:NAME/premise", "/close" and "/broken" count steps (law.h). For a law that has to
+// be met under several cullings "law:NAME/premise/CULLING" counts them too. "tag:NAME" counts
 // cases that have the tag. "block:SETS" and "first:SETS" count contacts, and first contacts, by
 // the view sets of their two triangles. "measure:NAME" counts what a plug-in does, whatever it
 // claims (step_measures.h).
