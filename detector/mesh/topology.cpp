@@ -111,10 +111,11 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
     ++sizes[at(mesh.component_of_triangle[t])].triangles;
   };
   if (!for_each_paced(mesh.triangles.size(), work_of_triangle, pace, number_triangle)) return false;
-  mesh.components.resize(sizes.size());
-  const auto reserve = [&](std::size_t c) {
-    mesh.components[c].vertices.reserve(sizes[c].vertices);
-    mesh.components[c].triangles.reserve(sizes[c].triangles);
+  mesh.components.reserve(sizes.size());
+  const auto add_component = [&](std::size_t c) {
+    auto& component = mesh.components.emplace_back();
+    component.vertices.reserve(sizes[c].vertices);
+    component.triangles.reserve(sizes[c].triangles);
   };
   const auto take_vertex = [&](std::size_t v) {
     if (row(v).empty()) return;
@@ -125,8 +126,8 @@ bool make_components(Topology& mesh, std::size_t vertex_count, PacedStop& pace) 
     mesh.components[at(mesh.component_of_triangle[t])].triangles.push_back(
         static_cast<std::int32_t>(t));
   };
-  constexpr std::uint64_t work_to_reserve = 5;
-  return for_each_paced(sizes.size(), work_to_reserve, pace, reserve) &&
+  constexpr std::uint64_t work_of_room = 5;
+  return for_each_paced(sizes.size(), work_of_room, pace, add_component) &&
          for_each_paced(vertex_count, work_of_triangle, pace, take_vertex) &&
          for_each_paced(mesh.triangles.size(), work_of_triangle, pace, take_triangle);
 }

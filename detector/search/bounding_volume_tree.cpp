@@ -173,14 +173,13 @@ bool BoundingVolumeTree::refit(const Topology& mesh, const SteppedMesh& motion, 
     boxes_[at(node)] = child < 0 ? points.box(mesh.triangles[at(~child)])
                                  : join(boxes_[at(child)], boxes_[at(child) + 1]);
   });
-  if (completed) fitted_to_ = {motion.vertices_t0.data(), motion.vertices_t1.data()};
+  if (completed) fitted_to_ = Arrays(motion);
   return completed;
 }
 
 bool BoundingVolumeTree::fit_once(const Topology& mesh, const SteppedMesh& motion,
                                   PacedStop& pace) {
-  const Arrays arrays = {motion.vertices_t0.data(), motion.vertices_t1.data()};
-  return arrays == fitted_to_ || refit(mesh, motion, pace);
+  return fitted_to_ == Arrays(motion) || refit(mesh, motion, pace);
 }
 
 }  // namespace assay::detector

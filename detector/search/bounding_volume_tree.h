@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "detector/mesh/step_types.h"
@@ -78,13 +79,21 @@ class BoundingVolumeTree {
   // the stages of a step that search the same motion fit the boxes once. REQUIRES that positions in
   // these arrays have not changed since forget_fit().
   bool fit_once(const Topology& mesh, const SteppedMesh& motion, PacedStop& pace);
-  void forget_fit() { fitted_to_ = {}; }
+  void forget_fit() { fitted_to_.reset(); }
 
  private:
   struct Builder;
+  // Where the positions of a motion lie. The strides count: two views may begin at one place.
   struct Arrays {
-    const double *t0 = nullptr, *t1 = nullptr;
+    explicit Arrays(const SteppedMesh& motion)
+        : t0(motion.vertices_t0.data()),
+          t1(motion.vertices_t1.data()),
+          stride_t0(motion.vertices_t0.outerStride()),
+          stride_t1(motion.vertices_t1.outerStride()),
+          rows(motion.size()) {}
     friend bool operator==(const Arrays&, const Arrays&) = default;
+    const double *t0, *t1;
+    Eigen::Index stride_t0, stride_t1, rows;
   };
   // A subtree of at most nodes_of_block nodes: its top, and below it the nodes first .. last - 1.
   struct Block {
@@ -99,7 +108,7 @@ class BoundingVolumeTree {
   std::vector<std::int32_t> component_;
   std::vector<std::int32_t> component_root_;  // by component
   std::vector<MovingBox> boxes_;
-  Arrays fitted_to_;
+  std::optional<Arrays> fitted_to_;
   FloatGrid grid_;
   std::vector<Block> blocks_;
   std::vector<std::int32_t> above_blocks_;  // the nodes in no block, ascending

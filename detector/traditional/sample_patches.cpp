@@ -1,7 +1,6 @@
 #include "detector/traditional/sample_patches.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace assay::detector {
 namespace {
@@ -38,30 +37,24 @@ class PatchMaker {
     return patch;
   }
 
-  // 1 if the triangle passes the edge from its lower vertex to its higher one, else -1.
-  int direction_of(std::int32_t t, std::int32_t edge) const {
-    const auto& edges = mesh_.triangle_edges[at(t)];
-    const auto i =
-        static_cast<std::size_t>(std::find(edges.begin(), edges.end(), edge) - edges.begin());
-    const auto& corners = mesh_.triangles[at(t)];
-    return corners[(i + 1) % 3] < corners[(i + 2) % 3] ? 1 : -1;
-  }
-
-  // The directed edges of the taken triangles after opposite ones have cancelled.
+  // The directed edges of the triangles after opposite ones have cancelled.
   std::vector<DirectedEdge> boundary_of(const std::vector<std::int32_t>& patch) const {
-    std::vector<DirectedEdge> boundary;
+    std::vector<DirectedEdge> edges;
     for (const auto t : patch) {
-      for (const auto edge : mesh_.triangle_edges[at(t)]) {
-        int surplus = 0;
-        std::int32_t first = -1;  // of the taken ones at this edge; the edge is looked at there
-        for (const auto other : mesh_.edge_triangles.row(edge)) {
-          if (!is_taken_[at(other)]) continue;
-          if (first < 0) first = other;
-          surplus += direction_of(other, edge);
-        }
-        if (first != t) continue;
-        const DirectedEdge directed = 2 * edge + (surplus < 0 ? 1 : 0);
-        boundary.insert(boundary.end(), static_cast<std::size_t>(std::abs(surplus)), directed);
+      const auto& corners = mesh_.triangles[at(t)];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const bool falls = corners[(i + 1) % 3] > corners[(i + 2) % 3];
+        edges.push_back(2 * mesh_.triangle_edges[at(t)][i] + (falls ? 1 : 0));
+      }
+    }
+    // The two directions of an edge become neighbours, the one with the even number first.
+    std::sort(edges.begin(), edges.end());
+    std::vector<DirectedEdge> boundary;
+    for (const auto edge : edges) {
+      if (edge % 2 != 0 && !boundary.empty() && boundary.back() == edge - 1) {
+        boundary.pop_back();
+      } else {
+        boundary.push_back(edge);
       }
     }
     return boundary;

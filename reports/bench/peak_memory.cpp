@@ -32,13 +32,11 @@ bool forget_peak() {
 
 double measured_in_child(const std::function<void()>& work, const std::function<void()>& prepare) {
   constexpr double unknown = -1;
-  if (prepare) {
-    // This is malloc's own value before it has freed anything. Set by hand, it stays.
-    constexpr int smallest_given_back = 128 * 1024;
-    mallopt(M_MMAP_THRESHOLD, smallest_given_back);
-    prepare();
-    malloc_trim(0);
-  }
+  // This is malloc's own value before it has freed anything. Set by hand, it stays.
+  constexpr int smallest_given_back = 128 * 1024;
+  mallopt(M_MMAP_THRESHOLD, smallest_given_back);
+  if (prepare) prepare();
+  malloc_trim(0);
   if (!forget_peak()) return unknown;
   const auto before = status_bytes("VmRSS:"), file_before = status_bytes("RssFile:");
   work();

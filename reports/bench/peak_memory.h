@@ -13,10 +13,10 @@ namespace assay::reports {
 // first, so that the child cannot reuse it unnoticed. Nothing if the system does not tell (/proc)
 // or the child failed.
 //
-// `prepare`, if given, runs in the child first and does not count. What the work reads is best made
-// there: large blocks that prepare or the work free go back to the system at once, whereas a parent
-// that has freed much keeps a memory full of holes, which the child inherits and fills differently
-// each time.
+// In the child, blocks of 128 KB and more go back to the system as soon as they are freed.
+// `prepare`, if given, runs there first and does not count. What the work reads is best made by it:
+// a parent that has made and freed much keeps a memory full of holes, which the child inherits and
+// fills differently each time.
 std::optional<double> peak_memory_of(const std::function<void()>& work,
                                      const std::function<void()>& prepare = {});
 

@@ -36,7 +36,7 @@ void measure_memory(const RealSequence& real, BenchReport& report) {
           real.name);
       play(detector, real.frames);
     };
-    return peak_memory_of(work, [] {});
+    return peak_memory_of(work);
   };
   const auto alone = bytes_of(1);
   for (const std::uint32_t threads : {2u, 4u, 8u}) {

@@ -189,6 +189,15 @@ TEST(MovingBox, BoxesAreFittedOnceToTheArraysOfAStep) {
   EXPECT_FALSE(same(top(), fitted)) << "another array of t=1";
   ASSERT_TRUE(tree.fit_once(mesh, step, never));
   EXPECT_TRUE(same(top(), fitted));
+  // Two views that begin at one place, with rows of three numbers and with rows that overlap.
+  using Stride = Eigen::OuterStride<>;
+  using View = Eigen::Map<const Positions, 0, Stride>;
+  const View all(x.data(), 4, 3, Stride(3)), overlapping(x.data(), 4, 3, Stride(1));
+  ASSERT_TRUE(tree.fit_once(mesh, {all, all}, never));
+  const auto at_rest = top();
+  ASSERT_TRUE(tree.fit_once(mesh, {all, overlapping}, never));
+  EXPECT_FALSE(same(top(), at_rest)) << "the same places, other strides";
+  ASSERT_TRUE(tree.fit_once(mesh, step, never));
   moved.col(2).setConstant(0.75);
   ASSERT_TRUE(tree.fit_once(mesh, step, never));
   EXPECT_TRUE(same(top(), fitted)) << "the same arrays are not looked at again";
