@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oracle/out_of_memory.h"
+#include "properties/words.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/exit_code.h"
 #include "reports/terminal/version.h"
@@ -27,6 +28,20 @@ constexpr reports::Action (*verbs[])(CLI::App&) = {
     reports::add_run,    reports::add_replay,        reports::add_shrink, reports::add_bench,
     reports::add_report, reports::add_merge,         reports::add_verify, reports::add_list,
     reports::add_certify};
+
+// CLI11 lists what it did not expect from the end.
+std::string complaint_of(const CLI::ParseError& wrong, const CLI::App& app) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&wrong) == nullptr) return wrong.what();
+  return fmt::format("not expected: {}", fmt::join(app.remaining(true), " "));
+}
+
+std::string meant_by(const std::string& word, CLI::App& app) {
+  for (const auto* verb : app.get_subcommands({})) {
+    if (properties::is_nearly(verb->get_name(), word))
+      return fmt::format("; did you mean {}?", verb->get_name());
+  }
+  return "";
+}
 
 int run(int argc, char** argv) {
   CLI::App app(
@@ -48,11 +63,15 @@ int run(int argc, char** argv) {
     const std::string first = argc > 1 ? argv[1] : "";
     const auto known =
         app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == first; });
-    const bool is_verb = !known.empty();
-    return reports::refuse((first.empty() || first[0] == '-' || is_verb
-                                ? std::string(wrong.what())
-                                : fmt::format("unknown verb '{}'", first)) +
-                           " (assay --help lists verbs and options)");
+    if (known.empty()) {
+      const bool is_word = !first.empty() && first[0] != '-';
+      return reports::refuse((is_word
+                                  ? fmt::format("unknown verb '{}'{}", first, meant_by(first, app))
+                                  : complaint_of(wrong, app)) +
+                             " (assay --help lists verbs)");
+    }
+    return reports::refuse(
+        fmt::format("{} (assay {} --help lists options)", complaint_of(wrong, app), first));
   }
   const auto all = app.get_subcommands({});
   const auto chosen =

@@ -53,9 +53,10 @@ struct ExpectedStep {
   std::optional<std::vector<detector::ViewSign>> ghost_view_signs;  // one for each ghost
 };
 
-// `answer` is collision when a step has a contact, and error for a mesh that must be refused.
+// `answer` is collision when a step has a contact, and error for a mesh that must be refused. If it
+// is absent, nothing is known.
 struct ExpectedFacts {
-  detector::Answer answer = detector::Answer::free;
+  std::optional<detector::Answer> answer;
   std::vector<ExpectedStep> steps;  // one for each step of the case, or none
 };
 

@@ -158,8 +158,10 @@ std::string case_text(const Case& c) {
     out += fmt::format("{}{}: {}", separator, text(key), text(value));
     separator = ", ";
   }
-  out += fmt::format("}},\n  \"expected\": {{\n    \"answer\": \"{}\",\n    \"steps\": ",
-                     name_of(c.expected.answer));
+  out += "},\n  \"expected\": {\n";
+  if (c.expected.answer)
+    out += fmt::format("    \"answer\": \"{}\",\n", name_of(*c.expected.answer));
+  out += "    \"steps\": ";
   append_rows(out, c.expected.steps.size(), 4,
               [&](std::size_t i) { return step_text(c.expected.steps[i]); });
   out += "\n  }";

@@ -130,9 +130,12 @@ typedef struct assay_description {
   /* Since version 2. */
   int32_t start;         /* ASSAY_START_... */
   double start_distance; /* user's units; above 0 with ASSAY_START_APART, else 0 */
-  /* The range of coordinates that the detector takes: 0, and magnitudes from least_nonzero to
-   * largest. Both 0: it takes every finite number. Else 0 <= least_nonzero <= largest and largest
-   * is above 0. Meshes with a coordinate beyond the range are left out. */
+  /* The sizes that the detector takes, user's units. No coordinate has a magnitude above largest,
+   * because rounding goes by coordinates. No edge is shorter than least_nonzero, if it has a length
+   * at all, and so is no extent, because thresholds go by lengths; a length is the greatest
+   * difference along an axis. Single coordinates may be as small as they like. Both 0: it takes
+   * every finite number. Else 0 <= least_nonzero <= largest and largest is above 0. Meshes beyond
+   * the range are left out. */
   double least_nonzero;
   double largest;
   int32_t features;      /* ASSAY_FEATURES_... */

@@ -84,8 +84,9 @@ Box widened(Box box, double distance) {
 
 }  // namespace
 
-bool any_nearer_than(const detector::PositionsView& x, const detector::TrianglesView& triangles,
-                     double distance, const WantedPair& counts) {
+std::optional<detector::TrianglePair> any_nearer_than(const detector::PositionsView& x,
+                                                      const detector::TrianglesView& triangles,
+                                                      double distance, const WantedPair& counts) {
   const Instant instant(x);
   const StaticPoints points = instant.points();
   const mpq_class limit = mpq_class(distance) * mpq_class(distance);
@@ -109,13 +110,15 @@ bool any_nearer_than(const detector::PositionsView& x, const detector::Triangles
     const Box box = instant.box_of(vertices);
     return distance > 0 ? widened(box, distance) : box;
   });
-  bool found = false;
-  StopGate gate([&] { return found; });
+  std::optional<detector::TrianglePair> found;
+  StopGate gate([&] { return found.has_value(); });
   for_each_contact(mesh, mesh, tests, {1, &gate},
                    {[&](std::int32_t s, std::int32_t t) {
                       return !found && s != t && counts(std::min(s, t), std::max(s, t));
                     },
-                    [&](std::int32_t, std::int32_t, int) { found = true; }});
+                    [&](std::int32_t s, std::int32_t t, int) {
+                      if (!found) found = {std::min(s, t), std::max(s, t)};
+                    }});
   return found;
 }
 

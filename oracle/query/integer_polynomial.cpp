@@ -81,15 +81,31 @@ int sign_at(const IntegerPolynomial& p, double t) {
   return sgn(value);
 }
 
-bool surely_no_zero_in_unit(const IntegerPolynomial& p) {
-  if (p.is_zero()) return false;
-  // Scaled Bernstein coefficients over [0,1], b_k = sum over i <= k of binomial(n-i, k-i) c_i: the
-  // Taylor shift by 1 of the reversed polynomial, by running sums in place.
+std::vector<Integer> bernstein_over_unit(const IntegerPolynomial& p) {
+  // b_k = sum over i <= k of binomial(n-i, k-i) c_i: the Taylor shift by 1 of the reversed
+  // polynomial, by running sums in place.
   std::vector<Integer> b = p.c;
   const int n = p.degree();
   for (int round = 0; round < n; ++round) {
     for (int k = 1; k <= n - round; ++k) b[k] += b[k - 1];
   }
+  return b;
+}
+
+int sign_changes(const std::vector<Integer>& sequence) {
+  int changes = 0, before = 0;
+  for (const Integer& x : sequence) {
+    const int sign = sgn(x);
+    if (sign == 0) continue;
+    changes += before * sign < 0;
+    before = sign;
+  }
+  return changes;
+}
+
+bool surely_no_zero_in_unit(const IntegerPolynomial& p) {
+  if (p.is_zero()) return false;
+  const std::vector<Integer> b = bernstein_over_unit(p);
   const int sign = sgn(b[0]);
   return sign != 0 &&
          std::all_of(b.begin(), b.end(), [&](const Integer& x) { return sgn(x) == sign; });

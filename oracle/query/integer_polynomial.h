@@ -30,6 +30,14 @@ IntegerPolynomial derivative(const IntegerPolynomial& p);
 // The exact sign of p at t. REQUIRES t finite and >= 0.
 int sign_at(const IntegerPolynomial& p, double t);
 
+// The scaled Bernstein coefficients of p over [0,1] (scaled_bernstein.h): the first and the last
+// are p(0) and p(1). Empty for the zero polynomial.
+std::vector<Integer> bernstein_over_unit(const IntegerPolynomial& p);
+
+// How often the sign changes in a sequence, zeros left out. Of Bernstein coefficients (Descartes'
+// rule): 0 says that there is no zero in the open interval, 1 that there is exactly one.
+int sign_changes(const std::vector<Integer>& sequence);
+
 // True: p has no zero in [0,1], by Descartes' rule in Bernstein form. False: nothing is known.
 bool surely_no_zero_in_unit(const IntegerPolynomial& p);
 

@@ -9,6 +9,7 @@
 #include "detector/mesh/problem.h"
 #include "properties/campaign/plan.h"
 #include "properties/queries/query_families.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 namespace {
@@ -220,9 +221,22 @@ static bool is_the_same_but_for_time(CampaignPlan a, CampaignPlan b) {
   return plan_text(a) == plan_text(b);
 }
 
+const CampaignPlan* plan_meant_by(std::string_view name) {
+  for (const auto& plan : named_plans()) {
+    if (is_nearly(plan.name, name)) return &plan;
+  }
+  return nullptr;
+}
+
 corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file) {
   for (const auto& plan : named_plans()) {
     if (plan.name == name_or_file) return plan;
+  }
+  const auto* meant = plan_meant_by(name_or_file);
+  std::error_code ignored;
+  if (meant && !std::filesystem::exists(name_or_file, ignored)) {
+    return corpus::problem_in(corpus::FileProblem::cannot_open, name_or_file,
+                              "is no campaign and no file; did you mean " + meant->name + "?");
   }
   BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(name_or_file));
   BOOST_OUTCOME_TRY(plan, parse_plan(bytes, name_or_file));

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "properties/campaign/plan.h"
 #include "properties/campaign/stored/evidence.h"
 #include "properties/campaign/trials/trial.h"
+#include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::properties {
@@ -29,18 +31,23 @@ struct OwnCases {
   std::string digest;  // SHA-256 over names and bytes of their files
 };
 
+// The seed of a campaign for which none is given. Everybody knows its cases.
+inline constexpr std::uint64_t default_seed = 1;
+
 struct CampaignRequest {
   CampaignPlan plan;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = default_seed;
   int jobs = 1;
   Shard shard;
   DetectorUnderTest detector;
   std::optional<std::filesystem::path> plugin;
+  std::shared_ptr<const JudgedLibrary> judged;    // its file, kept for all workers of the request
   IsolationMode isolation = IsolationMode::best;  // as asked for the plug-in's process
   Isolation isolated;                             // the isolation that the process has
   std::uint64_t threads = 1;                      // threads that the plug-in may use
   bool takes_threads = false;                     // the plug-in asks for that number
   std::filesystem::path worker;                   // the program assay-worker
+  std::filesystem::path folder;  // of the run; the plug-in does not read what it holds
   // The proof of another run of this build that planted faults are found. If it is given, no fault
   // is planted in this run.
   std::optional<PowerProof> power;
@@ -51,8 +58,8 @@ struct CampaignRequest {
   std::vector<corpus::Case> repeated;
 
   // The limits of the workers that run the campaign's cases.
-  WorkerLimits worker_limits() const {
-    return {plan.case_seconds, plan.case_bytes, isolation, isolated, threads};
+  WorkerLimits worker_limits(std::uint32_t variation = 0) const {
+    return {plan.case_seconds, plan.case_bytes, isolation, isolated, threads, folder, variation};
   }
 };
 

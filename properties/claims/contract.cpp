@@ -21,15 +21,13 @@ const char* name_of(TestedFeatures features) {
   return word_of({"both", "vertex-face", "edge-edge"}, features);
 }
 
-namespace {
-
-// The shortest decimal that reads back to the same double. It is made without libfmt, because the
-// worker does not use that.
 std::string number_text(double x) {
   char text[32];
   const auto end = std::to_chars(std::begin(text), std::end(text), x).ptr;
   return {text, end};
 }
+
+namespace {
 
 bool is_length(double x) { return std::isfinite(x) && x >= 0; }
 
@@ -66,9 +64,8 @@ std::vector<std::string> phrases_of(const Contract& contract) {
   if (contract.start == StartRule::free) list.emplace_back("starts free");
   if (contract.start == StartRule::apart)
     say("starts ", number_text(contract.start_distance), " apart");
-  if (contract.has_range())
-    say("coordinates from ",
-        number_text(contract.least_nonzero).append(" to ").append(number_text(contract.largest)));
+  if (contract.least_nonzero > 0) say("edges from ", number_text(contract.least_nonzero));
+  if (contract.has_range()) say("coordinates up to ", number_text(contract.largest));
   if (contract.features != TestedFeatures::both) say("", name_of(contract.features), " alone");
   if (contract.time_tolerance > 0) say("times within ", number_text(contract.time_tolerance));
   if (!contract.reports_pairs) list.emplace_back("no pairs");
@@ -95,12 +92,28 @@ detector::Positions contracted(const detector::PositionsView& x, Coordinates coo
   return x.cast<float>().cast<double>();
 }
 
-bool in_range(const detector::PositionsView& x, const Contract& contract) {
-  if (!contract.has_range()) return true;
-  const auto magnitudes = x.array().abs();
-  return ((magnitudes == 0) ||
-          (magnitudes >= contract.least_nonzero && magnitudes <= contract.largest))
-      .all();
+double length_of(const detector::PositionsView& x, const Edge& edge) {
+  return (x.row(edge[0]) - x.row(edge[1])).cwiseAbs().maxCoeff();
+}
+
+std::string beyond_range(const detector::PositionsView& x, const std::vector<Edge>& edges,
+                         const Contract& contract) {
+  if (!contract.has_range()) return "";
+  for (Eigen::Index v = 0; v < x.rows(); ++v) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      if (std::abs(x(v, k)) <= contract.largest) continue;
+      return "vertex " + std::to_string(v) + " has the coordinate " + number_text(x(v, k)) +
+             ", above largest, " + number_text(contract.largest);
+    }
+  }
+  for (const Edge& edge : edges) {
+    const double length = length_of(x, edge);
+    if (length == 0 || length >= contract.least_nonzero) continue;
+    return "edge " + std::to_string(edge[0]) + "-" + std::to_string(edge[1]) + " is " +
+           number_text(length) + " long, below least_nonzero, " +
+           number_text(contract.least_nonzero);
+  }
+  return "";
 }
 
 }  // namespace assay::properties

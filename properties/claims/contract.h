@@ -2,6 +2,7 @@
 // takes, and how its times are read.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -47,8 +48,10 @@ struct Contract {
   double margin = 0;
   StartRule start = StartRule::any;
   double start_distance = 0;  // for StartRule::apart
-  // Every coordinate is 0 or has a magnitude from least_nonzero to largest. Both 0: any
-  // coordinate.
+  // No coordinate has a magnitude above `largest`, because rounding goes by the coordinates. Every
+  // edge has length 0 or at least least_nonzero, because thresholds go by lengths; length is the
+  // greatest difference along an axis. The extent of a mesh is that of an edge at least. Both 0:
+  // any mesh.
   double least_nonzero = 0, largest = 0;
   TestedFeatures features = TestedFeatures::both;
   double time_tolerance = 0;  // a time is late, early or wrong when it is off by more than this
@@ -65,12 +68,16 @@ const char* name_of(Coordinates coordinates);
 const char* name_of(StartRule start);
 const char* name_of(TestedFeatures features);
 
+// The shortest decimal that reads back to the same double. It is made without libfmt, because the
+// worker does not use that.
+std::string number_text(double x);
+
 // What is wrong with the contract, without a subject ("its margin is no length"); empty if nothing
 // is.
 std::string fault_of(const Contract& contract);
 
-// What the contract leaves out or changes, one phrase each: "starts free", "coordinates from 1e-06
-// to 1e+06", "times within 1e-09". Empty for the contract that leaves nothing out.
+// What the contract leaves out or changes, one phrase each: "starts free", "edges from 1e-06",
+// "coordinates up to 1e+06", "times within 1e-09". Empty for the contract that leaves nothing out.
 std::vector<std::string> phrases_of(const Contract& contract);
 
 int shared_vertices(const detector::TrianglesView& triangles, detector::TrianglePair pair);
@@ -83,7 +90,14 @@ bool leaves_out(const Contract& contract, const detector::TrianglesView& triangl
 // becomes infinite.
 detector::Positions contracted(const detector::PositionsView& x, Coordinates coordinates);
 
-// Whether every coordinate is in the contract's range.
-bool in_range(const detector::PositionsView& x, const Contract& contract);
+using Edge = std::array<std::int32_t, 2>;
+
+double length_of(const detector::PositionsView& x, const Edge& edge);
+
+// Where a mesh with these edges leaves the contract's range, with the member of the contract:
+// "vertex 3 has the coordinate 2e+06, above largest, 1e+06" or "edge 3-4 is 2e-13 long, below
+// least_nonzero, 1e-06". Empty if it does not.
+std::string beyond_range(const detector::PositionsView& x, const std::vector<Edge>& edges,
+                         const Contract& contract);
 
 }  // namespace assay::properties

@@ -1,10 +1,10 @@
 #include "properties/judging/agreement.h"
 
 #include <algorithm>
-#include <functional>
 
 #include "detector/detector.h"
 #include "properties/judging/first_contact_graph.h"
+#include "properties/judging/step_truth.h"
 #include "properties/words.h"
 
 namespace assay::properties {
@@ -41,15 +41,6 @@ struct Times {
   }
 };
 
-// The part of what the oracle found that counts under a contract.
-struct Truth {
-  std::vector<PairContact> pairs;
-  bool complete = false;
-  TimeEnclosure first;  // set if `complete` and there are pairs
-};
-
-bool is_earlier(const PairContact& a, const PairContact& b) { return a.time < b.time; }
-
 class Comparison {
  public:
   Comparison(const detector::StepResult& result, const oracle::StepJudgement& judgement,
@@ -60,14 +51,16 @@ class Comparison {
         contract_(contract),
         times_{unique_times, contract.time_tolerance} {}
 
-  StepDiff run(const std::function<bool(TrianglePair)>& left_out) {
+  StepDiff run(StepTruth truth) {
     if (result_.answer == Answer::error) {
       broken(Claim::total, true);
       diff_.outcome = diff_.broken.empty() ? Outcome::error : Outcome::defect;
       return std::move(diff_);
     }
     diff_.partial = !detector_complete() || !judgement_.complete;
-    find_truth(left_out);
+    truth_ = std::move(truth);
+    diff_.first_contact = truth_.first;
+    diff_.left_out = std::move(truth_.left_out);
     compare_with_all();
     compare_with_what_counts();
     compare_answers();
@@ -78,27 +71,6 @@ class Comparison {
 
  private:
   bool detector_complete() const { return result_.answer != Answer::undecided; }
-
-  void find_truth(const std::function<bool(TrianglePair)>& left_out) {
-    const bool all_features = contract_.features == TestedFeatures::both;
-    const auto& asked = all_features ? judgement_.pairs : judgement_.asked_pairs;
-    for (const auto& contact : asked) {
-      if (!left_out(contact.pair)) truth_.pairs.push_back(contact);
-    }
-    // A contact is left out if it is not among these, or is so only later.
-    auto counted = truth_.pairs.begin();
-    for (const auto& contact : judgement_.pairs) {
-      while (counted != truth_.pairs.end() && counted->pair < contact.pair) ++counted;
-      const bool counts = counted != truth_.pairs.end() && counted->pair == contact.pair &&
-                          !(contact.time < counted->time);
-      if (!counts) diff_.left_out.push_back(contact);
-    }
-    truth_.complete = judgement_.complete;
-    const auto first = std::min_element(truth_.pairs.begin(), truth_.pairs.end(), is_earlier);
-    if (first == truth_.pairs.end()) return;
-    truth_.first = first->time;
-    diff_.first_contact = *first;
-  }
 
   // Finds what the detector reports although it is not there, or not there yet. Contacts that the
   // contract leaves out count as there.
@@ -148,19 +120,19 @@ class Comparison {
 
   void compare_first_times() {
     // If the oracle was stopped, its first time is an upper bound.
-    diff_.late_first = times_.begins_after(result_.first, truth_.first);
+    diff_.late_first = times_.begins_after(result_.first, truth_.first->time);
     if (!truth_.complete) return;
-    diff_.early_first = times_.ends_before(result_.first, truth_.first);
-    diff_.first = {result_.first, truth_.first, std::max(0., result_.first.lo - truth_.first.lo),
-                   std::max(0., truth_.first.hi - result_.first.hi)};
+    const auto& exact = truth_.first->time;
+    diff_.early_first = times_.ends_before(result_.first, exact);
+    diff_.first = {result_.first, exact, time_off(result_.first, exact, times_.tolerance)};
   }
 
   // Sorts out the missing pairs that are excused. Those left in unexcused_ break first-pairs.
   void excuse() {
     unexcused_ = diff_.missing;
     std::vector<PairContact> excused;
-    if (truth_.complete && !truth_.pairs.empty()) {
-      excuse_beside_the_first(truth_.pairs, truth_.first, unexcused_, excused);
+    if (truth_.complete && truth_.first) {
+      excuse_beside_the_first(truth_.pairs, truth_.first->time, unexcused_, excused);
     } else if (result_.answer == Answer::collision) {
       // If the oracle was stopped, only a pair that is earlier than the detector's first time is
       // missed for sure.
@@ -206,19 +178,24 @@ class Comparison {
   const Claims& claims_;
   const Contract& contract_;
   Times times_;
-  Truth truth_;
+  StepTruth truth_;
   std::vector<PairContact> unexcused_;
   StepDiff diff_;
 };
 
 }  // namespace
 
+TimeOff time_off(const TimeEnclosure& stated, const TimeEnclosure& exact, double tolerance) {
+  if (stated.lo > exact.lo + tolerance) return {stated.lo - exact.lo, 0};
+  if (stated.lo < exact.lo - tolerance) return {0, exact.lo - stated.lo};
+  return {};
+}
+
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const Claims& claims, const Contract& contract,
                  const detector::TrianglesView& triangles) {
-  return Comparison(result, judgement, claims, contract, false).run([&](TrianglePair pair) {
-    return leaves_out(contract, triangles, pair);
-  });
+  return Comparison(result, judgement, claims, contract, false)
+      .run(truth_of(judgement, contract, triangles));
 }
 
 oracle::AskedFeatures asked_features(const Contract& contract) {
@@ -240,9 +217,9 @@ StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement
   // not claimed.
   claims.total = false;
   const bool unique_times = options.arithmetic == detector::Arithmetic::exact;
-  return Comparison(result, judgement, claims, {}, unique_times).run([](TrianglePair) {
-    return false;
-  });
+  const Contract leaves_nothing_out;
+  return Comparison(result, judgement, claims, leaves_nothing_out, unique_times)
+      .run(truth_of(judgement, leaves_nothing_out, detector::Triangles(0, 3)));
 }
 
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,

@@ -25,12 +25,21 @@ struct WrongTime {
   detector::TimeEnclosure detector, oracle;
 };
 
-// The first time of the detector and of the oracle. `late_by` is the share of the step by which
-// the detector's interval begins after the exact time, `early_by` the share by which it ends
-// before it; both are 0 if the interval does neither.
+// How far a stated first time is off, as a share of the step. A time is taken by the lower end of
+// its interval, because that is how far the caller goes: it is late if this end is after t*, and
+// early if it is before t*, each by more than the tolerance. So [0.25, 1] states a time, and where
+// t* is 0.75 it is early by 0.5, although it holds t*. At most one of the two is not 0. Every count
+// of late and early first times is one of these.
+struct TimeOff {
+  double late = 0, early = 0;
+};
+TimeOff time_off(const detector::TimeEnclosure& stated, const detector::TimeEnclosure& exact,
+                 double tolerance);
+
+// The first time of the detector and of the oracle, and how far they are apart.
 struct FirstTimes {
   detector::TimeEnclosure detector, oracle;
-  double late_by = 0, early_by = 0;
+  TimeOff off;
 };
 
 // How many candidate pairs the detector gave, and the least possible number: the pairs in contact
@@ -46,14 +55,15 @@ struct StepDiff {
   bool partial = false;
   bool answered_free = false;       // `free`, although there is a contact that counts
   bool answered_collision = false;  // `collision`, and there is no contact at all
-  // Both answer collision, and the detector's first time is off by more than the tolerance.
+  // Both answer collision, and the detector's interval does not hold t*, by more than the
+  // tolerance: it begins after t*, or ends before it.
   bool late_first = false, early_first = false;
   // Pairs of the oracle that the detector does not report. Empty for a detector that reports no
   // pairs.
   std::vector<detector::PairContact> missing;
   std::vector<detector::PairContact> excused;   // missing, but not claimed
   std::vector<detector::PairContact> spurious;  // reported, but not in contact
-  // Pairs whose time is late, which is unsafe, or early.
+  // Pairs whose interval begins after their time, which is unsafe, or ends before it.
   std::vector<WrongTime> late, early;
 
   // The earliest contact that counts; nothing if there is none.
@@ -84,9 +94,9 @@ struct StepDiff {
 // with t*, the first time of the other pairs. If the detector does report such a pair, it is not
 // spurious.
 //
-// The detector's times are intervals. An interval is right if it holds the oracle's time, late if
-// it begins after that time, and early if it ends before it, each by more than the contract's
-// tolerance (compared in doubles: a tolerance of 0 exactly, another to 1e-16).
+// The detector's times are intervals. An interval is wrong if it does not hold the oracle's time:
+// if it begins after that time, or ends before it, each by more than the contract's tolerance
+// (compared in doubles: a tolerance of 0 exactly, another to 1e-16).
 //
 // A missing pair is excused if all-pairs is not claimed and one of two things holds: the pair is
 // in contact later than t* only, or its part of the contact graph at t* (triangles as nodes, pairs
@@ -99,10 +109,11 @@ struct StepDiff {
 // What breaks a claim:
 // - free-sound: the answer `free`, although there is a contact.
 // - not-late: a first time that is late.
-// - first-time: a first time that is late or early.
+// - first-time: a first time that is late, or whose interval ends before t*.
 // - first-pairs: a missing pair without excuse.
 // - all-pairs: a missing pair, or a late one.
-// - no-spurious: `collision` although there is no contact, a spurious pair, or an early one.
+// - no-spurious: `collision` although there is no contact, a spurious pair, or a pair whose time
+//   ends before its contact.
 //
 // REQUIRES a judgement of the oracle that was asked for asked_features(contract).
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,

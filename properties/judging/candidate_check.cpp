@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "properties/judging/step_truth.h"
+
 namespace assay::properties {
 
 void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgement& judgement,
@@ -9,17 +11,14 @@ void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgem
                       const detector::TrianglesView& triangles, StepDiff& diff) {
   if (!claims.candidates) return;
   if (candidates) {
-    const bool all_features = contract.features == TestedFeatures::both;
-    CandidateCount count{candidates->size(), 0};
+    const StepTruth truth = truth_of(judgement, contract, triangles);
     auto ours = candidates->begin();
-    for (const auto& contact : all_features ? judgement.pairs : judgement.asked_pairs) {
-      if (leaves_out(contract, triangles, contact.pair)) continue;
-      ++count.least;
+    for (const auto& contact : truth.pairs) {
       while (ours != candidates->end() && *ours < contact.pair) ++ours;
       const bool is_there = ours != candidates->end() && *ours == contact.pair;
       if (!is_there) diff.missing_candidates.push_back(contact);
     }
-    diff.candidates = count;
+    diff.candidates = {candidates->size(), truth.pairs.size()};
   }
   if (!diff.missing_candidates.empty()) {
     diff.broken.push_back(Claim::candidates);

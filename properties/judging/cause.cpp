@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "oracle/instant/nearness.h"
 #include "oracle/instant/static_contact.h"
 #include "oracle/mesh/contact_shape.h"
+#include "properties/judging/judged_query.h"
 #include "properties/words.h"
 
 namespace assay::properties {
@@ -18,15 +21,30 @@ using detector::PositionsView;
 using detector::SteppedMesh;
 using detector::TrianglesView;
 
-constexpr const char* time_words[] = {"t inside", "t at 1", "t at 0"};
+constexpr const char* time_words[] = {"t inside", "t at 1", "t near 0", "t at 0"};
 constexpr const char* shape_words[] = {
     "generic",        "double root", "at the end of a feature", "coplanar throughout",
     "parallel edges", "without area"};
 constexpr const char* number_words[] = {"ordinary numbers", "tiny numbers", "huge numbers"};
+constexpr const char* sharing_words[] = {"sharing nothing", "sharing a vertex", "sharing an edge"};
 constexpr const char* at_rest = "at rest";
+constexpr const char* near_start = "near contact at the start";
 
 CauseTime time_of(const detector::TimeEnclosure& t) {
-  return t.hi == 0 ? CauseTime::at_0 : t.lo == 1 ? CauseTime::at_1 : CauseTime::inside;
+  constexpr double thousandth = 0x1p-10;
+  if (t.hi == 0) return CauseTime::at_0;
+  if (t.lo == 1) return CauseTime::at_1;
+  return t.hi <= thousandth ? CauseTime::near_0 : CauseTime::inside;
+}
+
+// A share of the extent at t = 0, as a distance: of the longest side of the box around all
+// vertices.
+double share_of_extent(const PositionsView& x, double share) {
+  double half = 0;  // so that the difference of two doubles does not overflow
+  for (int axis = 0; axis < 3; ++axis) {
+    half = std::max(half, 0.5 * x.col(axis).maxCoeff() - 0.5 * x.col(axis).minCoeff());
+  }
+  return half * (2 * share);
 }
 
 CauseShape shape_of(oracle::ContactShape shape) {
@@ -51,8 +69,13 @@ class PairOfStep {
   PairOfStep(const TrianglesView& triangles, const SteppedMesh& motion, detector::TrianglePair pair)
       : triangles_(triangles), motion_(motion), pair_(pair), faces_{pair.a, pair.b} {}
 
-  // Says which faces count for the area. Without this call both triangles count.
-  void set_faces(std::vector<std::int32_t> faces) { faces_ = std::move(faces); }
+  // Says that the pair holds the two features of a query: of its vertices these alone count, and of
+  // its triangles the face alone.
+  void set_query(const detector::Feature& features) {
+    query_ = features;
+    faces_.clear();
+    if (features.kind == FeatureKind::vertex_face) faces_.push_back(pair_.b);
+  }
 
   MovingPoint path(std::int32_t vertex) const { return motion_.path(vertex); }
 
@@ -81,6 +104,35 @@ class PairOfStep {
       }
     }
     return is_huge ? CauseNumbers::huge : is_tiny ? CauseNumbers::tiny : CauseNumbers::ordinary;
+  }
+
+  CauseSharing sharing() const {
+    int shared = 0;
+    for (const int k : corners) {
+      for (const int l : corners) shared += corner(pair_.a, k) == corner(pair_.b, l);
+    }
+    return static_cast<CauseSharing>(std::min(shared, 2));
+  }
+
+  bool is_near_at_start() const {
+    constexpr double near_share = 1e-5;
+    const auto& x = motion_.vertices_t0;
+    if (query_) {
+      detector::FourPoints q;
+      q.first_group = query_->kind == FeatureKind::vertex_face ? 1 : 2;
+      detector::Positions places(4, 3);
+      for (std::size_t i = 0; i < 4; ++i) {
+        q.points[i] = path(query_->vertices[i]);
+        places.row(static_cast<Eigen::Index>(i)) = x.row(query_->vertices[i]);
+      }
+      const double distance = share_of_extent(places, near_share);
+      return distance > 0 && !start_apart(q, distance);
+    }
+    detector::Triangles two(2, 3);
+    two << triangles_.row(pair_.a), triangles_.row(pair_.b);
+    const double distance = share_of_extent(x, near_share);
+    return distance > 0 && oracle::any_nearer_than(x, two, distance,
+                                                   [](std::int32_t, std::int32_t) { return true; });
   }
 
   bool is_without_area(const detector::TimeEnclosure& t) const {
@@ -142,10 +194,12 @@ class PairOfStep {
   const SteppedMesh& motion_;
   const detector::TrianglePair pair_;
   std::vector<std::int32_t> faces_;
+  std::optional<detector::Feature> query_;
 };
 
 Cause cause_of_contact(const PairOfStep& pair, const PairContact& contact) {
-  Cause cause{time_of(contact.time), false, std::nullopt, pair.numbers()};
+  Cause cause{time_of(contact.time), false, std::nullopt, pair.numbers(), pair.sharing()};
+  cause.is_near_at_start = cause.time != CauseTime::at_0 && pair.is_near_at_start();
   for (const std::int32_t v : contact.feature.vertices) cause.is_moving |= v >= 0 && pair.moves(v);
   const bool has_shape = contact.feature.kind == FeatureKind::vertex_face ||
                          contact.feature.kind == FeatureKind::edge_edge;
@@ -166,18 +220,15 @@ Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
 Cause cause_of_query(const TrianglesView& triangles, const SteppedMesh& motion,
                      const PairContact& contact) {
   PairOfStep pair(triangles, motion, contact.pair);
-  if (contact.feature.kind == FeatureKind::vertex_face) {
-    pair.set_faces({contact.pair.b});
-  } else {
-    pair.set_faces({});
-  }
+  pair.set_query(contact.feature);
   return cause_of_contact(pair, contact);
 }
 
 Cause cause_of(const TrianglesView& triangles, const SteppedMesh& motion,
                detector::TrianglePair pair) {
   const PairOfStep of(triangles, motion, pair);
-  return {std::nullopt, of.moves(), std::nullopt, of.numbers()};
+  return {std::nullopt, of.moves(),   std::nullopt,
+          of.numbers(), of.sharing(), of.is_near_at_start()};
 }
 
 std::string text_of(const Cause& cause) {
@@ -186,13 +237,15 @@ std::string text_of(const Cause& cause) {
   if (cause.time) add(word_of(time_words, *cause.time));
   add(cause.is_moving ? "moving" : at_rest);
   if (cause.shape) add(word_of(shape_words, *cause.shape));
+  if (cause.sharing != CauseSharing::nothing) add(word_of(sharing_words, cause.sharing));
+  if (cause.is_near_at_start) add(near_start);
   if (cause.numbers != CauseNumbers::ordinary) add(word_of(number_words, cause.numbers));
   return text;
 }
 
 int oddity_of(std::string_view signature) {
-  // The order goes by the numbers first, then by what is at rest, then by the shape, then by the
-  // time.
+  // The order goes by the numbers first, then by a near start, then by what is shared, then by what
+  // is at rest, then by the shape, then by the time.
   const auto place_of = [&](const auto& words) {
     int place = 0;
     for (std::size_t i = 0; i < std::size(words); ++i) {
@@ -201,9 +254,19 @@ int oddity_of(std::string_view signature) {
     }
     return place;
   };
-  const bool rests = signature.find(", at rest") != std::string_view::npos;
-  return place_of(number_words) * 1000 + (rests ? 500 : 0) + place_of(shape_words) * 10 +
-         place_of(time_words);
+  const auto says = [&](const char* word) {
+    return signature.find(std::string(", ") + word) != std::string_view::npos ? 1 : 0;
+  };
+  int oddity = place_of(number_words);
+  oddity = 2 * oddity + says(near_start);
+  oddity = 3 * oddity + place_of(sharing_words);
+  oddity = 2 * oddity + says(at_rest);
+  oddity = 10 * oddity + place_of(shape_words);
+  return 10 * oddity + place_of(time_words);
+}
+
+bool LeastOddFirst::operator()(std::string_view a, std::string_view b) const {
+  return std::pair(oddity_of(a), a) < std::pair(oddity_of(b), b);
 }
 
 }  // namespace assay::properties

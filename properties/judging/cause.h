@@ -11,8 +11,11 @@
 
 namespace assay::properties {
 
-// When the exact contact is.
-enum class CauseTime : std::uint8_t { inside, at_1, at_0 };
+// When the exact contact is. `near_0`: after 0, but in the first thousandth (2^-10) of the step.
+enum class CauseTime : std::uint8_t { inside, at_1, near_0, at_0 };
+
+// How many vertices the two triangles share: many detectors do not test neighbours, and say so.
+enum class CauseSharing : std::uint8_t { nothing, vertex, edge };
 
 // What is special about the contact: the first of these that holds, for features at rest without
 // `coplanar_throughout`. `without_area`: a triangle of the pair has no area at t = 0, at t = 1, or
@@ -37,6 +40,12 @@ struct Cause {
   bool is_moving = true;
   std::optional<CauseShape> shape;  // nothing without a contact, and for piercing
   CauseNumbers numbers = CauseNumbers::ordinary;
+  // Of a query it is always `nothing`.
+  CauseSharing sharing = CauseSharing::nothing;
+  // Not in contact at t = 0, but nearer there than 1e-5 of the mesh's extent, by exact distances:
+  // some vertex and face, or two edges, of the two triangles that share no vertex. The extent is
+  // the longest side of the box around all vertices at t = 0.
+  bool is_near_at_start = false;
   friend bool operator==(const Cause&, const Cause&) = default;
 };
 
@@ -51,11 +60,19 @@ Cause cause_of_query(const detector::TrianglesView& triangles, const detector::S
 Cause cause_of(const detector::TrianglesView& triangles, const detector::SteppedMesh& motion,
                detector::TrianglePair pair);
 
-// "t inside, moving, coplanar throughout, huge numbers". Ordinary numbers are not mentioned.
+// "t inside, moving, coplanar throughout, sharing an edge, near contact at the start, huge
+// numbers". What is ordinary of the last three is not mentioned: strangers, a start far enough
+// apart, ordinary numbers.
 std::string text_of(const Cause& cause);
 
 // How odd the cause at the end of a signature is; 0 for the most ordinary one, and for none.
-// People look at the least odd failures first.
+// People look at the least odd failures first, and at strangers before neighbours.
 int oddity_of(std::string_view signature);
+
+// The order of signatures in all that people read: the least odd first, equally odd ones by their
+// text.
+struct LeastOddFirst {
+  bool operator()(std::string_view a, std::string_view b) const;
+};
 
 }  // namespace assay::properties

@@ -1,5 +1,7 @@
 #include "properties/judging/contracted_case.h"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <vector>
 
@@ -10,13 +12,21 @@
 namespace assay::properties {
 namespace {
 
-// Whether the contract takes a step that starts with the mesh at x.
-bool may_start_at(const detector::PositionsView& x, const detector::TrianglesView& triangles,
-                  const Contract& contract) {
+// The pair of triangles for which the contract does not take a step that starts with the mesh at x.
+std::optional<detector::TrianglePair> pair_too_near(const detector::PositionsView& x,
+                                                    const detector::TrianglesView& triangles,
+                                                    const Contract& contract) {
   const double distance = contract.start == StartRule::apart ? contract.start_distance : 0;
-  return !oracle::any_nearer_than(x, triangles, distance, [&](std::int32_t a, std::int32_t b) {
+  return oracle::any_nearer_than(x, triangles, distance, [&](std::int32_t a, std::int32_t b) {
     return !leaves_out(contract, triangles, {a, b});
   });
+}
+
+// Why the contract does not take the mesh at these places, rounded already; empty if it does.
+std::string why_no_frame(const detector::PositionsView& x, const std::vector<Edge>& edges,
+                         const Contract& contract) {
+  if (!x.allFinite()) return "a coordinate has no float32";
+  return beyond_range(x, edges, contract);
 }
 
 // From a list with an entry for each frame, takes the entries of these frames. An empty list stays
@@ -38,6 +48,7 @@ corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& p
   corpus::Case out = c;
   out.script.clear();
   out.expected.steps.clear();
+  if (out.expected.answer != detector::Answer::error) out.expected.answer.reset();
   std::vector<std::int32_t> used;
   std::map<std::int32_t, std::int32_t> renumbered;
   const auto use = [&](std::int32_t frame) {
@@ -59,11 +70,27 @@ corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& p
   return out;
 }
 
+std::vector<Edge> edges_of(const corpus::Case& c) {
+  if (const auto query = says_query(c) ? query_of(c) : std::nullopt) {
+    if (query->first_group == 1) return {{1, 2}, {2, 3}, {3, 1}};
+    return {{0, 1}, {2, 3}};
+  }
+  std::vector<Edge> edges;
+  for (Eigen::Index t = 0; t < c.triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) edges.push_back({c.triangles(t, k), c.triangles(t, (k + 1) % 3)});
+  }
+  return edges;
+}
+
 std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& contract) {
   corpus::Case out = c;
+  const auto edges = edges_of(c);
   for (auto& frame : out.frames) {
-    frame = contracted(frame, contract.coordinates);
-    if (!frame.allFinite() || !in_range(frame, contract)) return std::nullopt;
+    detector::Positions taken = contracted(frame, contract.coordinates);
+    // Facts about other coordinates are none about these.
+    if (taken != frame && out.expected.answer != detector::Answer::error) out.expected = {};
+    frame = std::move(taken);
+    if (!why_no_frame(frame, edges, contract).empty()) return std::nullopt;
   }
   if (says_query(out)) {
     const auto query = query_of(out);
@@ -75,11 +102,42 @@ std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& co
   std::vector<std::size_t> places;
   for (std::size_t s = 0; s < steps.size(); ++s) {
     const auto [entry, is_new] = may_start.try_emplace(steps[s].from, false);
-    if (is_new) entry->second = may_start_at(start_of(out, steps[s]), out.triangles, contract);
+    if (is_new)
+      entry->second = !pair_too_near(start_of(out, steps[s]), out.triangles, contract).has_value();
     if (entry->second) places.push_back(s);
   }
   if (places.empty()) return std::nullopt;
   return places.size() == steps.size() ? out : with_steps(out, places);
+}
+
+std::string why_left_out(const corpus::Case& c, const Contract& contract) {
+  const auto edges = edges_of(c);
+  std::size_t number = 0;
+  for (const auto& frame : c.frames) {
+    ++number;
+    const auto why = why_no_frame(contracted(frame, contract.coordinates), edges, contract);
+    if (!why.empty()) return fmt::format("frame {} of {}: {}", number, c.frames.size(), why);
+  }
+  const std::string distance = contract.start == StartRule::apart
+                                   ? fmt::format("nearer than {}", contract.start_distance)
+                                   : "in contact";
+  const std::string start = contract.start == StartRule::apart ? "apart" : "free";
+  if (says_query(c)) {
+    const auto query = query_of(c);
+    if (!query) return "it says that it is a query, and is none";
+    Contract of_any_start = contract;
+    of_any_start.start = StartRule::any;
+    if (!takes(of_any_start, *query))
+      return fmt::format("features {}: the query is one of {}", name_of(contract.features),
+                         query_word(*query));
+    return fmt::format("start {}: the two features start {}", start, distance);
+  }
+  const auto steps = corpus::steps_of(c);
+  const auto x = contracted(start_of(c, steps.front()), contract.coordinates);
+  const auto pair = pair_too_near(x, c.triangles, contract);
+  if (!pair) return "";
+  return fmt::format("start {}: triangles {} and {} are {} where step 1 starts{}", start, pair->a,
+                     pair->b, distance, steps.size() > 1 ? ", and every other step starts so" : "");
 }
 
 }  // namespace assay::properties

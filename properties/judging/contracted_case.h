@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "corpus/cases/case_file.h"
 #include "properties/claims/contract.h"
@@ -13,11 +15,21 @@ namespace assay::properties {
 // becomes the first frame, because the detector is made there. Nothing if a coordinate is beyond
 // what the contract can hold, or if no step is left: the case is then not for this detector. A
 // query (query_case.h) is taken or left out as a whole; a case that says that it is a query and is
-// none is not taken.
+// none is not taken. Expected facts that are no longer known to hold are left out.
 std::optional<corpus::Case> contracted(const corpus::Case& c, const Contract& contract);
 
-// The case with only the steps at these places, ascending, and the frames that they use. REQUIRES
-// at least one place.
+// Why contracted() gives nothing for the case, in one line: the member of the contract, the place
+// and the value ("frame 1 of 2: edge 3-4 is 2e-13 long, below least_nonzero, 1e-06"; "start free:
+// triangles 3 and 8 are in contact where step 1 starts, and every other step starts so").
+std::string why_left_out(const corpus::Case& c, const Contract& contract);
+
+// The edges whose lengths count for a contract's range: of all triangles, or of the features of a
+// query.
+std::vector<Edge> edges_of(const corpus::Case& c);
+
+// The case with only the steps at these places, ascending, and the frames that they use. What was
+// expected of the whole case is no longer known, unless it is that the mesh is refused. REQUIRES at
+// least one place.
 corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places);
 
 }  // namespace assay::properties

@@ -14,9 +14,11 @@ oracle::ContactAnswer exact_answer(const FourPoints& q) {
              : oracle::edge_edge_contact({{p[0], p[1]}, {p[2], p[3]}}, detector::Want::first_time);
 }
 
-// Makes two triangles of the two features. Where a feature is a point or a segment, so is its
-// triangle. The triangles are then as near to each other as the features.
+}  // namespace
+
 bool start_apart(const FourPoints& q, double distance) {
+  // Two triangles of the two features. Where a feature is a point or a segment, so is its triangle.
+  // The triangles are then as near to each other as the features.
   const bool is_vertex_face = q.first_group == 1;
   const std::array<std::size_t, 6> corners = is_vertex_face
                                                  ? std::array<std::size_t, 6>{0, 0, 0, 1, 2, 3}
@@ -31,8 +33,6 @@ bool start_apart(const FourPoints& q, double distance) {
   return !oracle::any_nearer_than(x, triangles, distance,
                                   [](std::int32_t, std::int32_t) { return true; });
 }
-
-}  // namespace
 
 oracle::StepJudgement judge_query(const FourPoints& query) {
   const auto answer = exact_answer(query);

@@ -12,6 +12,9 @@ namespace assay::properties {
 // oracle/query/contact.h.
 oracle::StepJudgement judge_query(const detector::FourPoints& query);
 
+// Whether the two features are not in contact at t = 0, and not nearer there than the distance.
+bool start_apart(const detector::FourPoints& query, double distance);
+
 // Whether a contract takes the query. This depends on the kind of its features, and on how they
 // lie at t = 0.
 bool takes(const Contract& contract, const detector::FourPoints& query);

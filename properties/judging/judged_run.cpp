@@ -52,6 +52,11 @@ std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contr
   return judge_case(c, {jobs, {}, asked_features(contract)});
 }
 
+StepTruth truth_of(const corpus::Case& c, const oracle::StepJudgement& judgement,
+                   const Contract& contract) {
+  return truth_of(judgement, says_query(c) ? on_queries(contract) : contract, c.triangles);
+}
+
 StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudgement& judgement,
                       const Claims& claims, const Contract& contract,
                       const detector::TrianglesView& triangles) {
@@ -95,6 +100,10 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
     judged.steps.push_back(std::move(diff));
   }
   if (!again) return judged;
+  if (again->end == RunEnd::not_run) {
+    judged.explanation = again->explanation;
+    judged.outcome = worse(judged.outcome, Outcome::error);
+  }
   if (again->end == RunEnd::crashed && run.end != RunEnd::crashed) {
     judged.explanation = again->explanation;
     not_answered(judged, claims);

@@ -8,6 +8,7 @@
 
 #include "properties/judging/agreement.h"
 #include "properties/judging/contracted_case.h"
+#include "properties/judging/step_truth.h"
 #include "properties/worker/case_run.h"
 
 namespace assay::properties {
@@ -29,6 +30,11 @@ std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c,
 std::vector<oracle::StepJudgement> judge_case(const corpus::Case& c, const Contract& contract,
                                               int jobs = 1);
 
+// The oracle's facts of a step of this case under the contract. Adjacency leaves nothing out of a
+// query (query_case.h).
+StepTruth truth_of(const corpus::Case& c, const oracle::StepJudgement& judgement,
+                   const Contract& contract);
+
 // The diff of step s of a run: its answer (agreement.h) and its candidates (candidate_check.h).
 // REQUIRES a run that has this step.
 StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudgement& judgement,
@@ -40,7 +46,8 @@ StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudge
 //   `total` is not claimed they are Outcome::error.
 // - A hang, or a lack of memory, is undecided.
 // - A run that did not take place is Outcome::error.
-// - `again` is a second run. It breaks `total` if it crashes, and `deterministic` if it differs.
+// - `again` is a second run. It breaks `total` if it crashes, and `deterministic` if it differs. If
+//   it did not take place, that is Outcome::error.
 //
 // Without judgements only these are judged. REQUIRES judgements of the same contracted case.
 JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,

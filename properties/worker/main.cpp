@@ -2,6 +2,7 @@
 // It holds the built-in detector and, if a library is named, a plug-in. It never holds the oracle.
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "properties/worker/channel.h"
 #include "properties/worker/isolation/keeper.h"
@@ -47,6 +49,16 @@ bool settle(std::uint64_t host) {
   ::setrlimit(RLIMIT_CORE, &no_core);
   end_first_without_memory();
   return ::dup2(STDERR_FILENO, STDOUT_FILENO) >= 0;
+}
+
+// Gives what is loaded from now on other hash seeds and other addresses than in a worker with
+// another number: of the heap, and of what is mapped. The memory stays taken.
+void vary(std::uint64_t variation) {
+  ::setenv("PYTHONHASHSEED", std::to_string(variation).c_str(), 1);
+  constexpr std::size_t page = 4096, small = 16;
+  if (variation == 0) return;
+  [[maybe_unused]] static void* volatile of_heap = std::malloc(small * (variation % page + 1));
+  ::mmap(nullptr, page * (variation % page + 1), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
 }
 
 struct LoadedPlugin {
@@ -104,13 +116,15 @@ int serve(Channel channel, const LoadedPlugin* library) {
 }  // namespace
 
 // The arguments are the descriptor of the channel, the process of the host and a limit in bytes.
-// For a plug-in these follow: the isolation, its scratch folder, the library, and how many threads
-// it may use. If it is the plug-in that serves detectors in Python, the word of the detector
-// follows too.
+// For a plug-in these follow: the isolation, its scratch folder, the library, how many threads it
+// may use, and its name as the user calls it, which may be the word of a detector in Python. Then
+// come a folder in which it reads no file, or an empty word, and the number by which this worker
+// differs from others. At last come copies of files, each followed by the path of its original.
 int main(int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-  constexpr std::size_t built_in = 4, with_plugin = 9;
-  if (words.size() == built_in || words.size() == with_plugin) {
+  constexpr std::size_t built_in = 4, with_plugin = 11;
+  const bool is_with_plugin = words.size() >= with_plugin && (words.size() - with_plugin) % 2 == 0;
+  if (words.size() == built_in || is_with_plugin) {
     const auto channel = number(words[1]), host = number(words[2]), bytes = number(words[3]);
     if (channel && host && bytes && settle(*host)) {
       Channel to_host(static_cast<int>(*channel));
@@ -118,14 +132,16 @@ int main(int argc, char** argv) {
         return limit_memory(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
       }
       const auto mode = isolation_mode_of(words[4]);
-      const auto threads = number(words[7]);
-      if (mode && threads) {
-        LoadedPlugin plugin{words[6], static_cast<std::uint32_t>(*threads), words[6]};
-        if (const std::string_view served = words[8]; !served.empty()) {
-          ::setenv(python_detector_variable, words[8], 1);
-          plugin.called = std::string(python_prefix) + words[8];
-        }
-        keep(std::move(to_host), {*mode, words[5], *bytes},
+      const auto threads = number(words[7]), variation = number(words[10]);
+      if (mode && threads && variation) {
+        vary(*variation);
+        const LoadedPlugin plugin{words[6], static_cast<std::uint32_t>(*threads), words[8]};
+        if (const auto word = python_word_of(plugin.called))
+          ::setenv(python_detector_variable, word->text().c_str(), 1);
+        std::vector<ReplacedFile> replaced;
+        for (std::size_t i = with_plugin; i < words.size(); i += 2)
+          replaced.push_back({words[i], words[i + 1]});
+        keep(std::move(to_host), {*mode, words[5], *bytes, words[9], std::move(replaced)},
              [&plugin](Channel to_keeper) { return serve(std::move(to_keeper), &plugin); });
       }
     }

@@ -83,8 +83,9 @@ std::vector<Row> tree_of(pid_t root, std::vector<Row> all) {
   return tree;
 }
 
-// The states: S waits, I is a thread of the system that waits, Z and X have ended.
-bool waits(const Row& row) { return std::strchr("SIZX", row.state) != nullptr; }
+// The states: S and D wait, T is stopped, I is a thread of the system that waits, Z and X have
+// ended. One that a debugger holds (t) does not wait, so that it is not ended so soon.
+bool waits(const Row& row) { return std::strchr("SDTIZX", row.state) != nullptr; }
 
 bool all_wait(const Row& process) {
   if (process.threads <= 1) return waits(process);

@@ -12,8 +12,8 @@ struct ProcessTree {
   // little, because /proc counts in ticks. What a process used is lost if it ends and its parent
   // does not wait for it.
   double descendant_seconds = 0;
-  // Every thread of each of them waits for something other than a processor or a disk. A process
-  // that was stopped (SIGSTOP, a debugger) is not asleep.
+  // Every thread of each of them waits for something other than a processor, or was stopped by a
+  // signal: a process may do both to itself. One that a debugger holds is not asleep.
   bool is_asleep = false;
 };
 

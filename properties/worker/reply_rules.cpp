@@ -173,6 +173,9 @@ std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& ans
 std::string broken_rule(const PluginDescription& description) {
   if (!is_line(description.name) || !is_line(description.version)) return "a name that is no line";
   if (description.name.empty()) return "no name";
+  for (const auto& text : {description.name, description.version}) {
+    if (auto fault = fault_of_name(text); !fault.empty()) return fault;
+  }
   const auto& parts = description.parts;
   if (!parts.steps && !parts.query && !parts.candidates) return "no part that can be judged";
   if (description.claims.candidates != parts.candidates)

@@ -44,9 +44,9 @@ std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& ans
 // The most bytes that these answers may have.
 std::uint64_t longest_query_reply(std::size_t queries);
 
-// The same for a description: a name and a version in one printable line each, a margin that is a
-// length, at least one part that can be judged, and a claim on candidates if and only if it has
-// them.
+// The same for a description: a name and a version in one printable line each that may be such
+// (fault_of_name), a margin that is a length, at least one part that can be judged, and a claim on
+// candidates if and only if it has them.
 std::string broken_rule(const PluginDescription& description);
 
 // The same for the reason why a plug-in cannot be loaded: a problem of PluginHost::open, in one

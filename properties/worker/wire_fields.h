@@ -142,7 +142,7 @@ void fields(Wire& wire, Isolation& isolation) {
 
 template <class Wire>
 void fields(Wire& wire, KeeperHello& hello) {
-  wire(hello.wire_version, hello.isolation, hello.process);
+  wire(hello.wire_version, hello.isolation, hello.process, hello.has_copies);
 }
 
 template <class Wire>

@@ -11,6 +11,7 @@
 #include "properties/worker/child_process.h"
 #include "properties/worker/isolation/printed_words.h"
 #include "properties/worker/isolation/scratch_folder.h"
+#include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/plugin/python_word.h"
 #include "properties/worker/reply_rules.h"
 #include "properties/worker/wire_fields.h"
@@ -57,6 +58,7 @@ struct WorkerProcess::Parts {
   std::filesystem::path program;
   std::optional<std::filesystem::path> plugin_library;
   WorkerLimits limits;
+  std::shared_ptr<const JudgedLibrary> judged;
   std::optional<ScratchFolder> scratch;
   std::optional<Live> live;
   PluginDescription description;
@@ -90,6 +92,10 @@ struct WorkerProcess::Parts {
                        who() + ": ended while it was loaded: " +
                            (is_outside ? every_time(*end) : end->text) + last_line_printed()};
       }
+      if (const auto same = judged ? judged->is_as_it_was() : boost::outcome_v2::success(); !same) {
+        live.reset();
+        return same.error();
+      }
       was_loaded = true;
       untold += static_cast<std::uint64_t>(killed);
     }
@@ -122,17 +128,20 @@ struct WorkerProcess::Parts {
       }
       arguments.emplace_back(name_of(limits.isolation));
       arguments.push_back(scratch ? scratch->path().string() : std::string());
-      auto library = *plugin_library;
-      std::string served;
-      if (const auto word = python_word_of(library.string()); names_python(library.string())) {
-        auto serving = python_plugin(library.string(), program);
-        if (!serving) return serving.error();
-        library = std::move(serving.value());
-        served = word->text();
+      if (names_python(who())) {
+        if (const auto serving = python_plugin(who(), program); !serving) return serving.error();
       }
-      arguments.push_back(library.string());
+      if (!judged) judged = JudgedLibrary::of(*plugin_library, program);
+      arguments.push_back(judged->file().string());
       arguments.push_back(std::to_string(limits.threads));
-      arguments.push_back(std::move(served));
+      arguments.push_back(who());
+      arguments.push_back(limits.unread.string());
+      arguments.push_back(std::to_string(limits.variation));
+      for (const auto& file : judged->files()) {
+        if (file.copy.empty()) continue;
+        arguments.push_back(file.copy.string());
+        arguments.push_back(file.original.string());
+      }
     }
     const bool is_silent = plugin_library && limits.isolation != IsolationMode::none;
     auto printed = is_silent ? PrintedPipe::make() : std::nullopt;
@@ -163,6 +172,7 @@ struct WorkerProcess::Parts {
         if (!decode(message, keeper) || keeper.wire_version != wire_version()) return other_build();
         isolation = keeper.isolation;
         live->plugin = static_cast<pid_t>(keeper.process);
+        if (!keeper.has_copies) judged->note_loaded_in_place();
         if (!covers(isolation, limits.least)) {
           return Problem{ProblemKind::not_isolated,
                          fmt::format("{}: not loaded: its isolation would be {}, and was {} when "

@@ -38,6 +38,11 @@ struct WorkerLimits {
   // again with less, whatever `isolation` says; the problem is then not_isolated.
   Isolation least = {};
   std::uint64_t threads = 1;  // told to a plug-in that asks how many it may use
+  // A folder in which an isolated plug-in reads no file: that of the run.
+  std::filesystem::path unread = {};
+  // Workers of one detector with different numbers have different hash seeds (PYTHONHASHSEED) and
+  // different addresses, even on a system that deals out none at random.
+  std::uint32_t variation = 0;
 };
 
 // The worker is started when it is first needed, and again after a crash or a hang. Use one

@@ -3,7 +3,8 @@
 #include <bit>
 #include <cmath>
 
-#include "properties/judging/case_check.h"
+#include "properties/judging/agreement.h"
+#include "properties/judging/case_options.h"
 
 namespace assay::reports {
 
@@ -43,16 +44,12 @@ std::int64_t ordinal(double x) {
 
 FirstTimeError first_time_error(const detector::TimeEnclosure& reported,
                                 const detector::TimeEnclosure& truth) {
-  FirstTimeError error;
+  const auto off = properties::time_off(reported, truth, 0);
   const double ulps = std::abs(static_cast<double>(ordinal(reported.lo) - ordinal(truth.lo)));
-  if (reported.lo > truth.lo) {
-    error.late_ulps = ulps;
-    error.late_share = reported.lo - truth.lo;
-  } else if (reported.lo < truth.lo) {
-    error.early_ulps = ulps;
-    error.early_share = truth.lo - reported.lo;
-  }
-  return error;
+  return {.late_ulps = off.late > 0 ? ulps : 0,
+          .early_ulps = off.early > 0 ? ulps : 0,
+          .late_share = off.late,
+          .early_share = off.early};
 }
 
 }  // namespace assay::reports

@@ -33,8 +33,8 @@ std::vector<Variant> all_variants(bool with_none);
 // "exact view-auto all"
 std::string name_of(const Variant& variant);
 
-// How far a reported first time is from the oracle's. Both are taken by their lower ends, because
-// that is the time up to which a user would go. At most one of late and early is not 0.
+// How far a reported first time is from the oracle's: properties::TimeOff with a tolerance of 0,
+// and the same in doubles. At most one of late and early is not 0.
 struct FirstTimeError {
   double late_ulps = 0, early_ulps = 0;    // doubles between the two times
   double late_share = 0, early_share = 0;  // as shares of the step

@@ -36,6 +36,25 @@ Expected<std::vector<corpus::Case>> public_sequences(const std::string& folder) 
   return Refusal(problem.what());
 }
 
+// An isolated plug-in reads nothing in the folder of its run. So the folder must not hold the
+// library, nor the current folder, where a detector in Python lies.
+Expected<void> lies_apart(const std::filesystem::path& out, const DetectorWords& detector) {
+  if (detector.library.empty() || detector.isolation == properties::IsolationMode::none)
+    return outcome::success();
+  std::error_code error;
+  for (const auto& place :
+       {std::filesystem::weakly_canonical(detector.library, error).parent_path(),
+        std::filesystem::current_path(error)}) {
+    const auto end = std::mismatch(out.begin(), out.end(), place.begin(), place.end()).first;
+    if (end == out.end())
+      return Refusal(
+          fmt::format("--out {}: it holds {}, and the detector reads nothing in the "
+                      "folder of its run; name a folder of the run's own",
+                      out.string(), place.string()));
+  }
+  return outcome::success();
+}
+
 }  // namespace
 
 void add_campaign_options(Verb& verb, CampaignWords& words) {
@@ -85,13 +104,18 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     request.own_cases = std::move(own.value());
   }
   // The proof is read before the first code of a plug-in runs.
-  if (!words.power.empty()) {
+  if (!words.power.empty() && request.plan.fault_cases == 0) {
+    fmt::print("campaign {} plants no faults: --power is not needed\n", request.plan.name);
+  } else if (!words.power.empty()) {
     auto proof = properties::take_power(words.power, words.out, request);
     if (!proof) return Refusal(proof.error());
     request.power = std::move(proof.value());
   }
+  std::error_code error;
+  request.folder = std::filesystem::weakly_canonical(words.out, error);
+  if (const auto apart = lies_apart(request.folder, words.detector); !apart) return apart.error();
   auto chosen_words = words.detector;
-  if (asks_queries(request.plan) && chosen_words.part == DetectorPart::by_library)
+  if (asks_queries_alone(request.plan) && chosen_words.part == DetectorPart::by_library)
     chosen_words.part = DetectorPart::query;
   if (auto chosen = choose_detector(chosen_words, request); !chosen) return chosen.error();
   const auto& detector = request.detector;
@@ -104,11 +128,17 @@ Expected<properties::CampaignRequest> ask_for_campaign(const CampaignWords& word
     return Refusal(fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to certify",
         words.detector.library));
-  if (detector.of_queries) request.plan = properties::query_plan(std::move(request.plan));
-  if (!detector.of_queries && asks_queries(request.plan))
+  const bool with_query = detector.query_claims != properties::Claims();
+  if (words.detector.part == DetectorPart::steps)
+    request.plan = properties::without_queries(std::move(request.plan));
+  if (detector.of_queries) {
+    request.plan = properties::query_plan(std::move(request.plan));
+  } else if (with_query) {
+    request.plan = properties::with_queries(std::move(request.plan));
+  } else if (asks_queries(request.plan)) {
     return Refusal(fmt::format("campaign {}: its strata are queries, of a plug-in's query alone",
                                request.plan.name));
-  std::error_code error;
+  }
   std::filesystem::create_directories(words.out, error);
   if (error) return Refusal(fmt::format("{}: cannot be made: {}", words.out, error.message()));
   return request;

@@ -15,7 +15,7 @@ namespace assay::reports {
 // The request in the user's words.
 struct CampaignWords {
   std::string campaign;  // a name or a file
-  std::uint64_t seed = 1;
+  std::uint64_t seed = properties::default_seed;
   std::optional<double> time_limit;     // seconds of the clock, in place of the campaign's own
   std::optional<double> case_seconds;   // of processor time, in place of the campaign's own
   std::optional<std::uint64_t> memory;  // bytes, in place of the campaign's own

@@ -8,6 +8,7 @@
 #include "properties/campaign/stored/binding.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/campaign/slow_text.h"
+#include "reports/check/detector_choice.h"
 #include "reports/check/plugin_text.h"
 #include "reports/terminal/exit_code.h"
 #include "reports/terminal/plain_progress.h"
@@ -54,11 +55,12 @@ class CampaignTerminal : public properties::CampaignObserver {
 
   void on_trial(const properties::TrialProgress& state) override {
     progress_->show(
-        fmt::format("{}/{} trials, {} with a defect, {} undecided{}{}", state.done, state.planned,
+        fmt::format("{}/{} trials, {} with a defect, {} undecided{}{}{}", state.done, state.planned,
                     state.defects, state.undecided,
                     state.disturbed ? fmt::format(", {} disturbed", state.disturbed) : "",
                     rest_text(state.done - state.stored, state.planned - state.done,
-                              seconds_since(phase_began_))));
+                              seconds_since(phase_began_)),
+                    advice(state)));
   }
 
   void on_trials(const properties::TrialsEnd& end) override {
@@ -72,10 +74,10 @@ class CampaignTerminal : public properties::CampaignObserver {
 
   void on_failures_shrunk(const properties::KeptFailures& kept) override {
     progress_.reset();
-    const auto failures = write_failures(
-        kept, out_,
-        {request_.plugin ? request_.plugin->string() : "", request_.isolation, request_.threads,
-         request_.detector.of_queries ? DetectorPart::query : DetectorPart::steps});
+    const auto failures =
+        write_failures(kept, out_,
+                       {request_.plugin ? request_.plugin->string() : "", request_.isolation,
+                        request_.threads, part_asked_by(request_.plan)});
     fmt::print("{}", failures.text);
     std::fflush(stdout);
     written_ = failures.written;
@@ -108,6 +110,17 @@ class CampaignTerminal : public properties::CampaignObserver {
   const Expected<void>& written() const { return written_; }
 
  private:
+  // What is long in a campaign of which much is undecided is mostly the wait for those cases.
+  std::string advice(const properties::TrialProgress& state) const {
+    constexpr std::uint64_t share = 50;  // one in so many
+    constexpr double short_limit = 1;
+    const bool waits = state.undecided > 1 && state.undecided * share > state.done &&
+                       request_.plan.case_seconds > short_limit;
+    return waits ? fmt::format(" (each undecided one takes {:g} s: --case-seconds 1 is quicker)",
+                               request_.plan.case_seconds)
+                 : "";
+  }
+
   void announce(std::uint64_t stored) const {
     const auto& plan = request_.plan;
     const auto planned = properties::planned_trial_count(plan, request_.shard);

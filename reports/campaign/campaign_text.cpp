@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "properties/campaign/gates/bounds.h"
+#include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/stored/count_names.h"
 #include "reports/steps/measures_text.h"
 #include "reports/terminal/exit_code.h"
@@ -19,12 +20,12 @@ using properties::RunFindings;
 using properties::StratumTally;
 
 std::string stratum_row(const RunFindings& findings, const properties::StratumPlan& stratum,
-                        std::size_t c, const std::string& name) {
+                        std::size_t c, const std::string& name, std::size_t width) {
   const auto& tally = findings.tally_of(stratum);
   const auto& outcomes = tally.by_configuration[c];
   const double seconds = 1e-6 * static_cast<double>(tally.oracle_us + tally.detector_us);
-  return fmt::format("{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9.2e} {:>9} {:>13}\n",
-                     c == 0 ? stratum.family : "", name, outcomes.trials(), outcomes.holds,
+  return fmt::format("{:24} {:{}} {:>7} {:>7} {:>7} {:>9} {:>9.2e} {:>9} {:>13}\n",
+                     c == 0 ? stratum.family : "", name, width, outcomes.trials(), outcomes.holds,
                      outcomes.defects, outcomes.open(), bound_of(outcomes, findings.run),
                      stratum.wanted_bound > 0 ? fmt::format("{:.0e}", stratum.wanted_bound) : "-",
                      c == 0 && seconds > 0
@@ -35,9 +36,13 @@ std::string stratum_row(const RunFindings& findings, const properties::StratumPl
 // A row for each family and configuration. If all configurations agree, they share one row.
 std::string strata_text(const RunFindings& findings) {
   const auto& configurations = findings.run.detector.configurations;
-  std::string out = fmt::format("{:24} {:18} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n",
-                                "stratum", "configuration", "n", "holds", "defects", "undecided",
-                                "bound", "wanted", "steps/s/core");
+  // A plug-in's one configuration has its name, which may be long.
+  std::size_t width = 18;
+  for (const auto& configuration : configurations)
+    width = std::max(width, configuration.name.size());
+  std::string out = fmt::format("{:24} {:{}} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9} {:>13}\n",
+                                "stratum", "configuration", width, "n", "holds", "defects",
+                                "undecided", "bound", "wanted", "steps/s/core");
   for (const auto& stratum : findings.run.plan.strata) {
     const auto& all = findings.tally_of(stratum).by_configuration;
     const bool all_same = std::all_of(all.begin(), all.end(),
@@ -47,7 +52,8 @@ std::string strata_text(const RunFindings& findings) {
       out += stratum_row(findings, stratum, c,
                          all_same && configurations.size() > 1
                              ? fmt::format("each of {}", configurations.size())
-                             : configurations[c].name);
+                             : configurations[c].name,
+                         width);
   }
   return out;
 }
@@ -155,10 +161,11 @@ const char* word_of(const FaultProof& proof) {
 
 std::string faults_text(const RunFindings& findings) {
   const auto& power = findings.evidence.power;
-  const auto count =
-      fmt::format("{} of {} planted faults found", findings.found(), findings.planted());
+  const auto count = fmt::format(
+      "{} of {} planted faults found: {}", findings.found(), findings.planted(),
+      found_text(findings.found_at_random(), findings.found() - findings.found_at_random()));
   if (!power.empty())
-    return fmt::format("{}, by campaign {}, seed {}, of this build\n", count, power[0].campaign,
+    return fmt::format("{}; campaign {}, seed {}, of this build\n", count, power[0].campaign,
                        power[0].seed);
   std::string out = fmt::format("{:44} {:18} {:>10} {:>12} {:>9}  {}\n", "fault", "law", "cases",
                                 "curated", "vertices", "verdict");
@@ -211,6 +218,18 @@ std::string worlds_text(const RunFindings& findings) {
   return out;
 }
 
+// What was judged of the detector and what not, beside what its measures tell.
+std::string judged_lines(const RunFindings& findings) {
+  std::string out;
+  const auto sizes = sizes_text(properties::judged_sizes(findings));
+  if (!sizes.empty()) out += fmt::format("claims were tried on {}\n", sizes);
+  for (const auto& part : findings.run.detector.unjudged_parts)
+    out += fmt::format("not judged: the {} of this library\n", part);
+  for (const auto& family : properties::left_out_families(findings))
+    out += fmt::format("not judged: family {}, which the contract leaves out\n", family);
+  return out;
+}
+
 }  // namespace
 
 std::string findings_text(const RunFindings& findings) {
@@ -222,6 +241,7 @@ std::string findings_text(const RunFindings& findings) {
     const auto tags = tags_text(findings.tally.counts);
     if (!tags.empty()) out += fmt::format("\n{}", tags);
     if (!run.detector.built_in) out += fmt::format("\n{}", measures_text(findings));
+    out += judged_lines(findings);
     if (run.detector.built_in && run.plan.laws_every > 0)
       out += fmt::format("\n{}", laws_text(findings));
   }

@@ -6,9 +6,11 @@
 #include <set>
 
 #include "corpus/atomic_file.h"
-#include "properties/campaign/query_plan.h"
 #include "properties/campaign/stored/run_folder.h"
+#include "properties/judging/cause.h"
 #include "properties/reducer/mesh_size.h"
+#include "properties/words.h"
+#include "reports/check/detector_choice.h"
 #include "reports/check/plugin_text.h"
 #include "reports/pictures/scene_maker.h"
 #include "reports/terminal/shell_word.h"
@@ -23,12 +25,16 @@ std::string replay_line(const std::filesystem::path& out, const std::filesystem:
                      detector_words(absolute_path(detector.library), detector.threads));
 }
 
+std::string pasted(const std::string& line) {
+  constexpr std::string_view name = "assay ";
+  return line.starts_with(name) ? this_program(true) + " " + line.substr(name.size()) : line;
+}
+
 DetectorWords detector_of(const properties::RunFindings& findings) {
   DetectorWords words;
   words.library = findings.library;
   words.threads = findings.run.detector.threads;
-  words.part =
-      properties::asks_queries(findings.run.plan) ? DetectorPart::query : DetectorPart::steps;
+  words.part = part_asked_by(findings.run.plan);
   return words;
 }
 
@@ -46,6 +52,9 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
   FailureReport report;
   auto failures = kept.list;
   if (failures.empty()) return report;
+  std::stable_sort(failures.begin(), failures.end(), [](const auto& a, const auto& b) {
+    return properties::LeastOddFirst()(a.signature, b.signature);
+  });
   std::stable_partition(failures.begin(), failures.end(),
                         [](const auto& failure) { return !failure.smallest.empty(); });
   const auto folder = (out / failure_file(failures[0], false)).parent_path();
@@ -80,12 +89,13 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
     }
     const auto count = kept.times_met.find(failure.signature);
     report.text += fmt::format(
-        "\nDEFECT {} ({}), met {} times\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n",
-        failure.signature, failure.configuration, count == kept.times_met.end() ? 1 : count->second,
+        "\nDEFECT {} ({}), met {}\n  {}\n  case {}: {}{}\n{}  picture {}\n  replay: {}\n",
+        failure.signature, failure.configuration,
+        properties::times_text(count == kept.times_met.end() ? 1 : count->second),
         shown_explanation(failure), failure.id, size_of_mesh(failure.mesh),
         is_shrunk ? " -> " + size_of_mesh(failure.smallest) : "",
         failure.flaky ? "  two runs of it differ: a replay may hold\n" : "",
-        picture_file((out / shown_file).string()), replay_line(out, shown_file, detector));
+        picture_file((out / shown_file).string()), pasted(replay_line(out, shown_file, detector)));
     report.text += printed_text(failure.printed);
   }
   return report;

@@ -11,9 +11,13 @@
 
 namespace assay::reports {
 
-// "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder.
+// "assay replay OUT/failures/... --detector LIB.so", to be pasted in any folder. So it stands in
+// certificates and pages.
 std::string replay_line(const std::filesystem::path& out, const std::filesystem::path& file,
                         const DetectorWords& detector);
+
+// The same as it is printed: with this program's own path where `assay` is not on the PATH.
+std::string pasted(const std::string& line);
 
 // The detector of a run, as a replay line names it.
 DetectorWords detector_of(const properties::RunFindings& findings);

@@ -40,11 +40,11 @@ const SlowCase* kept_of(const properties::RunFindings& findings, const std::stri
 
 std::string trial_text(const properties::RunFindings& findings,
                        const properties::TrialRecord& trial, const std::string& took) {
-  std::string out = fmt::format("{:>12}  {}: {} triangles, {} steps\n", took, trial.id,
-                                trial.triangles, trial.steps);
+  std::string out = fmt::format("{:>12}  {}: {} triangles, {} step{}\n", took, trial.id,
+                                trial.triangles, trial.steps, trial.steps == 1 ? "" : "s");
   const auto* kept = kept_of(findings, trial.id);
   if (!kept) {
-    return out + fmt::format("              replay: assay replay {}{}\n", trial.id,
+    return out + fmt::format("              replay: {} replay {}{}\n", this_program(), trial.id,
                              detector_words(findings.library, findings.run.detector.threads));
   }
   const auto file = slow_file(*kept, !kept->smallest.empty());
@@ -52,8 +52,8 @@ std::string trial_text(const properties::RunFindings& findings,
     out += fmt::format("              shrunk to {}, which takes at least {} s\n",
                        slow_mesh_size(kept->smallest), 2 * kept->limit);
   return out + fmt::format("              picture {}\n              replay: {}\n",
-                           picture_file((findings.folder / file).string()),
-                           replay_line(findings.folder, file, detector_of(findings)));
+                           picture_file(absolute_path(findings.folder / file)),
+                           pasted(replay_line(findings.folder, file, detector_of(findings))));
 }
 
 }  // namespace

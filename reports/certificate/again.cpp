@@ -5,8 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/plugin_digest.h"
-#include "properties/campaign/query_plan.h"
+#include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"
 
@@ -16,9 +15,10 @@ namespace {
 using properties::BoundRun;
 
 // Finds the library of the plug-in and checks that it is the certified one, before any of its code
-// runs.
+// runs. `judged` keeps it as it is.
 Expected<std::string> certified_library(const properties::RunFindings& findings,
-                                        const std::string& named) {
+                                        const std::string& named,
+                                        std::shared_ptr<const properties::JudgedLibrary>& judged) {
   const auto& run = findings.run;
   if (run.detector.built_in) {
     if (!named.empty())
@@ -28,7 +28,8 @@ Expected<std::string> certified_library(const properties::RunFindings& findings,
   const auto library = named.empty() ? findings.library : named;
   if (library.empty())
     return Refusal("the stores do not say where the plug-in lies: name it by --detector");
-  const auto digest = properties::digest_of_plugin(library, properties::worker_program());
+  judged = properties::JudgedLibrary::of(library, properties::worker_program());
+  const auto& digest = judged->digest();
   if (!digest) return Refusal(digest.error());
   if (digest.value() != run.digests.plugin)
     return Refusal(
@@ -57,15 +58,16 @@ Expected<properties::TrialsAgain> run_certified_again(
   const auto findings = properties::read_findings(folder);
   if (!findings) return Refusal(findings.error());
   const auto& run = findings.value().run;
-  const auto library = certified_library(findings.value(), asked.detector.library);
+  std::shared_ptr<const properties::JudgedLibrary> judged;
+  const auto library = certified_library(findings.value(), asked.detector.library, judged);
   if (!library) return library.error();
   properties::CampaignRequest request;
   request.plan = run.plan;
   request.seed = run.seed;
   request.jobs = asked.jobs;
   request.worker = properties::worker_program();
-  const auto part = properties::asks_queries(run.plan) ? DetectorPart::query : DetectorPart::steps;
-  const DetectorWords words{library.value(), asked.detector.isolation, run.detector.threads, part};
+  const DetectorWords words{library.value(), asked.detector.isolation, run.detector.threads,
+                            part_asked_by(run.plan)};
   if (auto chosen = choose_detector(words, request); !chosen) return chosen.error();
   const auto ours = properties::read_binding(properties::binding_of(request), folder);
   if (!ours) return Refusal(ours.error());

@@ -7,6 +7,7 @@
 #include "corpus/digest.h"
 #include "corpus/queries/query_csv.h"
 #include "corpus/scenes/scenes.h"
+#include "properties/campaign/stored/step_measures.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/rung_cases.h"
 #include "properties/worker/plugin/query_case.h"
@@ -19,6 +20,12 @@ namespace {
 using detector::Culling;
 using properties::CorpusRow;
 using properties::Outcome;
+
+void count_triangles(CorpusRow& row, const corpus::Case& c, bool has_contact) {
+  const auto triangles = static_cast<std::uint64_t>(c.triangles.rows());
+  row.triangles = std::max(row.triangles, triangles);
+  if (has_contact) row.triangles_in_contact = std::max(row.triangles_in_contact, triangles);
+}
 
 void count(CorpusRow& row, const oracle::StepJudgement& step) {
   ++row.steps;
@@ -39,7 +46,12 @@ CorpusRow check_facts(const std::vector<corpus::Case>& cases, Culling culling, i
   for (const auto& c : cases) {
     const auto report = properties::check_case(c, culling, jobs);
     ++row.cases;
-    for (const auto& step : report.steps) count(row, step.judgement);
+    bool has_contact = false;
+    for (const auto& step : report.steps) {
+      count(row, step.judgement);
+      has_contact |= !step.judgement.pairs.empty();
+    }
+    count_triangles(row, c, has_contact);
     row.defects += report.outcome == Outcome::holds ? 0 : 1;
     for (const auto& line : report.failed)
       row.failed.push_back(
@@ -101,6 +113,8 @@ class JudgedRows {
       for (const auto& step : truth) count(rows_[i], step);
       const auto verdict =
           properties::judge_trial(*seen, truth, runs[i], configurations[i], request_.detector);
+      if (!verdict.steps.empty())
+        count_triangles(rows_[i], *seen, properties::has_judged_contact(verdict.steps));
       if (verdict.outcome == Outcome::holds) continue;
       const auto& failure = verdict.failure;
       rows_[i].defects += failure ? 1 : 0;
@@ -204,7 +218,8 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
     judged.add(c.value());
     for (const auto& row : judged.rows()) on_row(row);
   }
-  return outcome::success();
+  if (request.detector.query_claims == properties::Claims()) return outcome::success();
+  return check_queries(request, corpus, on_row, on_failure);
 }
 
 void check_own_cases(const properties::CampaignRequest& request, const OnCorpusRow& on_row,

@@ -27,6 +27,13 @@ Json not_judged_json(const properties::RunFindings& findings) {
   return list;
 }
 
+Json judged_up_to_json(const properties::RunFindings& findings) {
+  Json list = Json::array();
+  for (const auto& [claim, triangles] : properties::judged_sizes(findings))
+    list.push_back({{"claim", claim}, {"triangles", triangles}});
+  return list;
+}
+
 Json measures_json(const properties::StepMeasures& m) {
   return {{"steps", m.steps},
           {"false_alarms", rate_json(false_alarm_rate(m))},

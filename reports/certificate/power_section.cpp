@@ -41,6 +41,7 @@ Json faults_json(const RunFindings& findings) {
     const auto* registered = properties::find_fault(proof.fault);
     fault["about"] = registered ? Json(registered->about) : Json(nullptr);
     fault["found"] = proof.found();
+    fault["found_at_random"] = proof.found_at_random();
     fault["median_cases"] = number_or_null(proof.median());
     list.push_back(std::move(fault));
   }
@@ -70,6 +71,8 @@ Json power_json(const RunFindings& findings) {
           {"taken_from", taken.empty() ? Json(nullptr) : facts_of(taken.front())},
           {"planted", findings.planted()},
           {"found", findings.found()},
+          {"found_at_random", findings.found_at_random()},
+          {"found_by_curated_case_alone", findings.found() - findings.found_at_random()},
           {"faults", faults_json(findings)},
           {"worlds", worlds_json(findings)}};
 }

@@ -1,4 +1,4 @@
-// The parts of a certificate's predicate (schema assay-certificate/3, reports/README.md). Each
+// The parts of a certificate's predicate (schema assay-certificate/4, reports/README.md). Each
 // function renders a part of the findings or gates as JSON.
 #pragma once
 
@@ -37,6 +37,10 @@ nlohmann::ordered_json waivers_json(const properties::RunFindings& findings);
 
 // One {claim, reason} for each claim of which the verdict says nothing.
 nlohmann::ordered_json not_judged_json(const properties::RunFindings& findings);
+
+// One {claim, triangles} for each claim that was judged: the size of the largest mesh that tried
+// it.
+nlohmann::ordered_json judged_up_to_json(const properties::RunFindings& findings);
 
 // What the steps of a plug-in came to, whatever it claims: those of one stratum, or of all strata
 // (measures_json.cpp).

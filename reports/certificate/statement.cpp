@@ -4,6 +4,7 @@
 
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
+#include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/sections.h"
@@ -80,6 +81,7 @@ Json campaign_json(const RunFindings& findings, const properties::CampaignPlan& 
   };
   return {{"name", plan.name},
           {"seed", findings.run.seed},
+          {"is_default_seed", findings.run.seed == properties::default_seed},
           {"plan", Json::parse(plan_text(plan))},
           {"shards", words(findings.shards)},
           {"missing_shards", words(findings.missing)},
@@ -122,6 +124,8 @@ Json make_predicate(const RunFindings& findings, const properties::Judgement& ju
        {"gates", gates_json(judgement)},
        {"detector", json_of(findings.run.detector)},
        {"not_judged", not_judged_json(findings)},
+       {"judged_up_to", judged_up_to_json(findings)},
+       {"left_out_families", properties::left_out_families(findings)},
        {"isolation", isolation_json(findings)},
        {"versions", versions_json(findings)},
        {"campaign", campaign_json(findings, plan)},

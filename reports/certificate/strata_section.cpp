@@ -96,6 +96,7 @@ Json strata_json(const RunFindings& findings) {
                     {"planned", findings.planned(stratum)},
                     {"trials", tally.trials},
                     {"discards", tally.discards},
+                    {"with_contact", properties::measures_in(tally.measures).contact_trials},
                     {"with_defect", tally.with_defect},
                     {"distinct", tally.meshes.size()},
                     {"steps", tally.steps},

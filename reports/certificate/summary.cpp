@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "properties/words.h"
 #include "reports/certificate/judged_text.h"
 #include "reports/certificate/junit.h"
+#include "reports/steps/measures_text.h"
 #include "reports/terminal/replaced.h"
 #include "reports/terminal/text_file.h"
 
@@ -80,7 +82,7 @@ std::string failures_text(const Json& p) {
 
 std::string met_text(const Json& failure) {
   const auto trials = count(failure["met"]);
-  return trials == 0 ? "met in the corpus alone" : fmt::format("met {} times", trials);
+  return trials == 0 ? "met in the corpus alone" : "met " + properties::times_text(trials);
 }
 
 std::string summary_text(const Json& p) {
@@ -88,8 +90,9 @@ std::string summary_text(const Json& p) {
   std::string out = fmt::format("## Assay: {}\n\n", cell(p["verdict"]));
   out += fmt::format("{}: {}.", cell(p["detector"]["name"]), cell(judged_text(p)));
   if (count(power["planted"]) > 0)
-    out += fmt::format(" {} of {} planted faults found.", count(power["found"]),
-                       count(power["planted"]));
+    out += fmt::format(
+        " {} of {} planted faults found: {}.", count(power["found"]), count(power["planted"]),
+        found_text(count(power["found_at_random"]), count(power["found_by_curated_case_alone"])));
   if (!power["taken_from"].is_null())
     out += fmt::format(" Their proof is taken from campaign {}, seed {}, of the same build.",
                        cell(power["taken_from"]["campaign"]), count(power["taken_from"]["seed"]));

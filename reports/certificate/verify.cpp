@@ -9,6 +9,7 @@
 #include "corpus/digest.h"
 #include "corpus/file_bytes.h"
 #include "corpus/json_text.h"
+#include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/junit.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
@@ -148,6 +149,27 @@ void compare(const std::filesystem::path& certificate, const properties::Expecte
 }
 
 }  // namespace
+
+std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(file_or_folder, ignored)
+             ? properties::certificate_file(file_or_folder)
+             : file_or_folder;
+}
+
+std::string sent_alone(const std::filesystem::path& certificate) {
+  Verification read;
+  if (!read_certificate(certificate, read)) return "";
+  std::error_code ignored;
+  const auto folder = folder_of(certificate);
+  const bool has_stores = properties::stored_shards(folder).has_value() ||
+                          std::filesystem::exists(properties::checks_file(folder), ignored);
+  return has_stores ? ""
+                    : fmt::format(
+                          "{}: the stores that it rests on (*.sqlite) are not beside it: ask "
+                          "its issuer for the whole folder",
+                          certificate.string());
+}
 
 Verification verify_certificate(const std::filesystem::path& certificate) {
   Verification result;

@@ -24,4 +24,11 @@ Verification verify_certificate(const std::filesystem::path& certificate);
 Verification verify_certificate(const std::filesystem::path& certificate,
                                 const properties::Expected<nlohmann::ordered_json>& computed);
 
+// The file itself, or certificate.json in a folder.
+std::filesystem::path certificate_in(const std::filesystem::path& file_or_folder);
+
+// A line for who was sent a certificate alone, without any of the stores that it rests on: nothing
+// can be said of it. Empty if there are some, or if it is no certificate of this schema.
+std::string sent_alone(const std::filesystem::path& certificate);
+
 }  // namespace assay::reports

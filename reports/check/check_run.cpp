@@ -16,6 +16,7 @@
 #include "reports/steps/step_json.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/progress.h"
+#include "reports/terminal/shell_word.h"
 
 namespace assay::reports {
 
@@ -121,6 +122,12 @@ class CheckRun {
             s == 0 ? subject_.create_ms() : std::nullopt};
   }
 
+  // The built-in detector's leaves nothing out.
+  properties::Contract contract() const {
+    const auto* plugin = subject_.description();
+    return plugin ? plugin->contract : properties::Contract{};
+  }
+
   // The limits are on work, and reading is none.
   corpus::Expected<CheckedStep> read_step(std::size_t s) {
     const Limits::Pause pause(limits_);
@@ -152,24 +159,28 @@ class CheckRun {
     outcome_.undecided |= subject_.has_answers() && result.answer == Answer::undecided;
     if (question_.no_oracle) {
       progress.finish();
-      say(step_text(s + 1, result, nullptr, 0, nullptr, shown_work(s)) + told_error);
-      return json_of(result, nullptr, 0, nullptr);
+      say(step_text(s + 1, result, nullptr, shown_work(s)) + told_error);
+      return json_of(result, nullptr);
     }
 
     progress.phase("oracle");
-    const auto [judgement, oracle_ms] =
-        oracle_.judge(step.x_t0, step.x_t1, steps_.triangles(), stop);
-    const auto diff = subject_.judge(s, result, judgement);
+    JudgedByOracle oracle;
+    auto judged = oracle_.judge(step.x_t0, step.x_t1, steps_.triangles(), stop);
+    oracle.judgement = std::move(judged.answer);
+    oracle.milliseconds = judged.milliseconds;
+    oracle.truth = truth_of(oracle.judgement, contract(), steps_.triangles());
+    oracle.diff = subject_.judge(s, result, oracle.judgement);
+    const auto& diff = oracle.diff;
     progress.finish();
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
-    tally_.add(diff, result, judgement);
-    say(step_text(s + 1, result, &judgement, oracle_ms, &diff, shown_work(s)) + told_error);
+    tally_.add(diff, result, oracle.judgement);
+    say(step_text(s + 1, result, &oracle, shown_work(s)) + told_error);
     if (diff.outcome == Outcome::defect) print_defect(step, diff);
-    auto json = json_of(result, &judgement, oracle_ms, &diff);
+    auto json = json_of(result, &oracle);
     if (question_.second_opinion) {
       progress.phase("second opinion");
-      json["second_opinion"] = ask_second_opinion(s, step, judgement, stop, progress);
+      json["second_opinion"] = ask_second_opinion(s, step, oracle.judgement, stop, progress);
     }
     return json;
   }
@@ -177,12 +188,10 @@ class CheckRun {
   // Null if nobody asked for the report, because it takes more memory than what it tells. If a
   // step ended at the limit of memory, the pairs that it found until then are left out for the
   // same reason.
-  nlohmann::ordered_json json_of(detector::StepResult& result,
-                                 const oracle::StepJudgement* judgement, double oracle_ms,
-                                 const properties::StepDiff* diff) const {
+  nlohmann::ordered_json json_of(detector::StepResult& result, const JudgedByOracle* oracle) const {
     if (!question_.wants_report) return nullptr;
     if (result.answer == Answer::undecided && limits_.is_out_of_memory()) result.pairs = {};
-    return step_json(result, judgement, oracle_ms, diff);
+    return step_json(result, oracle);
   }
 
   nlohmann::ordered_json ask_second_opinion(std::size_t s, const CheckedStep& step,
@@ -209,7 +218,8 @@ class CheckRun {
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (!file_a_frame || i == s || i == s + 1) input += " " + files[i];
     }
-    return fmt::format("assay check{} --second-opinion {}", input, *question_.second_opinion);
+    return fmt::format("{} check{} --second-opinion {}", this_program(true), input,
+                       *question_.second_opinion);
   }
 
   void print_defect(const CheckedStep& step, const properties::StepDiff& diff) const {

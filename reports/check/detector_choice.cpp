@@ -2,19 +2,42 @@
 
 #include <fmt/format.h>
 
+#include "properties/campaign/query_plan.h"
 #include "properties/printable.h"
 #include "properties/worker/worker_process.h"
 
 namespace assay::reports {
+
+namespace {
+
+std::vector<std::string> unjudged_parts(const properties::PluginDescription& plugin,
+                                        const properties::DetectorUnderTest& detector) {
+  std::vector<std::string> parts;
+  if (plugin.parts.steps && detector.of_queries) parts.emplace_back("whole steps");
+  if (plugin.parts.candidates && (detector.of_queries || !detector.claims.candidates))
+    parts.emplace_back("broad phase");
+  if (plugin.parts.query && detector.query_claims == properties::Claims())
+    parts.emplace_back("elementary query");
+  return parts;
+}
+
+}  // namespace
+
+DetectorPart part_asked_by(const properties::CampaignPlan& plan) {
+  if (properties::asks_queries_alone(plan)) return DetectorPart::query;
+  return properties::asks_queries(plan) ? DetectorPart::by_library : DetectorPart::steps;
+}
 
 Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request) {
   request.detector = properties::built_in_detector();
   request.threads = words.threads;
   if (words.library.empty()) return outcome::success();
   request.plugin = words.library;
+  request.judged = properties::JudgedLibrary::of(words.library, request.worker);
   request.isolation = words.isolation;
-  properties::WorkerProcess worker(request.worker, request.plugin,
-                                   {.isolation = request.isolation, .threads = request.threads});
+  properties::WorkerProcess worker(
+      request.worker, request.plugin,
+      {.isolation = request.isolation, .threads = request.threads, .unread = request.folder});
   const auto description = worker.describe();
   if (!description) return Refusal(description.error());
   request.isolated = worker.isolation();
@@ -34,7 +57,13 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
                       of_queries ? claims_on_queries(plugin) : claims_on_steps(plugin),
                       plugin.contract,
                       {{name, {}}},
-                      of_queries};
+                      of_queries,
+                      {},
+                      {}};
+  const bool is_query_judged = plugin.parts.query && words.part != DetectorPart::steps &&
+                               !judged_claims(claims_on_queries(plugin), plugin.contract).empty();
+  if (is_query_judged) request.detector.query_claims = claims_on_queries(plugin);
+  request.detector.unjudged_parts = unjudged_parts(plugin, request.detector);
   return outcome::success();
 }
 

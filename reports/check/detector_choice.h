@@ -9,6 +9,9 @@
 
 namespace assay::reports {
 
+// The parts of a plug-in that a plan is about: steps, queries, or both.
+DetectorPart part_asked_by(const properties::CampaignPlan& plan);
+
 // Sets request.detector and, for a plug-in, the members of the request that tell of it. REQUIRES
 // that request.worker is set. Fails if the library cannot serve, does not hold the part that is
 // asked for, or cannot be isolated although that is required.

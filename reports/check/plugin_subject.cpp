@@ -24,10 +24,11 @@ properties::PluginDescription in_print(properties::PluginDescription description
 
 class Plugin : public Subject {
  public:
-  Plugin(properties::WorkerProcess worker, properties::PluginDescription description,
-         std::string library, std::uint64_t threads, std::shared_ptr<const corpus::Case> c,
-         std::size_t steps_left_out)
+  Plugin(properties::WorkerProcess worker, properties::WorkerProcess second,
+         properties::PluginDescription description, std::string library, std::uint64_t threads,
+         std::shared_ptr<const corpus::Case> c, std::size_t steps_left_out)
       : worker_(std::move(worker)),
+        second_(std::move(second)),
         description_(in_print(std::move(description))),
         claims_(claims_on_steps(description_)),
         library_(std::move(library)),
@@ -52,20 +53,20 @@ class Plugin : public Subject {
               {"version", description_.version},
               {"library", library_},
               {"claims", std::move(claims)},
-              {"disturbances", worker_.disturbances()},
+              {"disturbances", worker_.disturbances() + second_.disturbances()},
               {"isolation", text_of(worker_.isolation())},
               {"printed", runs_[0].printed},
               {"contract", nlohmann::json(description_.contract)}}}};
   }
 
   // Runs all steps at once, because the worker carries the state of the detector from one to the
-  // next. They run a second time if the plug-in claims to be deterministic.
+  // next. If the plug-in claims to be deterministic, they run a second time, in another process.
   properties::JudgedRun begin() override {
-    const std::size_t times = claims_.deterministic ? 2 : 1;
-    runs_ =
-        worker_.run(*case_, std::vector<properties::Configuration>(times, {description_.name, {}}));
+    const std::vector<properties::Configuration> alone = {{description_.name, {}}};
+    runs_ = worker_.run(*case_, alone);
+    if (claims_.deterministic) runs_.push_back(std::move(second_.run(*case_, alone).front()));
     return properties::judge_run(*case_, runs_[0], {}, claims_, description_.contract,
-                                 times == 2 ? &runs_[1] : nullptr);
+                                 claims_.deterministic ? &runs_[1] : nullptr);
   }
 
   const properties::PluginDescription* description() const override { return &description_; }
@@ -108,7 +109,7 @@ class Plugin : public Subject {
     return result;
   }
 
-  properties::WorkerProcess worker_;
+  properties::WorkerProcess worker_, second_;
   properties::PluginDescription description_;
   properties::Claims claims_;  // on steps
   std::string library_;
@@ -131,18 +132,26 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::filesystem::pa
   if (!parts.steps && !parts.candidates)
     return Refusal(
         fmt::format("{}: it holds no steps, but a query alone: assay check-queries", library));
+  if (judged_claims(claims_on_steps(description.value()), description.value().contract).empty())
+    return Refusal(fmt::format(
+        "{}: it claims nothing that its contract leaves to be judged; there is nothing to check",
+        library));
   auto seen = properties::contracted(*input.steps->whole(), description.value().contract);
   if (!seen) {
-    return Refusal(fmt::format("{}: nothing of it is within the contract of {}: {}", input.file,
-                               description.value().name,
-                               joined(phrases_of(description.value().contract), ", ")));
+    return Refusal(fmt::format(
+        "{}: nothing of it is within the contract of {}: {}", input.file, description.value().name,
+        properties::why_left_out(*input.steps->whole(), description.value().contract)));
   }
   const std::size_t given = input.steps->count();
+  auto of_second = limits;
+  of_second.variation = 1;
+  of_second.least = worker.isolation();
   const auto taken = std::make_shared<const corpus::Case>(std::move(*seen));
   input.steps = steps_of_case(taken, false);
-  return std::unique_ptr<Subject>(
-      std::make_unique<Plugin>(std::move(worker), std::move(description.value()), library,
-                               limits.threads, taken, given - input.steps->count()));
+  return std::unique_ptr<Subject>(std::make_unique<Plugin>(
+      std::move(worker), properties::WorkerProcess(worker_program, library, of_second),
+      std::move(description.value()), library, limits.threads, taken,
+      given - input.steps->count()));
 }
 
 }  // namespace assay::reports

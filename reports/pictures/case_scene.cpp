@@ -37,11 +37,36 @@ std::optional<detector::TrianglePair> CaseScene::shown_pair() const {
 
 namespace {
 
-bool has_views(const properties::CaseRun& run) {
-  return run.end == RunEnd::completed &&
-         std::any_of(run.steps.begin(), run.steps.end(),
-                     [](const auto& step) { return !step.doubts.empty(); });
+template <class List>
+bool has_pair(const List& list, const detector::TrianglePair& pair) {
+  return std::any_of(list.begin(), list.end(), [&](const auto& one) { return one.pair == pair; });
 }
+
+}  // namespace
+
+std::string SceneStep::difference(const detector::TrianglePair& pair,
+                                  const CaseScene& scene) const {
+  const auto* exact = contact_of(truth.pairs, pair);
+  if (!exact && contact_of(truth.left_out, pair)) return "left out by the contract";
+  if (!diff || !answered) return "not run";
+  if (has_pair(diff->missing_candidates, pair)) return "no candidate";
+  const auto& claims = scene.claims;
+  const auto* reported = contact_of(answered->pairs, pair);
+  if (!exact) return claims.no_spurious ? "spurious" : "no contact, not claimed";
+  if (!reported) {
+    const bool are_claimed = scene.reports_pairs && (claims.all_pairs || claims.first_pairs);
+    if (are_claimed && has_pair(diff->missing, pair)) return "missing";
+    return diff->answered_free && claims.free_sound ? "answered free" : "not claimed";
+  }
+  if (has_pair(diff->early, pair)) return claims.no_spurious ? "early" : "earlier, not claimed";
+  const bool is_late =
+      has_pair(diff->late, pair) ||
+      properties::time_off(reported->time, exact->time, scene.time_tolerance).late > 0;
+  if (!is_late) return "agrees";
+  return claims.all_pairs ? "late" : "later, not claimed";
+}
+
+namespace {
 
 std::string end_text(const properties::CaseRun& run) {
   return run.explanation.empty()
@@ -54,32 +79,30 @@ std::string end_text(const properties::CaseRun& run) {
 std::optional<CaseScene> make_scene(const corpus::Case& c,
                                     const properties::DetectorUnderTest& detector,
                                     const properties::Configuration& configuration,
-                                    const SceneWorkers& workers) {
+                                    properties::WorkerProcess* worker) {
   auto seen = properties::contracted(c, detector.contract);
   if (!seen) return std::nullopt;
   CaseScene scene;
   scene.c = std::move(*seen);
   const auto truth = properties::judge_case(scene.c, detector.contract);
   properties::CaseRun run{RunEnd::not_run, "the detector is not at hand", {}};
-  if (workers.detector) run = workers.detector->run(scene.c, {&configuration, 1}).front();
-  if (run.end != RunEnd::not_run) {
-    scene.failure = properties::judge_trial(scene.c, truth, run, configuration, detector).failure;
-  }
+  if (worker) run = worker->run(scene.c, {&configuration, 1}).front();
+  properties::JudgedTrial judged;
+  if (run.end != RunEnd::not_run)
+    judged = properties::judge_trial(scene.c, truth, run, configuration, detector);
+  scene.failure = judged.failure;
   if (run.end != RunEnd::completed) scene.ended = end_text(run);
   scene.reports_pairs =
       run.has_answers && detector.contract.reports_pairs && !properties::says_query(scene.c);
-  properties::CaseRun views = run;
-  if (!has_views(run)) {
-    const properties::Configuration with_views{"view-point", {detector::Culling::view_point}};
-    views = workers.reference->run(scene.c, {&with_views, 1}).front();
-    scene.views_by = "the built-in detector, culling view-point";
-  }
+  scene.claims = detector.claims_in(configuration);
+  scene.claims.no_spurious &= detector.contract.margin == 0;
+  scene.time_tolerance = detector.contract.time_tolerance;
   const auto script = corpus::steps_of(scene.c);
   for (std::size_t s = 0; s < script.size(); ++s) {
-    SceneStep step{script[s], truth[s], {}, {}};
+    SceneStep step{script[s], truth_of(scene.c, truth[s], detector.contract), {}, {}};
     if (s < run.steps.size()) step.answered = run.steps[s];
     if (s < run.candidates.size()) step.candidates = run.candidates[s];
-    if (s < views.steps.size() && !views.steps[s].doubts.empty()) step.seen = views.steps[s];
+    if (s < judged.steps.size()) step.diff = std::move(judged.steps[s]);
     scene.steps.push_back(std::move(step));
   }
   if (!detector::check_triangles(scene.c.triangles, scene.c.frames[0].rows())) {

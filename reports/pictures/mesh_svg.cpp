@@ -45,9 +45,9 @@ class Picture {
       faces_.push_back({corners[0], corners[1], corners[2]});
     }
     own_ = faces_.size();
-    if (scene.surface && step.seen && !scene.surface->is_closed()) {
-      all_t0 = detector::with_apexes(x_t0_, step.seen->apexes, false);
-      all_t1 = detector::with_apexes(x_t1_, step.seen->apexes, true);
+    if (scene.surface && step.has_views() && !scene.surface->is_closed()) {
+      all_t0 = detector::with_apexes(x_t0_, step.answered->apexes, false);
+      all_t1 = detector::with_apexes(x_t1_, step.answered->apexes, true);
       const auto& all = scene.surface->all().triangles;
       faces_.insert(faces_.end(), all.begin() + static_cast<std::ptrdiff_t>(own_), all.end());
     }
@@ -146,11 +146,21 @@ class Picture {
           "<polygon points=\"{}\" fill=\"none\" stroke=\"#888\" stroke-dasharray=\"3 3\"/>\n",
           points(i));
     }
-    const auto set = step_.seen ? view_set(*step_.seen, i) : ViewSet::none;
     return fmt::format(
         "<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"0.6\" stroke=\"#777\" "
         "stroke-linejoin=\"round\"/>\n",
-        points(i), view_set_colours[static_cast<std::size_t>(set)]);
+        points(i), colour(i));
+  }
+  // That of the view set; where a detector shows none, those of V+ and V- tell the two triangles of
+  // the pair from each other and from the rest.
+  const char* colour(std::size_t i) const {
+    auto set = ViewSet::none;
+    if (step_.has_views()) {
+      set = view_set(*step_.answered, i);
+    } else if (is_shown(i)) {
+      set = i == static_cast<std::size_t>(pair_->a) ? ViewSet::positive : ViewSet::negative;
+    }
+    return view_set_colours[static_cast<std::size_t>(set)];
   }
   std::string outline(std::size_t i) const {
     const auto& f = faces_[i];
@@ -202,7 +212,9 @@ std::string mesh_svg(const CaseScene& scene, const std::string& title) {
     const auto& step = scene.steps[scene.shown_step()];
     const auto* exact = contact_of(step.truth.pairs, pair);
     where = fmt::format("step {}, triangles {} and {}: ", scene.shown_step() + 1, pair->a, pair->b);
-    where += exact ? fmt::format("t = {:.9g}", middle(exact->time)) : "no contact by the oracle";
+    where += exact ? fmt::format("t = {:.9g}", middle(exact->time))
+             : contact_of(step.truth.left_out, *pair) ? "left out by the contract"
+                                                      : "no contact by the oracle";
   }
   return out + line(1, title) + line(2, where) + "</svg>\n";
 }

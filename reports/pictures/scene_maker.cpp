@@ -13,8 +13,7 @@ constexpr double case_seconds = 10;
 }  // namespace
 
 SceneMaker::SceneMaker(const std::optional<DetectorWords>& detector)
-    : detector_(properties::built_in_detector()),
-      reference_(properties::worker_program(), std::nullopt, {case_seconds, 0}) {
+    : detector_(properties::built_in_detector()) {
   if (!detector) {
     absent_ = "the store does not name the plug-in's library";
     return;
@@ -36,7 +35,7 @@ std::optional<CaseScene> SceneMaker::scene_of(const corpus::Case& c,
   properties::Configuration chosen{configuration, {}};
   if (const auto options = properties::read_options(c); detector_.built_in && options)
     chosen.options = options.value();
-  auto scene = make_scene(c, detector_, chosen, {worker_ ? &*worker_ : nullptr, &reference_});
+  auto scene = make_scene(c, detector_, chosen, worker_ ? &*worker_ : nullptr);
   if (scene && !absent_.empty()) scene->ended = absent_;
   return scene;
 }

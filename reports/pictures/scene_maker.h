@@ -27,7 +27,6 @@ class SceneMaker {
 
  private:
   properties::DetectorUnderTest detector_;
-  properties::WorkerProcess reference_;
   std::optional<properties::WorkerProcess> worker_;
   std::string absent_;  // why the plug-in is not run
 };

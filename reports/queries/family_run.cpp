@@ -123,7 +123,7 @@ int self_test_of_plugin(const QuerySelfTest& request) {
   }
   fmt::print("{}", detector.text());
   for (const auto& name : replays)
-    fmt::print("replay: assay self-test --replay {}{}\n", name,
+    fmt::print("replay: {} self-test --replay {}{}\n", this_program(true), name,
                detector_words(request.detector.library, request.detector.threads));
   if (test.was_over()) fmt::print("stopped at the time limit\n");
   const int code = detector.exit_code();

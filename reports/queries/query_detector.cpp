@@ -7,6 +7,7 @@
 
 #include "properties/campaign/gates/measure_rates.h"
 #include "properties/printable.h"
+#include "properties/words.h"
 #include "reports/certificate/sections.h"
 #include "reports/check/detector_choice.h"
 #include "reports/check/plugin_text.h"
@@ -23,14 +24,20 @@ namespace {
 constexpr std::uint64_t most_crashes = 100;
 constexpr double query_seconds = 10;  // of processor time, for all queries of a message
 
+std::unique_ptr<properties::WorkerProcess> worker_of(const properties::CampaignRequest& request,
+                                                     std::uint32_t variation) {
+  properties::WorkerLimits limits{query_seconds, 0, request.isolation, {}, request.threads};
+  limits.variation = variation;
+  return std::make_unique<properties::WorkerProcess>(request.worker, request.plugin, limits);
+}
+
 }  // namespace
 
 QueryDetector::QueryDetector(std::unique_ptr<properties::CampaignRequest> request)
     : request_(std::move(request)),
-      worker_(std::make_unique<properties::WorkerProcess>(
-          request_->worker, request_->plugin,
-          properties::WorkerLimits{query_seconds, 0, request_->isolation, {}, request_->threads})),
-      judge_(std::make_unique<QueryJudge>(request_->detector, *worker_)) {}
+      worker_(worker_of(*request_, 0)),
+      second_(worker_of(*request_, 1)),
+      judge_(std::make_unique<QueryJudge>(request_->detector, *worker_, *second_)) {}
 
 Expected<QueryDetector> QueryDetector::open(const DetectorWords& words) {
   auto request = std::make_unique<properties::CampaignRequest>();
@@ -93,8 +100,8 @@ std::string QueryDetector::text() const {
   constexpr std::size_t most_shown = 20;
   for (std::size_t i = 0; i < std::min(most_shown, shown_.size()); ++i) {
     const auto& one = shown_[i];
-    out += fmt::format("DEFECT {}, met {} times\n  {}: {}\n", one.signature, met_.at(one.signature),
-                       one.name, one.explanation);
+    out += fmt::format("DEFECT {}, met {}\n  {}: {}\n", one.signature,
+                       properties::times_text(met_.at(one.signature)), one.name, one.explanation);
   }
   if (shown_.size() > most_shown)
     out += fmt::format("... {} signatures more\n", shown_.size() - most_shown);

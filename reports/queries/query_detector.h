@@ -49,10 +49,10 @@ class QueryDetector {
  private:
   explicit QueryDetector(std::unique_ptr<properties::CampaignRequest> request);
 
-  // Request and worker are on the heap, because the judge still refers to them after this object
+  // Request and workers are on the heap, because the judge still refers to them after this object
   // was moved.
   std::unique_ptr<properties::CampaignRequest> request_;
-  std::unique_ptr<properties::WorkerProcess> worker_;
+  std::unique_ptr<properties::WorkerProcess> worker_, second_;
   std::unique_ptr<QueryJudge> judge_;
   std::uint64_t judged_ = 0, left_out_ = 0, undecided_ = 0, not_asked_ = 0, defects_ = 0;
   std::map<std::string, std::uint64_t> broken_;  // how many queries broke each claim

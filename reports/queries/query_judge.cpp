@@ -1,5 +1,6 @@
 #include "reports/queries/query_judge.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "properties/worker/plugin/query_case.h"
@@ -36,7 +37,11 @@ std::vector<JudgedQuery> QueryJudge::judge(std::span<const detector::FourPoints>
   auto runs = worker_.ask(asked);
   const std::chrono::duration<double, std::micro> took = Clock::now() - begin;
   std::vector<properties::CaseRun> again;
-  if (detector_.claims.deterministic) again = worker_.ask(asked);
+  if (detector_.claims.deterministic) {
+    std::reverse(asked.begin(), asked.end());
+    again = second_.ask(asked);
+    std::reverse(again.begin(), again.end());
+  }
   const properties::Configuration configuration{"query", {}};
   for (std::size_t i = 0; i < places.size(); ++i) {
     JudgedQuery& one = judged[places[i]];

@@ -27,12 +27,14 @@ struct JudgedQuery {
 
 class QueryJudge {
  public:
-  // The detector's claims are those on queries. Both arguments must outlive the judge.
-  QueryJudge(const properties::DetectorUnderTest& detector, properties::WorkerProcess& worker)
-      : detector_(detector), worker_(worker) {}
+  // The detector's claims are those on queries. All arguments must outlive the judge.
+  QueryJudge(const properties::DetectorUnderTest& detector, properties::WorkerProcess& worker,
+             properties::WorkerProcess& second)
+      : detector_(detector), worker_(worker), second_(second) {}
 
-  // Asks and judges the queries, each twice if `deterministic` is claimed. The results are in the
-  // order of the queries. Runs that did not take place end with RunEnd::not_run.
+  // Asks and judges the queries. If `deterministic` is claimed, the second worker is asked too, in
+  // the other order. The results are in the order of the queries. Runs that did not take place end
+  // with RunEnd::not_run.
   std::vector<JudgedQuery> judge(std::span<const detector::FourPoints> queries);
 
   // The measures of all queries that were judged.
@@ -41,7 +43,7 @@ class QueryJudge {
 
  private:
   const properties::DetectorUnderTest& detector_;
-  properties::WorkerProcess& worker_;
+  properties::WorkerProcess &worker_, &second_;
   properties::Counts counts_;
   std::uint64_t crashes_ = 0;
 };

@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "corpus/atomic_file.h"
-#include "properties/judging/case_check.h"
+#include "properties/judging/case_options.h"
+#include "properties/judging/contact_parts.h"
 #include "properties/worker/given_view.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/steps/owner_export.h"
-#include "reports/steps/query_export.h"
 #include "reports/terminal/joined.h"
 
 namespace assay::reports {
@@ -48,6 +48,86 @@ std::string view_text(const corpus::Case& c, std::size_t step, const detector::O
                      point_text(q1.t0), point_text(q1.t1));
 }
 
+// The lines that ask of `r`, the result of a step, what is claimed.
+std::string asked_text(const properties::Claims& claims, bool exact,
+                       const oracle::StepJudgement& truth) {
+  const bool free = truth.pairs.empty();
+  std::string out = "    EXPECT_TRUE(is_answered(r));\n";
+  if (free ? claims.no_spurious : claims.free_sound)
+    out += fmt::format("    EXPECT_EQ(r.answer, Answer::{});\n", free ? "free" : "collision");
+  if (!free && claims.first_time) {
+    const char* line = exact
+                           ? "    EXPECT_EQ(r.first, (TimeEnclosure{{{:a}, {:a}}}));\n"
+                           : "    EXPECT_LE(r.first.lo, {:a});\n    EXPECT_GE(r.first.hi, {:a});\n";
+    out += fmt::format(fmt::runtime(line), truth.first.lo, truth.first.hi);
+  }
+  const auto listed = [](const std::vector<detector::PairContact>& contacts) {
+    std::vector<std::string> rows;
+    for (const auto& contact : contacts)
+      rows.push_back(fmt::format("{{{{{}, {}}}, {{{:a}, {:a}}}, {{}}}}", contact.pair.a,
+                                 contact.pair.b, contact.time.lo, contact.time.hi));
+    return joined(rows, ", ");
+  };
+  if (claims.no_spurious)
+    out += fmt::format("    EXPECT_TRUE(all_meet(r, {{{}}}));\n", listed(truth.pairs));
+  if (claims.all_pairs) {
+    out += fmt::format("    EXPECT_TRUE(finds_all(r, {{{}}}));\n", listed(truth.pairs));
+  } else if (claims.first_pairs) {
+    for (const auto& part : properties::contact_parts(truth.pairs, truth.first))
+      out += fmt::format("    EXPECT_TRUE(finds_one(r, {{{}}}));\n", listed(part));
+  }
+  return out;
+}
+
+constexpr const char* test_head = R"(#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "detector/detector.h"
+#include "detector/step_result.h"
+
+using namespace assay::detector;
+
+namespace {
+
+using Contacts = std::vector<PairContact>;
+
+[[maybe_unused]] bool is_answered(const StepResult& r) {
+  return r.answer == Answer::free || r.answer == Answer::collision;
+}
+
+// Whether the contact is reported, not after its time.
+[[maybe_unused]] bool finds(const StepResult& r, const PairContact& exact) {
+  return std::any_of(r.pairs.begin(), r.pairs.end(), [&](const PairContact& found) {
+    return found.pair == exact.pair && found.time.lo <= exact.time.lo;
+  });
+}
+[[maybe_unused]] bool finds_all(const StepResult& r, const Contacts& exact) {
+  return std::all_of(exact.begin(), exact.end(), [&](const auto& one) { return finds(r, one); });
+}
+[[maybe_unused]] bool finds_one(const StepResult& r, const Contacts& exact) {
+  return std::any_of(exact.begin(), exact.end(), [&](const auto& one) { return finds(r, one); });
+}
+
+// Whether every reported contact is one, and none is reported before its time.
+[[maybe_unused]] bool all_meet(const StepResult& r, const Contacts& exact) {
+  return std::all_of(r.pairs.begin(), r.pairs.end(), [&](const PairContact& found) {
+    return std::any_of(exact.begin(), exact.end(), [&](const PairContact& one) {
+      return found.pair == one.pair && found.time.hi >= one.time.hi;
+    });
+  });
+}
+
+[[maybe_unused]] bool same(const StepResult& x, const StepResult& y) {
+  return x.answer == y.answer && x.first == y.first &&
+         std::equal(x.pairs.begin(), x.pairs.end(), y.pairs.begin(), y.pairs.end(),
+                    [](const auto& a, const auto& b) { return a.pair == b.pair && a.time == b.time; });
+}
+
+}  // namespace
+
+)";
+
 std::string test_text(const corpus::Case& c, const detector::Options& options,
                       const std::vector<oracle::StepJudgement>& truth) {
   std::string culling = properties::name_of(options.culling);
@@ -57,12 +137,9 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
   const char* const arithmetics[] = {"exact", "bounded", "double_precision", "single_precision"};
   const bool exact = options.arithmetic == detector::Arithmetic::exact;
   std::string out = fmt::format(
-      "// Case {}.\n#include <gtest/gtest.h>\n\n#include <algorithm>\n\n#include "
-      "\"detector/detector.h\"\n\nusing "
-      "namespace "
-      "assay::detector;\n\nTEST(AssayCase, Holds) {{\n  Triangles triangles({}, 3);\n  triangles "
-      "<< ",
-      c.id, c.triangles.rows());
+      "// Case {}: asks what this configuration claims.\n{}TEST(AssayCase, Holds) {{\n"
+      "  Triangles triangles({}, 3);\n  triangles << ",
+      c.id, test_head, c.triangles.rows());
   for (Eigen::Index i = 0; i < c.triangles.size(); ++i) {
     out += fmt::format("{}{}",
                        i == 0       ? ""
@@ -76,45 +153,25 @@ std::string test_text(const corpus::Case& c, const detector::Options& options,
     out += fmt::format("  x[{}] << {};\n", f, matrix_text(c.frames[f]));
   }
   out += fmt::format(
-      "  auto made = Detector::create(triangles, x[0],\n                               "
-      "{{Culling::{}, Start::{}, Pairs::{}, Arithmetic::{}}});\n  ASSERT_TRUE(made);\n  using "
-      "Views = "
-      "std::vector<ViewPrimitive>;\n",
+      "  const Options options{{Culling::{}, Start::{}, Pairs::{}, Arithmetic::{}}};\n"
+      "  auto made = Detector::create(triangles, x[0], options);\n",
       culling, properties::name_of(options.start), properties::name_of(options.pairs),
       arithmetics[static_cast<int>(options.arithmetic)]);
+  if (c.expected.answer == detector::Answer::error) return out + "  EXPECT_FALSE(made);\n}\n";
+  out +=
+      "  auto again = Detector::create(triangles, x[0], options);\n"
+      "  ASSERT_TRUE(made);\n  ASSERT_TRUE(again);\n"
+      "  using Views = std::vector<ViewPrimitive>;\n";
   const auto script = corpus::steps_of(c);
   for (std::size_t s = 0; s < script.size(); ++s) {
-    const bool free = truth[s].pairs.empty();
+    const std::string call =
+        fmt::format("{}(x[{}], x[{}], views)", script[s].commit ? "step" : "evaluate",
+                    script[s].from, script[s].to);
     out += fmt::format(
-        "  {{\n    const Views views = {};\n    const StepResult r = made.value().{}(x[{}], x[{}], "
-        "views);\n",
-        view_text(c, s, options), script[s].commit ? "step" : "evaluate", script[s].from,
-        script[s].to);
-    if (exact || !free) {
-      out += fmt::format("    EXPECT_EQ(r.answer, Answer::{});\n", free ? "free" : "collision");
-    }
-    if (!free && !exact) {
-      out += fmt::format("    EXPECT_LE(r.first.lo, {:a});\n    EXPECT_GE(r.first.hi, {:a});\n",
-                         truth[s].first.lo, truth[s].first.hi);
-    } else if (!free) {
-      out += fmt::format("    EXPECT_EQ(r.first, (TimeEnclosure{{{:a}, {:a}}}));\n",
-                         truth[s].first.lo, truth[s].first.hi);
-    }
-    if (options.pairs == detector::Pairs::all) {
-      std::vector<std::string> pairs;
-      for (const auto& contact : truth[s].pairs) {
-        pairs.push_back(fmt::format("{{{}, {}}}", contact.pair.a, contact.pair.b));
-      }
-      out +=
-          fmt::format("    const std::vector<TrianglePair> expected = {{{}", joined(pairs, ", "));
-      out +=
-          "};\n    std::vector<TrianglePair> found;\n    for (const auto& contact : r.pairs) "
-          "found.push_back(contact.pair);\n";
-      out += exact ? "    EXPECT_EQ(found, expected);\n"
-                   : "    EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), "
-                     "expected.end()));\n";
-    }
-    out += "  }\n";
+        "  {{\n    const Views views = {};\n    const StepResult r = made.value().{};\n"
+        "    EXPECT_TRUE(same(r, again.value().{}));\n{}  }}\n",
+        view_text(c, s, options), call, call,
+        asked_text(properties::claims_of(options), exact, truth[s]));
   }
   return out + "}\n";
 }
@@ -140,14 +197,9 @@ Expected<void> export_case(const std::filesystem::path& folder, const corpus::Ca
   if (auto written = write("case.json", corpus::case_text(c)); !written) return written;
   if (detector.built_in)
     return write("case_test.cpp", test_text(c, detector.configurations.front().options, truth));
-  if (properties::says_query(c)) {
-    const auto text = plain_query_text(c, detector.contract, truth.front());
-    if (auto written = write("case.cpp", text); !written) return written;
-    return write("case_plugin.cpp", plugin_query_text());
-  }
-  if (auto written = write("case.cpp", plain_case_text(c, detector.contract, truth)); !written)
+  if (auto written = write("case.cpp", plain_case_text(c, detector, truth)); !written)
     return written;
-  return write("case_plugin.cpp", plugin_case_text());
+  return write("case_plugin.cpp", plugin_case_text(properties::says_query(c)));
 }
 
 }  // namespace assay::reports

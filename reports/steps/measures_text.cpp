@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "properties/campaign/gates/measure_rates.h"
-#include "properties/campaign/gates/not_judged.h"
 #include "reports/terminal/joined.h"
 
 namespace assay::reports {
@@ -20,11 +20,16 @@ std::string rate_text(const properties::Rate& rate) {
                      100 * rate.interval.lo, 100 * rate.interval.hi);
 }
 
-// Gives "3: 0 0.01 0.5", for example: the number of steps that are off, then the median, the value
-// that 99 of 100 do not exceed, and the worst.
+// Gives "3: 0.002 0.01 0.5", for example: the number of steps that are off, then of these steps the
+// median, the value that 99 of 100 do not exceed, and the worst.
 std::string off_text(const properties::TimesOff& off) {
   if (off.steps == 0) return "none";
   return fmt::format("{}: {:.2g} {:.2g} {:.2g}", off.steps, off.median, off.p99, off.worst);
+}
+
+std::string off_sentence(const char* word, const properties::TimesOff& off) {
+  return fmt::format("{} in {} step{}, by {:.2g} at worst", word, off.steps,
+                     off.steps == 1 ? "" : "s", off.worst);
 }
 
 constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>24} {:>24} {:>14} {:>26}";
@@ -32,23 +37,48 @@ constexpr const char* row_format = "{:>32} {:>14} {:>10} {:>24} {:>24} {:>14} {:
 // Tells on what the claim `deterministic` was tried besides the trials.
 std::string repeated_text(const std::vector<properties::Repetition>& repeated) {
   if (repeated.empty()) return "";
-  std::uint64_t most = 0, steps = 0, differing = 0;
+  std::uint64_t most = 0, steps = 0, differing = 0, judged = 0, wrong = 0;
   std::string lines;
   for (const auto& one : repeated) {
     most = std::max(most, one.triangles);
     steps += one.steps;
     differing += one.broken ? 1 : 0;
+    judged += one.judged.size();
+    for (const auto& step : one.judged) wrong += step.holds ? 0 : 1;
     if (!one.difference.empty())
       lines += fmt::format("  {} {}: {}\n", one.broken ? "DIFFERS" : "not compared", one.input,
                            one.difference);
   }
   return fmt::format(
-      "repeated on larger meshes: {} sequences of up to {} triangles, {} steps; {} "
-      "differ\n{}",
-      repeated.size(), most, steps, differing, lines);
+      "on larger meshes: {} sequences of up to {} triangles, {} steps; {} differ from run to run; "
+      "{} judged, {} wrong\n{}",
+      repeated.size(), most, steps, differing, judged, wrong, lines);
 }
 
 }  // namespace
+
+std::string sizes_text(const std::vector<properties::JudgedSize>& judged_up_to) {
+  std::vector<std::pair<std::uint64_t, std::vector<std::string>>> sizes;
+  for (const auto& [claim, triangles] : judged_up_to) {
+    const auto size = triangles;
+    const auto known = std::find_if(sizes.begin(), sizes.end(),
+                                    [&](const auto& one) { return one.first == size; });
+    auto& claims = known == sizes.end() ? sizes.emplace_back(size, 0).second : known->second;
+    claims.push_back(claim);
+  }
+  std::string text;
+  for (const auto& [triangles, claims] : sizes) {
+    text += fmt::format("{}of up to {}{}{}", text.empty() ? "meshes " : ", ", triangles,
+                        text.empty() ? " triangles" : "",
+                        sizes.size() == 1 ? "" : fmt::format(" ({})", joined(claims, ", ")));
+  }
+  return text;
+}
+
+std::string found_text(std::uint64_t at_random, std::uint64_t by_curated_case_alone) {
+  return fmt::format("{} by random cases, {} by their curated case alone", at_random,
+                     by_curated_case_alone);
+}
 
 std::string measures_head() {
   return fmt::format(row_format, "free steps answered collision", "answered free", "spurious",
@@ -78,12 +108,8 @@ std::string measures_sentence(const properties::StepMeasures& m) {
     parts.push_back(fmt::format("{} of {} steps with a contact answered free", m.answered_free,
                                 m.contact_steps));
   if (m.spurious_pairs > 0) parts.push_back(fmt::format("{} spurious pairs", m.spurious_pairs));
-  if (m.late_steps() > 0)
-    parts.push_back(fmt::format("late in {} steps, by {:.2g} at worst", m.late_steps(),
-                                properties::worst_of(m.late)));
-  if (m.early_steps() > 0)
-    parts.push_back(fmt::format("early in {} steps, by {:.2g} at worst", m.early_steps(),
-                                properties::worst_of(m.early)));
+  if (m.late_steps() > 0) parts.push_back(off_sentence("late", times_late(m)));
+  if (m.early_steps() > 0) parts.push_back(off_sentence("early", times_early(m)));
   if (m.steps_left_out > 0)
     parts.push_back(fmt::format("{} steps left out by the contract", m.steps_left_out));
   if (m.left_out_misses > 0)
@@ -95,7 +121,8 @@ std::string measures_sentence(const properties::StepMeasures& m) {
 std::string measures_text(const properties::RunFindings& findings) {
   if (findings.run.detector.built_in) return "";
   std::string out = fmt::format(
-      "whatever is claimed (intervals of 95 %, in per cent; times in shares of the step; left out: "
+      "whatever is claimed (intervals of 95 %, in per cent; late, early: steps, and of these the "
+      "median, p99 and worst in shares of the step; left out: "
       "cases + steps)\n{:24} {}\n",
       "stratum", measures_head());
   for (const auto& stratum : findings.run.plan.strata)

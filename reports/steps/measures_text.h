@@ -1,9 +1,11 @@
-// What a plug-in does whatever it claims, as a table for the terminal.
+// What was measured of a run, in words: what a plug-in does whatever it claims, up to which size
+// its claims were tried, how planted faults were found.
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/gates/not_judged.h"
 
 namespace assay::reports {
 
@@ -15,6 +17,12 @@ std::string measures_text(const properties::RunFindings& findings);
 // The same for a few steps, in words: "1 of 2 free steps answered collision; 28874 spurious pairs;
 // ...". Empty if there is nothing to say.
 std::string measures_sentence(const properties::StepMeasures& measures);
+
+// "meshes of up to 2048 triangles", or, where they differ, "meshes of up to 2048 triangles
+// (free-sound, total), of up to 60 (deterministic)". Empty if there are none.
+std::string sizes_text(const std::vector<properties::JudgedSize>& judged_up_to);
+// "72 by random cases, 44 by their curated case alone".
+std::string found_text(std::uint64_t at_random, std::uint64_t by_curated_case_alone);
 
 // The columns of one row, without its name.
 std::string measures_row(const properties::StepMeasures& measures);

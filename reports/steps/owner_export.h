@@ -1,5 +1,5 @@
 // Writes a case for the owner of a detector, as plain arrays that need neither Assay nor a test
-// framework.
+// framework, with a program that asks of a detector what its owner claims.
 #pragma once
 
 #include <string>
@@ -7,20 +7,23 @@
 
 #include "corpus/cases/case_file.h"
 #include "oracle/mesh/step.h"
-#include "properties/claims/contract.h"
+#include "properties/campaign/trials/trial.h"
 
 namespace assay::reports {
 
-// A self-contained C++ file: mesh, frames and, for each step, the exact answer, its time as
-// decimals and as fractions, and the pairs that count under the contract; a function that is left
-// to be filled in, and a main() that compares. The program's exit codes are 0: right, 1: wrong, 2:
-// not filled in.
-std::string plain_case_text(const corpus::Case& c, const properties::Contract& contract,
-                            const std::vector<oracle::StepJudgement>& truth);
+// A self-contained C++ file: mesh and frames, or the four points of a query
+// (properties/worker/plugin/query_case.h); for each step what the oracle finds that counts under
+// the contract, with its time as decimals and as fractions, and the contacts that the contract
+// leaves out; the claims; a function that is left to be filled in, and a main() that asks for each
+// claim. The program's exit codes are 0: no claim is broken, 1: one is, 2: not filled in. REQUIRES
+// a plug-in, and judgements of a contracted case.
+std::string plain_case_text(const corpus::Case& c, const properties::DetectorUnderTest& detector,
+                            const std::vector<oracle::StepJudgement>& judgements);
 
 // A second file, which puts the same arrays to the assay_detector() of a library that is named to
-// it.
-std::string plugin_case_text();
+// it, and asks for the same claims. It ends with 1 too where the library crashes or exits, if
+// `total` is claimed.
+std::string plugin_case_text(bool is_query);
 
 // "5/8", "3/2^1060": a double in [0, 1] as the fraction that it is.
 std::string fraction_of(double share);

@@ -47,6 +47,15 @@ Json times_json(const std::vector<properties::WrongTime>& times) {
   return out;
 }
 
+Json first_json(const properties::StepDiff& diff) {
+  if (!diff.first) return nullptr;
+  const auto& [ours, exact, off] = *diff.first;
+  return {{"detector", to_json(ours)},
+          {"oracle", to_json(exact)},
+          {"late_by", off.late},
+          {"early_by", off.early}};
+}
+
 }  // namespace
 
 Json to_json(const properties::StepDiff& diff) {
@@ -57,6 +66,7 @@ Json to_json(const properties::StepDiff& diff) {
           {"partial", diff.partial},
           {"wrong_answer", diff.wrong_answer()},
           {"wrong_first_time", diff.wrong_first_time()},
+          {"first", first_json(diff)},
           {"missing", pairs_json(diff.missing)},
           {"excused", pairs_json(diff.excused)},
           {"spurious", pairs_json(diff.spurious)},
@@ -67,8 +77,7 @@ Json to_json(const properties::StepDiff& diff) {
           {"left_out_missed", diff.left_out_missed}};
 }
 
-Json step_json(const detector::StepResult& result, const oracle::StepJudgement* judgement,
-               double oracle_ms, const properties::StepDiff* diff) {
+Json step_json(const detector::StepResult& result, const JudgedByOracle* oracle) {
   const bool collision = result.answer == detector::Answer::collision;
   Json step = {{"answer", properties::name_of(result.answer)},
                {"first_time", collision ? to_json(result.first) : Json()},
@@ -122,25 +131,24 @@ Json step_json(const detector::StepResult& result, const oracle::StepJudgement* 
                  {"closure", result.times.closure},
                  {"total", result.times.total}}}};
   step["second_opinion"] = nullptr;
-  if (!judgement) {
+  if (!oracle) {
     step["oracle"] = nullptr;
     step["diff"] = nullptr;
     return step;
   }
+  const auto& [judgement, truth, diff, milliseconds] = *oracle;
   step["oracle"] = {
-      {"answer", properties::name_of(judgement->answer)},
-      {"complete", judgement->complete},
-      {"first_time", judgement->complete && judgement->answer == detector::Answer::collision
-                         ? to_json(judgement->first)
-                         : Json()},
-      {"pairs", judgement->pairs.size()},
-      {"feature_candidates", judgement->feature_candidates},
+      {"answer", properties::name_of(truth.answer())},
+      {"complete", truth.complete},
+      {"first_time", truth.complete && truth.first ? to_json(truth.first->time) : Json()},
+      {"pairs", truth.pairs.size()},
+      {"feature_candidates", judgement.feature_candidates},
       {"rungs",
-       {{"axis", judgement->rungs.axis},
-        {"interval", judgement->rungs.interval},
-        {"quadratic", judgement->rungs.quadratic}}},
-      {"time_ms", oracle_ms}};
-  step["diff"] = to_json(*diff);
+       {{"axis", judgement.rungs.axis},
+        {"interval", judgement.rungs.interval},
+        {"quadratic", judgement.rungs.quadratic}}},
+      {"time_ms", milliseconds}};
+  step["diff"] = to_json(diff);
   return step;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "detector/step_result.h"
-#include "properties/judging/agreement.h"
+#include "reports/steps/step_text.h"
 
 namespace assay::reports {
 
@@ -15,10 +15,7 @@ nlohmann::ordered_json to_json(const detector::TimeEnclosure& time);
 nlohmann::ordered_json to_json(const detector::PairContact& contact);
 nlohmann::ordered_json to_json(const properties::StepDiff& diff);
 
-// One entry of `steps`, without a second opinion. judgement and diff are null if no oracle was
-// asked.
-nlohmann::ordered_json step_json(const detector::StepResult& result,
-                                 const oracle::StepJudgement* judgement, double oracle_ms,
-                                 const properties::StepDiff* diff);
+// One entry of `steps`, without a second opinion. `oracle` is null if it was not asked.
+nlohmann::ordered_json step_json(const detector::StepResult& result, const JudgedByOracle* oracle);
 
 }  // namespace assay::reports

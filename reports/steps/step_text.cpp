@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "detector/step_result.h"
 #include "reports/steps/view_use_words.h"
 
@@ -60,13 +62,21 @@ std::string diff_text(const properties::StepDiff& diff, bool has_stages) {
   return out;
 }
 
-// Tells how far off the first time is, if it is wrong.
-std::string times_off_text(const properties::StepDiff& diff) {
-  if (!diff.first || !diff.wrong_first_time()) return "";
-  const bool is_late = diff.late_first;
-  return fmt::format("  first time {}, exact {}: {} by {:.3g}\n", time_text(diff.first->detector),
-                     time_text(diff.first->oracle), is_late ? "late" : "early",
-                     is_late ? diff.first->late_by : diff.first->early_by);
+// Tells the exact first time beside the detector's: of the built-in detector where it differs, of a
+// plug-in wherever there is one.
+std::string times_text(const properties::StepDiff& diff, bool is_built_in) {
+  if (!diff.first_contact || diff.partial) return "";
+  if (!diff.first)
+    return is_built_in
+               ? ""
+               : fmt::format("  exact first time {}\n", time_text(diff.first_contact->time));
+  if (is_built_in && !diff.wrong_first_time()) return "";
+  const auto& [ours, exact, off] = *diff.first;
+  return fmt::format("  first time {}, exact {}{}\n", time_text(ours), time_text(exact),
+                     off.late > 0              ? fmt::format(": late by {:.3g}", off.late)
+                     : off.early > 0           ? fmt::format(": early by {:.3g}", off.early)
+                     : diff.wrong_first_time() ? ": off by less than an ulp"
+                                               : "");
 }
 
 // Tells the view sets. A step without views has none, so the reason why takes their place.
@@ -92,9 +102,18 @@ std::string stages_text(const detector::StepResult& result, std::optional<double
 
 }  // namespace
 
+std::string left_out_text(const properties::StepTruth& truth) {
+  if (truth.left_out.empty()) return "";
+  const auto first = std::min_element(truth.left_out.begin(), truth.left_out.end(),
+                                      [](const auto& a, const auto& b) { return a.time < b.time; });
+  return fmt::format("; {} pair{} left out by the contract, the first at t = {}",
+                     truth.left_out.size(), truth.left_out.size() == 1 ? "" : "s",
+                     time_text(first->time));
+}
+
 std::string step_text(std::size_t number, const detector::StepResult& result,
-                      const oracle::StepJudgement* judgement, double oracle_ms,
-                      const properties::StepDiff* diff, const ShownWork& shown) {
+                      const JudgedByOracle* oracle, const ShownWork& shown) {
+  const auto* diff = oracle ? &oracle->diff : nullptr;
   const bool has_answer = !diff || diff->has_answer || result.answer == Answer::error;
   std::string out = fmt::format("step {}: {}", number,
                                 has_answer ? properties::name_of(result.answer) : "no answer");
@@ -110,19 +129,21 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
     out += fmt::format("; {}\n", verdict_text(*diff));
   }
   if (shown.has_stages) out += stages_text(result, shown.create_ms);
-  if (judgement) {
-    out += fmt::format("{} {:.1f}\n  oracle: {}, {} pairs of {} feature candidates{}",
-                       shown.has_stages ? ", oracle" : "  ms:   oracle", oracle_ms,
-                       properties::name_of(judgement->answer), judgement->pairs.size(),
-                       judgement->feature_candidates, judgement->complete ? "" : " (stopped)");
+  if (oracle) {
+    out +=
+        fmt::format("{} {:.1f}\n  oracle: {}, {} pairs of {} feature candidates{}{}",
+                    shown.has_stages ? ", oracle" : "  ms:   oracle", oracle->milliseconds,
+                    properties::name_of(oracle->truth.answer()), oracle->truth.pairs.size(),
+                    oracle->judgement.feature_candidates,
+                    oracle->judgement.complete ? "" : " (stopped)", left_out_text(oracle->truth));
   }
-  if (shown.has_stages || judgement) out += "\n";
+  if (shown.has_stages || oracle) out += "\n";
   if (!diff) return out;
   if (diff->candidates)
     out += fmt::format("  candidates: {} pairs, at least {} needed, {} lost\n",
                        diff->candidates->given, diff->candidates->least,
                        diff->missing_candidates.size());
-  out += times_off_text(*diff);
+  out += times_text(*diff, shown.has_stages);
   if (diff->outcome != Outcome::holds || differs(*diff)) out += diff_text(*diff, shown.has_stages);
   return out;
 }

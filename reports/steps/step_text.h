@@ -6,6 +6,7 @@
 
 #include "detector/step_result.h"
 #include "properties/judging/agreement.h"
+#include "properties/judging/step_truth.h"
 
 namespace assay::reports {
 
@@ -19,10 +20,21 @@ struct ShownWork {
   std::optional<double> create_ms;  // to be shown, if it is given
 };
 
+// What the oracle says of a step: its judgement, the part of it that counts under the detector's
+// contract, and how the detector differs from that.
+struct JudgedByOracle {
+  oracle::StepJudgement judgement;
+  properties::StepTruth truth;
+  properties::StepDiff diff;
+  double milliseconds = 0;
+};
+
 // A line with the answer, then the sizes, counts and times, indented, as far as they are to be
-// shown. judgement and diff are null if no oracle was asked.
+// shown. `oracle` is null if it was not asked.
 std::string step_text(std::size_t number, const detector::StepResult& result,
-                      const oracle::StepJudgement* judgement, double oracle_ms,
-                      const properties::StepDiff* diff, const ShownWork& shown);
+                      const JudgedByOracle* oracle, const ShownWork& shown);
+
+// "; 12 pairs left out by the contract, the first at t = 0"; empty if none is.
+std::string left_out_text(const properties::StepTruth& truth);
 
 }  // namespace assay::reports

@@ -52,7 +52,7 @@ Check positive();      // a number above 0
 Check whole_number();  // 0 .. 2^64-1
 Check share();         // a number above 0, at most 1
 
-// Which part of a plug-in is judged. `by_library`: its steps or candidates, if it has these, else
+// Which part of a plug-in is judged. `by_library`: all that it holds, its steps or candidates and
 // its query.
 enum class DetectorPart : std::uint8_t { by_library, steps, query };
 

@@ -19,14 +19,18 @@ void Progress::phase(std::string name) {
 }
 
 void Progress::tick() {
-  if (!on_terminal_) return;
-  constexpr auto between = std::chrono::milliseconds(200);
+  using namespace std::chrono_literals;
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_ < between) return;
+  if (now - last_ < (on_terminal_ ? std::chrono::milliseconds(200ms) : 60s)) return;
   last_ = now;
-  drawn_ = true;
+  drawn_ = on_terminal_;
   const std::chrono::duration<double> elapsed = now - begin_;
-  fmt::print(stderr, "\r\033[K{}: {} {:.0f} s", title_, phase_, elapsed.count());
+  const auto line = fmt::format("{}: {} {:.0f} s", title_, phase_, elapsed.count());
+  if (on_terminal_) {
+    fmt::print(stderr, "\r\033[K{}", line);
+  } else {
+    fmt::print(stderr, "{}\n", line);
+  }
 }
 
 void Progress::finish() {

@@ -1,4 +1,5 @@
-// A line that shows how far long work is: on a terminal only, rewritten in place.
+// A line that shows how far long work is: on a terminal rewritten in place, elsewhere one each
+// minute.
 #pragma once
 
 #include <chrono>
@@ -14,9 +15,9 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void phase(std::string name);
-  // Is cheap: redraws the line at most five times a second.
+  // Is cheap: draws the line at most five times a second, or once a minute where it stays.
   void tick();
-  // Clears the line.
+  // Clears the line of a terminal.
   void finish();
 
  private:

@@ -1,5 +1,10 @@
 #include "reports/terminal/shell_word.h"
 
+#include <unistd.h>
+
+#include <cstdlib>
+#include <sstream>
+
 #include "properties/worker/plugin/python_word.h"
 
 namespace assay::reports {
@@ -17,6 +22,27 @@ std::string shell_word(const std::string& word) {
     }
   }
   return quoted + "'";
+}
+
+std::string this_program(bool from_anywhere) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const auto own = fs::read_symlink("/proc/self/exe", error);
+  // Python calls what stands in a library of its own.
+  if (error || own.filename() != "assay") return "assay";
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const auto found = fs::path(folder.empty() ? "." : folder) / "assay";
+    if (access(found.c_str(), X_OK) != 0 || fs::is_directory(found, error)) continue;
+    if (fs::equivalent(found, own, error)) return "assay";
+    break;
+  }
+  const auto here = own.lexically_relative(fs::current_path(error));
+  const bool is_below = !error && !here.empty() && *here.begin() != "..";
+  if (!is_below || from_anywhere) return shell_word(own.string());
+  // A name alone would be looked for on the PATH.
+  return shell_word((here.has_parent_path() ? here : "." / here).string());
 }
 
 std::string absolute_path(const std::filesystem::path& path) {

@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 Expected<void> may_write(const std::string& path, const std::vector<std::string>& inputs) {
   namespace fs = std::filesystem;
   if (path.empty()) return outcome::success();
+  // Elsewhere it stands for standard output, where this would be mixed with the text.
+  if (path == "-") return Refusal("-: name a file; standard output is for the text");
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) return Refusal(path + ": is a directory");
   if (fs::exists(path, ignored)) {

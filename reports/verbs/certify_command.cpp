@@ -14,6 +14,7 @@
 #include "corpus/digest.h"
 #include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/phases/corpus_failures.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/checks.h"
 #include "properties/campaign/stored/run_folder.h"
@@ -184,6 +185,8 @@ class Certification {
                                          properties::binding_of(request_));
     if (!store) return Refusal(store.error());
     store_ = std::move(store.value());
+    if (const auto kept = properties::keeps_isolation(request_, *store_); !kept)
+      return Refusal(kept.error());
     return outcome::success();
   }
 
@@ -277,9 +280,10 @@ class Certification {
     if (written) written = write_for_ci(statement.value()["predicate"], out_);
     if (!written) return refuse(written.error());
     const auto judgement = judge(findings.value());
-    fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nit speaks of {}\nnext: assay verify {}\n",
+    fmt::print("{}\n{}\nverdict: {} in {:.0f} s; {}\nit speaks of {}\nnext: {} verify {}\n",
                findings_text(findings.value()), gates_text(judgement), judgement.verdict, seconds,
-               certificate, judged_text(statement.value()["predicate"]), shell_word(certificate));
+               certificate, judged_text(statement.value()["predicate"]), this_program(),
+               shell_word(certificate));
     return judgement.exit_code;
   }
 

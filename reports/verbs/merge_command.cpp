@@ -1,6 +1,7 @@
 // `assay merge` makes one store of the stores of several shards of a campaign.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "properties/campaign/gates/read_findings.h"
@@ -11,6 +12,7 @@
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/shell_word.h"
+#include "reports/terminal/text_file.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -30,6 +32,22 @@ properties::Expected<std::vector<std::filesystem::path>> stores_of(
     stores.insert(stores.end(), found.value().begin(), found.value().end());
   }
   return stores;
+}
+
+// What `certify` takes as this campaign: the name of a built-in one, else OUT/campaign.json, which
+// is written unless a certificate left it there.
+Expected<std::string> campaign_word(const properties::CampaignPlan& plan, const std::string& out) {
+  const auto& named = properties::named_plans();
+  if (std::any_of(named.begin(), named.end(),
+                  [&](const auto& one) { return one.name == plan.name; }))
+    return plan.name;
+  const auto file = properties::campaign_file(out);
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    const auto written = write_text_file(file.string(), properties::plan_text(plan) + "\n");
+    if (!written) return written.error();
+  }
+  return shell_word(file.string());
 }
 
 int run_merge(const MergeRequest& request) {
@@ -59,7 +77,10 @@ int run_merge(const MergeRequest& request) {
   if (trials < planned) {
     fmt::print("{} trials are absent: merge the shards that hold them too\n", planned - trials);
   } else {
-    fmt::print("next: assay certify --campaign {} --seed {}{} --out {}\n", run.plan.name, run.seed,
+    const auto campaign = campaign_word(run.plan, request.out);
+    if (!campaign) return refuse(campaign.error());
+    fmt::print("next: {} certify --campaign {} --seed {}{} --out {}\n", this_program(),
+               campaign.value(), run.seed,
                detector_words(findings.library, findings.run.detector.threads),
                shell_word(request.out));
   }

@@ -102,17 +102,20 @@ std::optional<std::string> choose_configurations(const corpus::Case& c,
   return std::nullopt;
 }
 
-void print_steps(const corpus::Case& c, const std::vector<oracle::StepJudgement>& truth) {
+// Prints what counts under the contract, and names what it leaves out.
+void print_steps(const corpus::Case& c, const std::vector<oracle::StepJudgement>& judgements,
+                 const properties::Contract& contract) {
   const auto script = corpus::steps_of(c);
   for (std::size_t s = 0; s < script.size(); ++s) {
+    const auto truth = truth_of(c, judgements[s], contract);
     fmt::print("step {} (frame {} to {}, {}): oracle {}", s + 1, script[s].from, script[s].to,
                script[s].commit ? "committed" : "evaluated only",
-               properties::name_of(truth[s].answer));
-    if (!truth[s].pairs.empty()) {
-      fmt::print(" at t = {}, {} pairs in contact", time_text(truth[s].first),
-                 truth[s].pairs.size());
+               properties::name_of(truth.answer()));
+    if (truth.first) {
+      fmt::print(" at t = {}, {} pair{} in contact", time_text(truth.first->time),
+                 truth.pairs.size(), truth.pairs.size() == 1 ? "" : "s");
     }
-    fmt::print("\n");
+    fmt::print("{}\n", left_out_text(truth));
   }
 }
 
@@ -141,8 +144,10 @@ void print_run(const properties::Configuration& configuration, const properties:
                result.pairs.size(), sets_text(result));
   }
   if (verdict.failure) {
-    fmt::print("  DEFECT {} in step {}: {}\n", verdict.failure->signature(),
-               verdict.failure->step + 1, verdict.failure->explanation);
+    const auto where = fmt::format("step {}: ", verdict.failure->step + 1);
+    const auto& told = verdict.failure->explanation;
+    fmt::print("  DEFECT {} in {}{}\n", verdict.failure->signature(), where,
+               told.starts_with(where) ? told.substr(where.size()) : told);
   }
   if (verdict.outcome != Outcome::holds) fmt::print("{}", printed_text(run.printed));
 }
@@ -158,6 +163,18 @@ bool print_broken_laws(const corpus::Case& c, const properties::DetectorUnderTes
   return !tally.broken.empty();
 }
 
+// A case is made of the text of its id, so a campaign's name that is misspelt makes another case.
+std::string misspelt(const std::string& id) {
+  const auto campaign = id.substr(0, id.find(':'));
+  const auto plans = properties::named_plans();
+  const bool is_named = std::any_of(plans.begin(), plans.end(),
+                                    [&](const auto& plan) { return plan.name == campaign; });
+  const auto* meant = is_named ? nullptr : properties::plan_meant_by(campaign);
+  return meant ? fmt::format("{}: there is no campaign {}; did you mean {}?", id, campaign,
+                             meant->name)
+               : "";
+}
+
 int run_replay(const ReplayRequest& request) {
   auto made = case_of(request.id_or_file);
   if (!made) {
@@ -168,6 +185,9 @@ int run_replay(const ReplayRequest& request) {
   }
   corpus::Case& c = made.value().c;
   const auto& trial = made.value().trial;
+  if (trial) {
+    if (const auto line = misspelt(request.id_or_file); !line.empty()) return refuse(line);
+  }
   properties::CampaignRequest subject;
   subject.worker = properties::worker_program();
   auto words = request.detector;
@@ -196,7 +216,7 @@ int run_replay(const ReplayRequest& request) {
   const auto seen = properties::contracted(c, subject.detector.contract);
   if (!seen) {
     return refuse(fmt::format("{}: nothing of it is within the detector's contract: {}",
-                              request.id_or_file, joined(phrases_of(contract), ", ")));
+                              request.id_or_file, properties::why_left_out(c, contract)));
   }
   const auto truth = properties::judge_case(*seen, contract);
   properties::WorkerProcess worker(subject.worker, subject.plugin,
@@ -205,6 +225,10 @@ int run_replay(const ReplayRequest& request) {
   for (const auto& run : runs) {
     if (run.end == properties::RunEnd::not_run) return refuse(run.explanation);
   }
+  // A plug-in that claims to be deterministic is asked twice, as in a campaign.
+  const bool asks_twice = !subject.detector.built_in && subject.detector.claims.deterministic;
+  const auto again = asks_twice ? worker.run(*seen, subject.detector.configurations)
+                                : std::vector<properties::CaseRun>{};
   if (!request.export_folder.empty()) {
     const auto written = export_case(request.export_folder, *seen, subject.detector, truth);
     if (!written) return refuse(written.error());
@@ -213,12 +237,12 @@ int run_replay(const ReplayRequest& request) {
              properties::size_text(properties::size_of(c)),
              c.about.empty() ? "" : "; " + properties::printable(c.about));
   if (vouched) fmt::print("as in the campaign, the detector is given its start as clean\n");
-  print_steps(*seen, truth);
+  print_steps(*seen, truth, contract);
   int code = exit_holds;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto& configuration = subject.detector.configurations[i];
-    const auto verdict =
-        properties::judge_trial(*seen, truth, runs[i], configuration, subject.detector);
+    const auto verdict = properties::judge_trial(
+        *seen, truth, runs[i], configuration, subject.detector, asks_twice ? &again[i] : nullptr);
     print_run(configuration, runs[i], verdict);
     if (verdict.outcome == Outcome::defect) code = exit_defect;
     if (verdict.outcome != Outcome::defect && verdict.outcome != Outcome::holds &&
@@ -249,7 +273,8 @@ std::optional<detector::TrianglePair> parse_pair(const std::string& word) {
 void add_options(Verb& verb, ReplayRequest& request) {
   verb.add("case", request.id_or_file, "Its id, CAMPAIGN:SEED:FAMILY:INDEX, or a file").required();
   verb.add("--export", request.export_folder,
-           "Write frames as OBJ and a ready GoogleTest into this folder");
+           "Write frames as OBJ and a test in C++ into this folder: a GoogleTest, of a plug-in "
+           "plain C++");
   add_choice(verb, "--why", request.why, "A,B: two triangles", parse_pair,
              "A,B: why this pair of triangles was or was not tested");
   add_detector(verb, request.detector);

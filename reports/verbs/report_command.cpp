@@ -52,6 +52,7 @@ int run_report(const ReportRequest& request) {
   Json runs = Json::array();
   PlainProgress progress("report");
   for (const auto& folder : request.folders) {
+    if (const auto line = sent_alone(certificate_in(folder)); !line.empty()) return refuse(line);
     auto run = describe_run(folder, progress);
     if (!run) return refuse(run.error().message);
     runs.push_back(std::move(run.value()));

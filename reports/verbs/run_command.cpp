@@ -3,6 +3,7 @@
 
 #include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/phases/corpus_failures.h"
+#include "properties/campaign/phases/phases.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_options.h"
@@ -43,13 +44,13 @@ int conclude(const properties::CampaignRequest& request, const properties::RunFi
              verdict_text(findings, judgement), seconds);
   const bool is_complete = !findings.has_more_to_do();
   if (!findings.evidence.slow.empty())
-    fmt::print("slow cases: assay list slow {}\n", shell_word(out));
+    fmt::print("slow cases: {} list slow {}\n", this_program(), shell_word(out));
   if (!findings.failures.empty()) {
-    fmt::print("next: assay list failures {}\n", shell_word(out));
+    fmt::print("next: {} list failures {}\n", this_program(), shell_word(out));
   } else if (!is_complete) {
     fmt::print("next: run the same again to go on, with --time for another limit\n");
   } else if (judgement.exit_code != exit_holds) {
-    fmt::print("next: assay report {} --out {}\n", shell_word(out),
+    fmt::print("next: {} report {} --out {}\n", this_program(), shell_word(out),
                shell_word((findings.folder / "report.html").string()));
   }
   // This line is for whoever waits for all shards, because the exit code may also be that of a
@@ -95,6 +96,8 @@ int run_campaign(const RunRequest& command) {
   const auto file = properties::store_file(out, request.shard);
   auto store = properties::Store::open(file, properties::binding_of(request));
   if (!store) return refuse(Refusal(store.error()));
+  if (const auto kept = properties::keeps_isolation(request, store.value()); !kept)
+    return refuse(Refusal(kept.error()));
   if (const auto done = run_own_cases(request, store.value()); !done)
     return refuse_and_keep(done.error());
   if (const auto done = run_on_terminal(request, store.value(), out); !done)

@@ -7,6 +7,7 @@
 #include "corpus/scenes/scenes.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/shell_word.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -53,7 +54,7 @@ int run_scene(const SceneRequest& request) {
              sequence.value().frames.size(), sequence.value().triangles.rows(),
              sequence.value().frames[0].rows(), request.out);
   if (sequence.value().frames.size() > 1) {
-    fmt::print("next: assay check {}/frame_*.ply\n", request.out);
+    fmt::print("next: {} check {}/frame_*.ply\n", this_program(), shell_word(request.out));
   }
   return exit_holds;
 }

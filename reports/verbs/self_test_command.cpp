@@ -11,6 +11,7 @@
 #include "reports/terminal/exit_code.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/progress.h"
+#include "reports/terminal/shell_word.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -43,7 +44,8 @@ void print_row(const std::string& name, const QueryTally& t, double seconds) {
 }
 
 std::string replay_line(const SelfTestFamily& family, std::uint64_t seed, std::uint64_t index) {
-  return fmt::format("assay self-test --replay {}:{}:{}", family.name(), seed, index);
+  return fmt::format("{} self-test --replay {}:{}:{}", this_program(true), family.name(), seed,
+                     index);
 }
 
 void print_failures(const SelfTestFamily& family, std::uint64_t seed, const FamilyResult& result) {

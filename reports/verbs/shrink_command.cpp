@@ -107,10 +107,10 @@ int run_shrink(const ShrinkRequest& request) {
                                    failing->signature);
   }
   if (!written) return refuse(written.error());
-  fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: assay replay {}{}\n",
+  fmt::print("{}; {} runs, {:.1f} s{}\npicture {}\nreplay: {} replay {}{}\n",
              properties::size_text(properties::size_of(c), properties::size_of(reduction.smallest)),
              reduction.calls, reduction.seconds, reduction.fixed_point ? "" : "; the time was over",
-             picture_file(request.out), shell_word(request.out),
+             picture_file(request.out), this_program(true), shell_word(request.out),
              detector_words(request.detector.library, request.detector.threads));
   return exit_defect;
 }

@@ -76,13 +76,16 @@ int run_verify(const VerifyRequest& request) {
   if (!request.again && (request.seed || !request.detector.library.empty()))
     return refuse("--seed and --detector are of --again, which is not given");
   std::error_code ignored;
-  for (const auto& file : request.certificates) {
+  auto certificates = request.certificates;
+  for (auto& file : certificates) {
+    file = certificate_in(file).string();
     if (!std::filesystem::is_regular_file(file, ignored))
       return refuse(fmt::format("{}: no such file", file));
+    if (const auto line = sent_alone(file); !line.empty()) return refuse(line);
   }
   std::vector<Json> predicates;
   int code = exit_holds;
-  for (const auto& file : request.certificates) {
+  for (const auto& file : certificates) {
     const auto result = verify_certificate(file);
     for (const auto& line : result.differences) fmt::print("{}\n", line);
     if (!result.differences.empty()) {
@@ -108,7 +111,7 @@ int run_verify(const VerifyRequest& request) {
 
 void add_options(Verb& verb, VerifyRequest& request) {
   verb.add("certificate", request.certificates,
-           "OUT/certificate.json; several nights of one detector are pooled")
+           "OUT/certificate.json, or OUT; several nights of one detector are pooled")
       .required();
   verb.add("--again", request.again,
            "SHARE of the trials, above 0, at most 1: they are run once more and have to come to "

@@ -1,7 +1,8 @@
 // Reads the public data sets whose folder ASSAY_DATA names; skipped where it is absent.
+#include "tests/public_data.h"
+
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "corpus/formats/sequence_reader.h"
@@ -13,11 +14,8 @@ namespace {
 class PublicData : public testing::Test {
  protected:
   void SetUp() override {
-    const char* folder = std::getenv("ASSAY_DATA");
-    if (folder == nullptr || !std::filesystem::is_directory(folder)) {
-      GTEST_SKIP() << "no public data: ASSAY_DATA is " << (folder == nullptr ? "not set" : folder);
-    }
-    folder_ = folder;
+    if (!tests::public_data()) GTEST_SKIP() << "no public data";
+    folder_ = tests::public_data();
   }
 
   // A data set may be missing from the folder.

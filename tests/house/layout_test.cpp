@@ -1,5 +1,5 @@
-// No room is crowded, nothing but a test is named like one, no test is left out of the build, and
-// constants are named in one style.
+// No room is crowded, nothing but a test is named like one, no test is left out of the build, the
+// tree is built in any folder, tests of public data say so, and constants are named in one style.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -71,6 +71,45 @@ TEST(Layout, EveryTestIsCompiled) {
     EXPECT_TRUE(compiled.contains((root / file).string())) << file << " is in no program";
   }
   EXPECT_GT(tests, 100u);
+}
+
+// CMake lists sources by their whole paths, so a pattern that may match in the middle of one
+// chooses other files below a folder of that name: "/peers/" left out everything of a clone in
+// ~/peers/.
+TEST(Layout, TheTreeIsBuiltInAnyFolder) {
+  const std::regex filter(R"x(FILTER \w+ (IN|EX)CLUDE REGEX "([^"]*)")x");
+  int filters = 0;
+  for (const auto& file : files_below("")) {
+    if (!file.ends_with("CMakeLists.txt")) continue;
+    const auto text = text_of(file);
+    for (std::sregex_iterator i(text.begin(), text.end(), filter), end; i != end; ++i) {
+      ++filters;
+      const std::string pattern = (*i)[2];
+      EXPECT_TRUE(pattern.starts_with('^') || pattern.ends_with('$')) << file << ": " << pattern;
+    }
+  }
+  EXPECT_GT(filters, 4);
+}
+
+// Their names begin with `Public`: by that tests/without_data.py finds them.
+TEST(Layout, TestsOfPublicDataAreNamedSo) {
+  const std::regex opens("^(TEST|class|struct)"), named(R"x([( ]Public\w* ?[,:{]|, Public)x");
+  int readers = 0;
+  for (const auto& file : files_below("tests")) {
+    if (!is_source(file) || file == "tests/public_data.h" || file.starts_with("tests/house/"))
+      continue;
+    const auto text = text_of(file);
+    EXPECT_EQ(text.find("\"ASSAY_DATA"), std::string::npos) << file << ": public_data() reads it";
+    std::istringstream lines(text);
+    std::string opened;
+    for (std::string line; std::getline(lines, line);) {
+      if (std::regex_search(line, opens)) opened = line;
+      if (line.find("public_data()") == std::string::npos) continue;
+      ++readers;
+      EXPECT_TRUE(std::regex_search(opened, named)) << file << ": " << opened;
+    }
+  }
+  EXPECT_GE(readers, 5);
 }
 
 // Constants have names in snake_case, as variables have: `most_pieces`, and not `kMostPieces`. What

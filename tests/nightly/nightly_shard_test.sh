@@ -30,4 +30,5 @@ expect "a shard out of time goes on" 75 3 begun "shard 2/3: 10 trials left"
 expect "a killed one goes on" 75 137 begun ""
 expect "no worker in the middle of it passes" 75 2 begun "assay: cannot start assay-worker"
 expect "a wrong name does not" 2 2 refused "assay: no campaign of this name"
+expect "nor does the store of another run" 2 2 begun "assay: x.sqlite: holds another run: seed 1 and 2"
 exit $failed

@@ -2,7 +2,9 @@
 // ASSAY_BY_CONTRACT, such as "start=free miss-at-start": faults that the contract excuses, others.
 //
 //   start=free, start=apart:D, range=LO:HI, features=vertex-face, features=edge-edge, tolerance=T,
-//   margin=D, no-pairs, claims=BITS          its description
+//   margin=D, no-pairs, adjacency=NUMBER, float32,
+//   claims=BITS                              its description
+//   strangers                                the same as adjacency=2
 //   miss-at-start, miss-inside               answers free when the first contact is at 0, above 0
 //   miss=vertex-face, miss=edge-edge         does not test these
 //   late=S, early=S                          its first time, and those of its pairs, off by S
@@ -10,10 +12,15 @@
 //   alarm-share=P                            the same in a share of them, by the coordinates
 //   burn=S                                   S seconds where the first time is a double above 0
 //   abort-outside                            aborts when a step of the wrong contract is put to it
+//   abort                                    aborts in every step
 //   whenever                                 collision at [0, 1] in every step
 //   with-pairs                               gives pairs, whatever it says
+//   drop-last                                does not report its last pair
+//   no-interval                              its first time is none
+//   changing                                 the interval of every second first time ends at 1
 //   print=N                                  prints N lines a step, with an escape character
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -62,6 +69,7 @@ assay_description described() {
   d.claims = (ASSAY_CLAIM_TOTAL << 1) - 1;
   if (has("claims")) d.claims = static_cast<std::uint32_t>(number_of("claims"));
   d.margin = number_of("margin");
+  if (has("strangers")) d.adjacency = ASSAY_ADJACENCY_NO_SHARED_VERTEX;
   if (is("start", "free")) d.start = ASSAY_START_FREE;
   if (const char* start = value_of("start"); start && std::strncmp(start, "apart:", 6) == 0) {
     d.start = ASSAY_START_APART;
@@ -73,6 +81,8 @@ assay_description described() {
   }
   if (is("features", "vertex-face")) d.features = ASSAY_FEATURES_VERTEX_FACE;
   if (is("features", "edge-edge")) d.features = ASSAY_FEATURES_EDGE_EDGE;
+  if (has("adjacency")) d.adjacency = static_cast<std::int32_t>(number_of("adjacency"));
+  if (has("float32")) d.coordinates = ASSAY_COORDINATES_FLOAT32;
   d.time_tolerance = number_of("tolerance");
   d.reports = has("no-pairs") ? ASSAY_REPORTS_NO_PAIRS : ASSAY_REPORTS_PAIRS;
   return d;
@@ -98,6 +108,17 @@ struct assay_handle {
   MovingPoint path(std::int32_t v) const {
     const auto at = [v](const double* x) { return Point{x[3 * v], x[3 * v + 1], x[3 * v + 2]}; };
     return {at(x_t0), at(x_t1)};
+  }
+
+  // Whether the contract's adjacency leaves these two out.
+  static bool leaves_out(const std::array<std::int32_t, 3>& s,
+                         const std::array<std::int32_t, 3>& t) {
+    const auto shared = std::count_if(s.begin(), s.end(), [&](std::int32_t v) {
+      return std::find(t.begin(), t.end(), v) != t.end();
+    });
+    const auto adjacency = description().adjacency;
+    return adjacency != ASSAY_ADJACENCY_ALL &&
+           shared > (adjacency == ASSAY_ADJACENCY_NOT_EDGE_SHARING ? 1 : 0);
   }
 
   void earliest(const FourPoints& query, TimeEnclosure& first) const {
@@ -178,11 +199,19 @@ double clamped(double t) { return std::clamp(t, 0., 1.); }
 
 void abort_outside(const assay_handle& h, double first) {
   if (description().start == ASSAY_START_FREE && first == 0) std::abort();
+  if (description().largest == 0) return;
   for (std::size_t i = 0; i < 3 * h.vertices; ++i) {
-    const double x = std::abs(h.x_t0[i]);
-    const bool in_range =
-        x == 0 || (x >= description().least_nonzero && x <= description().largest);
-    if (description().largest > 0 && !in_range) std::abort();
+    if (std::abs(h.x_t0[i]) > description().largest) std::abort();
+  }
+  for (const auto& corners : h.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      double length = 0;
+      for (int k = 0; k < 3; ++k) {
+        length = std::max(
+            length, std::abs(h.x_t0[3 * corners[i] + k] - h.x_t0[3 * corners[(i + 1) % 3] + k]));
+      }
+      if (length > 0 && length < description().least_nonzero) std::abort();
+    }
   }
 }
 
@@ -195,6 +224,7 @@ std::int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1) {
   const double shift = number_of("late") - number_of("early");
   for (std::size_t t = 1; t < h->triangles.size(); ++t) {
     for (std::size_t s = 0; s < t; ++s) {
+      if (assay_handle::leaves_out(h->triangles[s], h->triangles[t])) continue;
       const auto time = h->first_contact(h->triangles[s], h->triangles[t]);
       if (time.lo > 1) continue;
       h->pairs.insert(h->pairs.end(), {static_cast<std::int32_t>(s), static_cast<std::int32_t>(t)});
@@ -206,6 +236,7 @@ std::int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1) {
   for (int i = 1; i <= lines; ++i)
     std::fprintf(stderr, "line %d of \x1b[31m%d triangles\n", i,
                  static_cast<int>(h->triangles.size()));
+  if (has("abort")) std::abort();
   if (has("abort-outside")) abort_outside(*h, first.lo);
   if (has("burn") && first.lo == first.hi && first.lo > 0 && first.lo <= 1) burn(number_of("burn"));
   h->collision = first.lo <= 1;
@@ -221,6 +252,10 @@ std::int32_t evaluate(assay_handle* h, const double* x_t0, const double* x_t1) {
     h->lo = 0;
     h->hi = 1;
   }
+  if (has("drop-last") && !h->pairs.empty()) h->pairs.resize(h->pairs.size() - 2);
+  if (has("no-interval")) h->hi = h->lo - 1;
+  static std::atomic<int> calls = 0;
+  if (has("changing") && ++calls % 2 == 0) h->hi = 1;
   if (!h->collision) h->pairs.clear();
   return ASSAY_OK;
 }

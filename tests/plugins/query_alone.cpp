@@ -1,5 +1,6 @@
-// An elementary query and nothing else: the built-in one. Its contract and faults are words of the
-// environment variable ASSAY_QUERY, such as "features=vertex-face miss=edge-edge":
+// An elementary query and nothing else: the built-in one. Compiled with WITH_STEPS, it stands
+// beside the built-in detector of whole steps. Its contract and faults are words of the environment
+// variable ASSAY_QUERY, such as "features=vertex-face miss=edge-edge":
 //
 //   features=vertex-face, features=edge-edge, float32, range=LO:HI, start=free, start=apart:D,
 //   tolerance=T, margin=D, claims=BITS       its description
@@ -13,6 +14,7 @@
 //   abort-at-start                           aborts where the first contact is at 0
 //   no-interval, no-answer, nan              what is no result
 //   abort-outside                            aborts when a query out of the contract is put to it
+//   free-above=N                             the steps of larger meshes are answered free
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -24,7 +26,7 @@
 
 #include "detector/contact/contact_exact.h"
 #include "detector/contact/elementary.h"
-#include "detector/plugin/assay_detector.h"
+#include "detector/plugin/assay_builtin_detector.h"
 
 namespace {
 
@@ -59,13 +61,19 @@ double number_of(const char* name) {
 constexpr std::uint32_t query_claims = ASSAY_CLAIM_FREE_SOUND | ASSAY_CLAIM_NOT_LATE |
                                        ASSAY_CLAIM_FIRST_TIME | ASSAY_CLAIM_NO_SPURIOUS |
                                        ASSAY_CLAIM_DETERMINISTIC | ASSAY_CLAIM_TOTAL;
+#ifdef WITH_STEPS
+constexpr std::uint32_t claims_made =
+    query_claims | ASSAY_CLAIM_FIRST_PAIRS | ASSAY_CLAIM_ALL_PAIRS;
+#else
+constexpr std::uint32_t claims_made = query_claims;
+#endif
 
 const assay_description* describe() {
   static const assay_description description = [] {
     assay_description d = {};
     d.name = "query alone";
     d.version = "1";
-    d.claims = has("claims") ? static_cast<std::uint32_t>(number_of("claims")) : query_claims;
+    d.claims = has("claims") ? static_cast<std::uint32_t>(number_of("claims")) : claims_made;
     if (has("float32")) d.coordinates = ASSAY_COORDINATES_FLOAT32;
     if (is("features", "vertex-face")) d.features = ASSAY_FEATURES_VERTEX_FACE;
     if (is("features", "edge-edge")) d.features = ASSAY_FEATURES_EDGE_EDGE;
@@ -94,9 +102,7 @@ bool is_outside(std::int32_t kind, const FourPoints& q, bool at_start) {
     for (const auto& end : {p.t0, p.t1}) {
       for (const double x : end) {
         if (d.coordinates == ASSAY_COORDINATES_FLOAT32 && static_cast<float>(x) != x) return true;
-        const bool in_range =
-            x == 0 || (std::abs(x) >= d.least_nonzero && std::abs(x) <= d.largest);
-        if (d.largest > 0 && !in_range) return true;
+        if (d.largest > 0 && std::abs(x) > d.largest) return true;
       }
     }
   }
@@ -144,12 +150,35 @@ std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
   return ASSAY_OK;
 }
 
+#ifdef WITH_STEPS
+std::uint64_t triangle_count = 0;
+
+std::int32_t create(const std::int32_t* triangles, std::uint64_t m, const double* x,
+                    std::uint64_t n, assay_handle** handle, const char** message) {
+  triangle_count = m;
+  return assay_builtin_detector()->create(triangles, m, x, n, handle, message);
+}
+
+std::int32_t result(assay_handle* handle, assay_result* out) {
+  if (has("free-above") && static_cast<double>(triangle_count) > number_of("free-above")) {
+    out->answer = ASSAY_FREE;
+    return ASSAY_OK;
+  }
+  return assay_builtin_detector()->result(handle, out);
+}
+#endif
+
 }  // namespace
 
 const assay_detector_api* assay_detector() {
   static const assay_detector_api api = [] {
     assay_detector_api table = {};
     table.abi_version = ASSAY_DETECTOR_ABI_VERSION;
+#ifdef WITH_STEPS
+    table = *assay_builtin_detector();
+    table.create = create;
+    table.result = result;
+#endif
     table.describe = describe;
     table.query = query;
     return table;

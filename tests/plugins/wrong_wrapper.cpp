@@ -1,9 +1,11 @@
-// The built-in detector wrapped, wrong in one of ten ways: ASSAY_TEST_WRONG says in which. The same
-// in Python is tests/reports/python/wrong_detectors.py: what finds the ones has to find the others.
+// The built-in detector wrapped, wrong in one of eleven ways: ASSAY_TEST_WRONG says in which. The
+// same in Python is tests/reports/python/wrong_detectors.py: what finds the ones has to find the
+// others.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <random>
 #include <set>
 
 #include "detector/detector.h"
@@ -24,12 +26,20 @@ enum Way {
   round_to_float,
   free_at_start,
   add_a_pair,
-  half_a_step
+  half_a_step,
+  drawn_when_loaded  // right, but never twice the same
 };
 
 Way way() {
   const char* number = std::getenv("ASSAY_TEST_WRONG");
   return static_cast<Way>(number ? std::atoi(number) : 0);
+}
+
+// Another number in each process.
+double drawn() {
+  static std::random_device source;
+  static const double number = std::uniform_real_distribution<>(.1, .9)(source);
+  return number;
 }
 
 double later(double time) { return std::min(1.0, std::nextafter(time, 2.0)); }
@@ -83,6 +93,7 @@ class Wrong {
     if (way() == free_when_few && answered.pairs.size() < 3) return Result::free();
     if (way() == free_at_start && answered.first.lo == 0) return Result::free();
     Result result = Result::collision(answered.first.lo, answered.first.hi);
+    if (way() == drawn_when_loaded) result.first[0] *= drawn();
     if (way() == late_by_an_ulp)
       result.first = {{later(answered.first.lo), later(answered.first.hi)}};
     std::set<Pair> known;

@@ -92,6 +92,15 @@ SLOW = {
     ],
 }
 
+# What a README shows of what a command prints: the entry of NO_COMMAND that begins the chunk. Each
+# line of it, but for times, has to be a line that the command prints now.
+SHOWN = {
+    "README.md": {
+        "build/release/assay check build/bend/frame_*.ply": "step 11: collision at",
+        "build/release/assay run --campaign smoke --out build/smoke": "canary pair/zero-zero-dropped",
+    },
+}
+
 NOT_RUN = {
     "README.md": {
         "build/release/assay run --campaign smoke --detector build/release/peers/bullet_bernstein.so --out build/bullet":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the commands of all READMEs as they stand. plan.py says which, and how the others are checked.
 
-usage: run.py --build BUILD [--slow]      BUILD: the build tree of preset release
+usage: run.py --build BUILD [--slow|--shown]      BUILD: the build tree of preset release
 """
 import argparse
 import re
@@ -20,6 +20,15 @@ ROOT = Path(__file__).resolve().parents[2]
 COMMAND = re.compile(r"(\w+=\S+ +)*(build/release/|reports/|tests/|assay |ctest |cmake |python3 |cc )")
 WORKFLOW_STEP = re.compile(r"(?:- )?run: (build/release/assay .*)")
 QUICK_SECONDS, SLOW_SECONDS = 60, 3600  # of one command
+
+
+def without_times(text):
+    if text.split(maxsplit=1)[:1] == ["ms:"]:
+        return "ms:"
+    text = re.sub(r"\bin \S+ s\b", "in N s", text.strip())
+    # The last column of a stratum is a speed.
+    text = re.sub(r"(\d\.\d\de-\d\d +\S+) +\d+$", r"\1", text)
+    return " ".join(text.split())
 
 
 def readmes():
@@ -69,7 +78,9 @@ class ReadmeTest:
 
     def look_at(self, line, command):
         self.met.add(command)
-        if command in self.quick or (command in self.slow and self.options.slow):
+        is_shown = command in plan.SHOWN.get(self.name, {})
+        if (command in self.quick or (command in self.slow and self.options.slow)
+                or (is_shown and self.options.shown)):
             self.run_command(line, command)
         elif command in self.slow:
             print(f"  slow         {command}", flush=True)
@@ -90,10 +101,24 @@ class ReadmeTest:
         print(f"  {time.monotonic() - started:6.1f} s     {command}", flush=True)
         if code != 0:
             self.wrong(line, f"ends with {code}: {command}\n{printed[-2000:]}")
+        elif entry := plan.SHOWN.get(self.name, {}).get(command):
+            self.compare_shown(entry, printed)
+
+    def compare_shown(self, entry, printed):
+        """Wants each line of the chunk among those printed: what they count, not how long it took."""
+        there = {without_times(text) for text in printed.splitlines()}
+        for chunk in self.chunks:
+            commands = chunk.commands()
+            if not any(text.startswith(entry) for _, text in commands):
+                continue
+            for line, text in commands:
+                if text != "..." and without_times(text) not in there:
+                    self.wrong(line, f"is not printed (reports/pictures/renew writes it anew): {text}")
 
     def place(self):
         if not self.clone:
-            folder = self.options.build / "readme" / ("slow" if self.options.slow else "quick")
+            folder = self.options.build / "readme" / (
+                "slow" if self.options.slow else "shown" if self.options.shown else "quick")
             self.clone = Clone(folder, ROOT, self.options.build)
             for command in plan.GIVEN.get(self.name, []):
                 code, printed = self.clone.run(command, QUICK_SECONDS)
@@ -106,6 +131,7 @@ def main():
     p = argparse.ArgumentParser(description="Runs the commands of all READMEs")
     p.add_argument("--build", type=lambda text: Path(text).resolve(), required=True)
     p.add_argument("--slow", action="store_true", help="those of plan.SLOW too")
+    p.add_argument("--shown", action="store_true", help="those of plan.SLOW whose output is shown too")
     options = p.parse_args()
     wrongs = []
     names = readmes()

@@ -10,6 +10,7 @@
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/evidence.h"
 #include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/stored/step_measures.h"
 #include "properties/campaign/stored/store.h"
 #include "properties/worker/worker_process.h"
 
@@ -53,6 +54,7 @@ struct RunToStore {
       record.oracle_us = 500;
       record.detector_us = 500;
       record.counts = {{"tag:shape:tetrahedron", 1}, {"block:V+/V-", 3}, {"first:V+/V-", 1}};
+      properties::count_trial(true, true, record.counts);
       trials.push_back(record);
     }
     return *this;

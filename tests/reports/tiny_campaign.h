@@ -60,11 +60,11 @@ inline properties::Counts signatures_of(const std::string& out,
   return store ? store.value().signatures() : properties::Counts{};
 }
 
-// What stands behind "replay: assay " in each such line.
+// What stands behind "replay: PATH/assay " in each such line.
 inline std::vector<std::string> replay_lines(const std::string& text) {
   std::vector<std::string> found;
   std::istringstream in(text);
-  const std::string mark = "replay: assay ";
+  const std::string mark = std::string("replay: ") + ASSAY_PROGRAM + " ";
   for (std::string line; std::getline(in, line);) {
     const auto at = line.find(mark);
     if (at != std::string::npos) found.push_back(line.substr(at + mark.size()));

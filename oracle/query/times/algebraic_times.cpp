@@ -1,5 +1,14 @@
+// The kernel's own isolation of zeros (Descartes' rule) calls itself once a halving: 1,190 deep
+// where two zeros are told apart by that many bits, on half a megabyte of stack. So zeros are
+// isolated here, with the pieces that are left on the heap; of the kernel come square-free parts,
+// and what compares numbers and takes them nearer, which are loops.
 #include "oracle/query/times/algebraic_times.h"
 
+// g++ 12 takes two handles of CGAL that share a number, when they are swapped, for one that is used
+// after its end.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wuse-after-free"
+#endif
 #include <CGAL/Algebraic_kernel_d_1.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
@@ -7,7 +16,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iterator>
+#include <utility>
 #include <vector>
 
 #include "oracle/query/times/time_enclosure.h"
@@ -29,6 +38,72 @@ Polynomial kernel_polynomial(const IntegerPolynomial& p) {
 }
 
 Integer integer(const CGAL::Gmpz& x) { return Integer(x.mpz()); }
+
+// The square-free part.
+IntegerPolynomial without_multiple_zeros(const Kernel& kernel, const IntegerPolynomial& p) {
+  const Polynomial simple = kernel.make_square_free_1_object()(kernel_polynomial(p));
+  IntegerPolynomial result;
+  for (int i = 0; i <= simple.degree(); ++i) result.c.push_back(integer(simple[i]));
+  return result;
+}
+
+// k / 2^depth.
+Bound dyadic(const Integer& k, unsigned depth) {
+  const Integer denominator = Integer(1) << depth;
+  return {CGAL::Gmpz(k.get_mpz_t()), CGAL::Gmpz(denominator.get_mpz_t())};
+}
+
+// p over the piece of the step from k / 2^depth on, of length 2^-depth, as a polynomial of w in
+// [0,1], times a positive power of two.
+struct Piece {
+  IntegerPolynomial p;
+  Integer k;
+  unsigned depth;
+
+  Piece lower_half() const {
+    Piece half = {p, k * 2, depth + 1};
+    for (int i = 0; i < p.degree(); ++i) half.p.c[i] <<= static_cast<unsigned>(p.degree() - i);
+    return half;
+  }
+  // p(w + 1).
+  Piece next() const {
+    Piece after = {p, k + 1, depth};
+    const int n = p.degree();
+    for (int round = 0; round < n; ++round) {
+      for (int i = n - 1; i >= round; --i) after.p.c[i] += after.p.c[i + 1];
+    }
+    return after;
+  }
+};
+
+// Appends the zeros of p in [0,1]. REQUIRES p square-free; then pieces with more than one change of
+// signs end where they are short enough (Vincent, Obreschkoff).
+void append_zeros(const IntegerPolynomial& p, std::vector<Real>& times) {
+  const Polynomial defining = kernel_polynomial(p);
+  const auto add_where_zero = [&times](const Piece& piece) {
+    if (piece.p.c[0] == 0) times.emplace_back(dyadic(piece.k, piece.depth));
+  };
+  std::vector<Piece> left = {{p, 0, 0}};
+  add_where_zero(left[0]);
+  add_where_zero(left[0].next());
+  while (!left.empty()) {
+    const Piece piece = std::move(left.back());
+    left.pop_back();
+    const std::vector<Integer> b = bernstein_over_unit(piece.p);
+    const int changes = sign_changes(b);
+    if (changes == 0) continue;
+    // The kernel wants no zero where a piece ends.
+    if (changes == 1 && b.front() != 0 && b.back() != 0) {
+      times.emplace_back(defining, dyadic(piece.k, piece.depth), dyadic(piece.k + 1, piece.depth));
+      continue;
+    }
+    Piece lower = piece.lower_half();
+    Piece upper = lower.next();
+    add_where_zero(upper);
+    left.push_back(std::move(upper));
+    left.push_back(std::move(lower));
+  }
+}
 
 // q as a polynomial of w, where time = low + w (high - low) on the interval that isolates
 // `number`, times a positive power of the denominators.
@@ -63,15 +138,12 @@ struct AlgebraicTimes::Zeros {
 AlgebraicTimes::AlgebraicTimes(std::span<const IntegerPolynomial> polynomials)
     : zeros_(std::make_unique<Zeros>()) {
   static thread_local const ThreadCaches freed_when_the_thread_ends;
-  const auto solve = zeros_->kernel.solve_1_object();
   const auto compare = zeros_->kernel.compare_1_object();
   std::vector<Real>& times = zeros_->times;
   for (const IntegerPolynomial& p : polynomials) {
     assert(!p.is_zero());
     if (surely_no_zero_in_unit(p)) continue;
-    constexpr bool known_to_be_square_free = false;
-    solve(kernel_polynomial(p), known_to_be_square_free, Bound(0), Bound(1),
-          std::back_inserter(times));
+    append_zeros(without_multiple_zeros(zeros_->kernel, p), times);
   }
   std::sort(times.begin(), times.end(),
             [&](const Real& a, const Real& b) { return compare(a, b) == CGAL::SMALLER; });

@@ -7,10 +7,11 @@
 namespace assay::properties {
 namespace {
 
-std::uint64_t count_planted(const std::vector<FaultProof>& faults, bool only_found) {
+template <class Counts>
+std::uint64_t count_planted(const std::vector<FaultProof>& faults, const Counts& counts) {
   return static_cast<std::uint64_t>(
       std::count_if(faults.begin(), faults.end(), [&](const FaultProof& proof) {
-        return proof.status == FaultStatus::planted && (!only_found || proof.found());
+        return proof.status == FaultStatus::planted && counts(proof);
       }));
 }
 
@@ -22,6 +23,11 @@ std::uint64_t RunFindings::planned(const StratumPlan& stratum) const {
 
 std::uint64_t RunFindings::planned() const {
   return planned_trial_count(run.plan, alone.value_or(Shard{}));
+}
+
+bool RunFindings::is_left_out(const StratumPlan& stratum) const {
+  const auto cases = planned(stratum);
+  return cases > 0 && tally_of(stratum).discards == cases;
 }
 
 const StratumTally& RunFindings::tally_of(const StratumPlan& stratum) const {
@@ -81,7 +87,15 @@ bool RunFindings::has_more_to_do() const {
                      [&](const auto& proof) { return !proof.is_whole(run.plan); });
 }
 
-std::uint64_t RunFindings::planted() const { return count_planted(evidence.faults, false); }
-std::uint64_t RunFindings::found() const { return count_planted(evidence.faults, true); }
+std::uint64_t RunFindings::planted() const {
+  return count_planted(evidence.faults, [](const FaultProof&) { return true; });
+}
+std::uint64_t RunFindings::found() const {
+  return count_planted(evidence.faults, [](const FaultProof& proof) { return proof.found(); });
+}
+std::uint64_t RunFindings::found_at_random() const {
+  return count_planted(evidence.faults,
+                       [](const FaultProof& proof) { return proof.found_at_random(); });
+}
 
 }  // namespace assay::properties

@@ -44,6 +44,8 @@ struct RunFindings {
   // looked at (`alone`) or in all of them.
   std::uint64_t planned(const StratumPlan& stratum) const;
   std::uint64_t planned() const;
+  // Whether the contract left out every case of a family, once all of them were drawn.
+  bool is_left_out(const StratumPlan& stratum) const;
   // The tally of a family; an empty one if no trial of it was judged.
   const StratumTally& tally_of(const StratumPlan& stratum) const;
   // One failure of each signature (example_of), the least odd cause first (cause.h).
@@ -60,8 +62,9 @@ struct RunFindings {
   bool laws_are_judged() const;
   // Whether the same command would add something, because the run was killed or ended by its time.
   bool has_more_to_do() const;
-  // How many planted faults were tried, and how many were found.
-  std::uint64_t planted() const, found() const;
+  // How many planted faults were tried, how many were found, and how many of these by random cases.
+  // The others were found by their curated case alone.
+  std::uint64_t planted() const, found() const, found_at_random() const;
 };
 
 }  // namespace assay::properties

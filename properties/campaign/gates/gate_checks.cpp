@@ -6,8 +6,11 @@
 
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/gates/bounds.h"
+#include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/phases/repetitions.h"
 #include "properties/campaign/stored/count_names.h"
+#include "properties/judging/cause.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 namespace {
@@ -66,19 +69,28 @@ void check_faults(const RunFindings& f, Lines& lines) {
   }
 }
 
+// Checks that enough contacts were judged. A shard alone may have too few.
+void check_contacts(const RunFindings& f, const Asked& asked, Lines& lines) {
+  if (f.alone) return;
+  for (auto& line : lacks_of_contacts(f, asked.certificate)) lines.push_back(std::move(line));
+}
+
 void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
   for (const auto& stratum : f.run.plan.strata) {
     const auto& tally = f.tally_of(stratum);
     const auto planned = f.planned(stratum);
     if (tally.trials != planned) {
       lines.push_back(fmt::format("{}: {} of {} trials", stratum.family, tally.trials, planned));
-    } else if (tally.discards > 0) {
+    } else if (tally.discards > 0 && !f.is_left_out(stratum)) {
       lines.push_back(
           fmt::format("{}: for {} of {} trials no case was drawn that the contract takes",
                       stratum.family, tally.discards, planned));
     }
   }
   if (asked.certificate && f.planned() == 0) lines.push_back("the campaign plans no trial");
+  if (f.planned() > 0 && f.tally.judged() == 0 && f.tally.trials() == f.planned())
+    lines.push_back("the contract takes no case of any family");
+  check_contacts(f, asked, lines);
   // Asked of all shards together: a single one may have run on a machine short of memory.
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many
   const auto disturbed = f.tally.disturbed(), trials = f.tally.trials();
@@ -87,17 +99,9 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
         fmt::format("{} of {} trials were disturbed from outside, 1 % may be", disturbed, trials));
 }
 
-// Checks that a plug-in that has to repeat every scene was given every scene.
+// Checks that a plug-in was given every scene at the plan's size.
 void check_repetitions(const RunFindings& f, Lines& lines) {
-  const auto& detector = f.run.detector;
-  if (f.alone || detector.configurations.empty()) return;
-  std::vector<Claim> claims;
-  for (const auto claim : all_claims()) {
-    const auto& words = detector.configurations.front().claims;
-    if (std::find(words.begin(), words.end(), name_of(claim)) != words.end())
-      claims.push_back(claim);
-  }
-  if (!is_repeated(f.run.plan, detector.built_in, claims)) return;
+  if (f.alone || !is_repeated(f.run.plan, f.run.detector.built_in)) return;
   const auto scenes = corpus::scenes();
   const auto done = std::count_if(scenes.begin(), scenes.end(), [&](const auto& scene) {
     return std::any_of(f.evidence.repeated.begin(), f.evidence.repeated.end(),
@@ -151,7 +155,7 @@ GateFindings check_claims(const RunFindings& f, const Asked& asked) {
   GateFindings found;
   // A signature counts if trials met it, even without a stored mesh, and if a failure of a trial
   // is stored, even if no trial counted it. What only the corpus shows belongs to the gate corpus.
-  std::set<std::string> signatures;
+  std::set<std::string, LeastOddFirst> signatures;
   for (const auto& [signature, count] : f.times_met) signatures.insert(signature);
   for (const auto& failure : f.failures) {
     if (!failure.id.starts_with(corpus_in_id)) signatures.insert(failure.signature);
@@ -160,9 +164,9 @@ GateFindings check_claims(const RunFindings& f, const Asked& asked) {
     if (is_waived(f, asked, signature)) continue;
     const auto* shown = f.example_of(signature);
     const auto met = f.times_met.find(signature);
-    found.against.push_back(
-        fmt::format("{}, met {} times; {}", signature, met == f.times_met.end() ? 0 : met->second,
-                    shown ? shown->id + " (" + shown->configuration + ")" : "no mesh is stored"));
+    found.against.push_back(fmt::format(
+        "{}, met {}; {}", signature, times_text(met == f.times_met.end() ? 0 : met->second),
+        shown ? shown->id + " (" + shown->configuration + ")" : "no mesh is stored"));
   }
   for (const auto& world : f.evidence.worlds) {
     if (world.counterexample)
@@ -202,7 +206,7 @@ GateFindings check_bounds(const RunFindings& f, const Asked&) {
   bool judged = false;
   for (const auto& stratum : f.run.plan.strata) {
     const bool is_wanted = stratum.wanted_bound > 0;
-    if (is_wanted && f.alone) continue;
+    if ((is_wanted && f.alone) || f.is_left_out(stratum)) continue;
     judged = true;
     for (std::size_t c = 0; c < f.run.detector.configurations.size(); ++c) {
       const auto outcomes = f.outcomes_of(stratum, c);

@@ -10,9 +10,8 @@ Rate rate_of(std::uint64_t of, std::uint64_t in, std::uint64_t squared) {
   return {of, in, share_interval(static_cast<double>(of), all, independent)};
 }
 
-TimesOff times_off(const ByHowMuch& values, std::uint64_t steps_off, std::uint64_t all) {
-  return {steps_off, quantile_of(values, all, 0.5), quantile_of(values, all, 0.99),
-          worst_of(values)};
+TimesOff times_off(const ByHowMuch& values, std::uint64_t steps) {
+  return {steps, quantile_of(values, 0.5), quantile_of(values, 0.99), worst_of(values)};
 }
 
 }  // namespace
@@ -34,12 +33,8 @@ double candidates_over_least(const StepMeasures& m) {
   return static_cast<double>(m.candidates) / static_cast<double>(m.least_candidates);
 }
 
-TimesOff times_late(const StepMeasures& m) {
-  return times_off(m.late, m.late_steps(), m.collisions);
-}
+TimesOff times_late(const StepMeasures& m) { return times_off(m.late, m.late_steps()); }
 
-TimesOff times_early(const StepMeasures& m) {
-  return times_off(m.early, m.early_steps(), m.collisions);
-}
+TimesOff times_early(const StepMeasures& m) { return times_off(m.early, m.early_steps()); }
 
 }  // namespace assay::properties

@@ -4,11 +4,16 @@
 
 #include <algorithm>
 
+#include "properties/campaign/query_plan.h"
+#include "properties/queries/query_families.h"
+
 namespace assay::properties {
 namespace {
 
 // At most one collision in this many may come without a time.
 constexpr std::uint64_t seldom = 100;
+
+constexpr const char* no_contact = "no step had a contact";
 
 // Says why a claim was not judged. Empty if it was judged.
 std::string reason_against(Claim claim, const Contract& contract, const StepMeasures& m) {
@@ -25,14 +30,14 @@ std::string reason_against(Claim claim, const Contract& contract, const StepMeas
                            widest_stated_time, m.without_time, m.collisions);
       break;
     case Claim::candidates:
-      return m.least_candidates == 0 ? "no step had a contact" : "";
+      return m.least_candidates == 0 ? no_contact : "";
     case Claim::deterministic:
     case Claim::total:
       return "";
     default:
       break;
   }
-  return m.contact_steps == 0 ? "no step had a contact" : "";
+  return m.contact_steps == 0 ? no_contact : "";
 }
 
 }  // namespace
@@ -54,7 +59,12 @@ std::vector<NotJudged> not_judged(const BoundDetector& detector, const StepMeasu
 }
 
 std::vector<NotJudged> not_judged(const RunFindings& findings) {
-  return not_judged(findings.run.detector, measures_in(findings.tally.counts));
+  Counts counts;
+  const bool of_queries = asks_queries_alone(findings.run.plan);
+  for (const auto& [family, stratum] : findings.tally.strata) {
+    if (of_queries || !is_query_family(family)) add(counts, stratum.measures);
+  }
+  return not_judged(findings.run.detector, measures_in(counts));
 }
 
 std::vector<std::string> judged_claims(const RunFindings& findings) {
@@ -67,6 +77,134 @@ std::vector<std::string> judged_claims(const RunFindings& findings) {
     if (!is_left) judged.push_back(claim);
   }
   return judged;
+}
+
+std::vector<std::string> left_out_families(const RunFindings& findings) {
+  std::vector<std::string> families;
+  for (const auto& stratum : findings.run.plan.strata) {
+    if (findings.is_left_out(stratum)) families.push_back(stratum.family);
+  }
+  return families;
+}
+
+namespace {
+
+// The most triangles on which each kind of claim was tried.
+struct Largest {
+  std::uint64_t judged = 0, in_contact = 0, repeated = 0;
+};
+
+Largest largest_of(const RunFindings& findings) {
+  Largest largest;
+  const auto grow = [](std::uint64_t& most, std::uint64_t triangles) {
+    most = std::max(most, triangles);
+  };
+  for (const auto& [family, stratum] : findings.tally.strata) {
+    if (is_query_family(family)) continue;
+    grow(largest.judged, stratum.triangles);
+    grow(largest.in_contact, stratum.triangles_in_contact);
+    grow(largest.repeated, stratum.triangles_repeated);
+  }
+  for (const auto& row : findings.evidence.corpus) {
+    grow(largest.judged, row.triangles);
+    grow(largest.in_contact, row.triangles_in_contact);
+  }
+  for (const auto& one : findings.evidence.repeated) {
+    if (one.runs > 1) grow(largest.repeated, one.triangles);
+    for (const auto& step : one.judged) {
+      grow(largest.judged, one.triangles);
+      if (step.contacts > 0) grow(largest.in_contact, one.triangles);
+    }
+  }
+  return largest;
+}
+
+bool speaks_of_contacts(Claim claim) {
+  return claim != Claim::no_spurious && claim != Claim::deterministic && claim != Claim::total;
+}
+
+bool has(const std::vector<std::string>& words, Claim claim) {
+  return std::find(words.begin(), words.end(), name_of(claim)) != words.end();
+}
+
+std::vector<std::string> claims_of_any_configuration(const BoundDetector& detector) {
+  std::vector<std::string> words;
+  for (const Claim claim : all_claims()) {
+    const auto& all = detector.configurations;
+    if (std::any_of(all.begin(), all.end(), [&](const auto& c) { return has(c.claims, claim); }))
+      words.emplace_back(name_of(claim));
+  }
+  return words;
+}
+
+// Whether one of these claims speaks of contacts and is not void under the contract.
+bool wants_contacts(const std::vector<std::string>& words, const Contract& contract) {
+  Claims claims;
+  claims.free_sound = has(words, Claim::free_sound);
+  claims.not_late = has(words, Claim::not_late);
+  claims.first_time = has(words, Claim::first_time);
+  claims.first_pairs = has(words, Claim::first_pairs);
+  claims.all_pairs = has(words, Claim::all_pairs);
+  claims.candidates = has(words, Claim::candidates);
+  const auto judged = judged_claims(claims, contract);
+  return std::any_of(judged.begin(), judged.end(), speaks_of_contacts);
+}
+
+}  // namespace
+
+std::vector<JudgedSize> judged_sizes(const RunFindings& findings) {
+  std::vector<JudgedSize> sizes;
+  if (asks_queries_alone(findings.run.plan)) return sizes;
+  const auto largest = largest_of(findings);
+  const auto left = not_judged(findings);
+  const auto words = claims_of_any_configuration(findings.run.detector);
+  for (const Claim claim : all_claims()) {
+    const bool is_left = std::any_of(left.begin(), left.end(), [&](const NotJudged& one) {
+      return one.claim == name_of(claim);
+    });
+    if (is_left || !has(words, claim)) continue;
+    sizes.push_back({name_of(claim), claim == Claim::deterministic ? largest.repeated
+                                     : speaks_of_contacts(claim)   ? largest.in_contact
+                                                                   : largest.judged});
+  }
+  return sizes;
+}
+
+std::vector<std::string> lacks_of_contacts(const RunFindings& findings, bool for_certificate) {
+  constexpr std::uint64_t least_share = 10;  // one planned case in this many
+  constexpr std::size_t least_families = 3;
+  std::vector<std::string> lines;
+  const auto& detector = findings.run.detector;
+  const auto look = [&](bool of_queries, const std::vector<std::string>& claims) {
+    std::size_t with_contacts = 0, all = 0;
+    if (!wants_contacts(claims, detector.contract)) return;
+    for (const auto& stratum : findings.run.plan.strata) {
+      const auto planned = findings.planned(stratum);
+      if (is_query_family(stratum.family) != of_queries || planned == 0) continue;
+      ++all;
+      const auto& tally = findings.tally_of(stratum);
+      const auto contacts = measures_in(tally.measures).contact_trials;
+      with_contacts += contacts > 0 ? 1 : 0;
+      if (tally.trials < planned || findings.is_left_out(stratum)) continue;
+      if (least_share * contacts < planned)
+        lines.push_back(
+            fmt::format("{}: {} of {} planned cases have a contact inside the contract, a tenth is "
+                        "wanted",
+                        stratum.family, contacts, planned));
+    }
+    const auto families = for_certificate ? least_families : std::min(least_families, all);
+    if (all > 0 && with_contacts < families)
+      lines.push_back(
+          fmt::format("{} of {} families{} have a contact inside the contract, {} are wanted",
+                      with_contacts, all, of_queries ? " of queries" : "", families));
+  };
+  const bool alone = asks_queries_alone(findings.run.plan);
+  if (!alone) look(false, claims_of_any_configuration(detector));
+  look(true, detector.query_claims);
+  for (const auto& [claim, reason] : not_judged(findings)) {
+    if (reason == no_contact) lines.push_back(fmt::format("{}: {}", claim, reason));
+  }
+  return lines;
 }
 
 }  // namespace assay::properties

@@ -8,6 +8,7 @@
 #include "corpus/digest.h"
 #include "properties/campaign/stored/row_of.h"
 #include "properties/campaign/stored/run_folder.h"
+#include "properties/judging/cause.h"
 
 namespace assay::properties {
 namespace {
@@ -32,7 +33,8 @@ class RowsDigest {
 
 bool is_before(const StoredFailure& a, const StoredFailure& b) {
   const auto key = [](const StoredFailure& f) {
-    return std::tuple(f.signature, f.smallest.empty(), f.smallest.size(), f.id, f.configuration);
+    return std::tuple(oddity_of(f.signature), f.signature, f.smallest.empty(), f.smallest.size(),
+                      f.id, f.configuration);
   };
   return key(a) < key(b);
 }

@@ -1,5 +1,7 @@
 #include "properties/campaign/phases/phases.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "properties/campaign/phases/canary.h"
@@ -14,9 +16,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A phase must be over when this share of the plan's time has passed. Shrinking comes after the
-// trials and has a share of its own.
-constexpr double trials_share = 0.5, faults_share = 0.9;
+// A phase must be over when this share of the plan's time has passed. A campaign with trials
+// missing does trials: what is left to them is all but a tenth, in which what they showed is
+// shrunk, and then nothing else is begun. The same command goes on with the rest.
+constexpr double trials_share = 0.9, faults_share = 0.95;
 
 // The limits for shrinking a single failure or planted fault.
 constexpr ReduceLimits shrinking_of_one{60, 1'000'000};
@@ -35,21 +38,23 @@ class CampaignRun {
     store_.set(to_row(canary));
     observer_.on_canary(canary);
     observer_.on_phase("trials");
-    judge_trials();
-    observer_.on_phase("repetitions");
-    repeat_large_meshes(request_, store_, after(1),
-                        [&](const std::string& input) { observer_.on_shrinking(input); });
+    const bool complete = judge_trials();
+    if (complete) {
+      observer_.on_phase("repetitions");
+      repeat_large_meshes(request_, store_, after(1),
+                          [&](const std::string& input) { observer_.on_shrinking(input); });
+    }
     observer_.on_phase("shrinking");
-    shrink();
+    shrink(complete);
     observer_.on_failures_shrunk(value_or_throw(store_.kept_failures()));
     observer_.on_phase("slow cases");
     keep_slow_cases(request_, store_, shrinking_of_one,
-                    earlier(after(1), shrinking_seconds(request_.plan)),
+                    complete ? earlier(after(1), shrinking_seconds(request_.plan)) : Clock::now(),
                     [&](const std::string& id) { observer_.on_shrinking("slow case " + id); });
     observer_.on_slow_cases(stored().slow);
-    if (request_.power) {
-      take_power();
-    } else if (request_.plan.fault_cases > 0) {
+    if (request_.power) take_power();
+    if (!complete) return;
+    if (!request_.power && request_.plan.fault_cases > 0) {
       observer_.on_phase("faults");
       hunt();
     }
@@ -82,19 +87,23 @@ class CampaignRun {
     return std::min(deadline, deadline_in(Clock::now(), seconds_from_now));
   }
 
-  void judge_trials() {
-    const bool others = request_.plan.fault_cases > 0 || request_.plan.tetrahedron_seconds > 0;
-    const auto end = run_trials(request_, store_, after(others ? trials_share : 1),
+  // Returns whether all trials are stored.
+  bool judge_trials() {
+    const auto end = run_trials(request_, store_, after(trials_share),
                                 [&](const TrialProgress& state) { observer_.on_trial(state); });
     if (end.problem) throw StoreProblem(*end.problem);
     store_.set(
         to_row(HarnessProblem{text_of(request_.shard), end.harness_problem, store_.trial_count()}));
     observer_.on_trials(end);
+    return end.complete;
   }
 
-  void shrink() {
+  // The tenth that is kept for shrinking begins when the trials have ended, however late that was.
+  void shrink(bool complete) {
+    const double most = shrinking_seconds(request_.plan), all = request_.plan.seconds;
+    const double kept = all == 0 ? most : std::min(most, (1 - trials_share) * all);
     shrink_failures(request_, store_, shrinking_of_one,
-                    earlier(after(1), shrinking_seconds(request_.plan)),
+                    complete ? earlier(after(1), most) : deadline_in(Clock::now(), kept),
                     [&](const std::string& signature) { observer_.on_shrinking(signature); });
   }
 
@@ -158,9 +167,27 @@ class CampaignRun {
 
 }  // namespace
 
+Expected<void> keeps_isolation(const CampaignRequest& request, const Store& store) {
+  if (!request.plugin || store.trial_count() == 0) return boost::outcome_v2::success();
+  return catch_store_problem([&] {
+    EvidenceFacts facts;
+    for (const auto& row : store.evidence()) facts.take(row);
+    for (const auto& before : facts.isolation) {
+      if (covers(request.isolated, isolation_of(before.got))) continue;
+      throw StoreProblem(ProblemKind::not_isolated,
+                         fmt::format("this run began with isolation {}, and would go on with {}: "
+                                     "ask for no less, or for another --out",
+                                     before.got, text_of(request.isolated)));
+    }
+  });
+}
+
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
                             Store& store, CampaignObserver& observer) {
-  return catch_store_problem([&] { CampaignRun(request, corpus, store, observer).run(); });
+  return catch_store_problem([&] {
+    CampaignRun(request, corpus, store, observer).run();
+    if (request.judged) value_or_throw(request.judged->is_as_it_was());
+  });
 }
 
 double shrinking_seconds(const CampaignPlan& plan) {

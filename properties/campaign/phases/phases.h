@@ -36,11 +36,16 @@ class CampaignObserver {
   virtual void on_world(const std::string& /*world*/) {}
 };
 
+// Whether the run may go on as it is asked for: not_isolated if the store holds trials of a plug-in
+// that was better isolated than it is now.
+Expected<void> keeps_isolation(const CampaignRequest& request, const Store& store);
+
 // Does what the store does not hold yet: the trials, the shrinking of what failed, and the planted
-// faults (or it takes the request's proof of them). The canary and the worlds of tetrahedra are
-// done again; of two results for a world the one that came farther stays. Faults and worlds are
-// shared out among the shards by their place in the list. `corpus` is the folder of the curated
-// cases.
+// faults (or it takes the request's proof of them). Trials have nine tenths of the plan's time; if
+// some are missing then, failures are shrunk in the last tenth and nothing else is begun. The
+// canary and the worlds of tetrahedra are done again; of two results for a world the one that came
+// farther stays. Faults and worlds are shared out among the shards by their place in the list.
+// `corpus` is the folder of the curated cases.
 //
 // What is stored stays, whatever happens. The problems are cannot_write, damaged_store and so on,
 // if the store cannot be read or written any more.

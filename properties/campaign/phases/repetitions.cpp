@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <numeric>
 
 #include "corpus/scenes/scenes.h"
 #include "properties/campaign/database/store_problem.h"
@@ -44,6 +44,35 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
   return one;
 }
 
+// The places of the steps that the oracle judges, ascending (repetitions.h), of a case that the
+// contract takes. `answered` is the run of the built-in detector.
+std::vector<std::size_t> steps_to_judge(const corpus::Case& c, const Contract& contract,
+                                        const CaseRun& answered) {
+  std::optional<std::size_t> colliding, free;
+  std::size_t fewest = 0;
+  for (std::size_t s = 0; s < answered.steps.size(); ++s) {
+    const auto& pairs = answered.steps[s].pairs;
+    const auto count = static_cast<std::size_t>(
+        std::count_if(pairs.begin(), pairs.end(), [&](const detector::PairContact& contact) {
+          const bool is_edge_edge = contact.feature.kind == detector::FeatureKind::edge_edge;
+          const bool is_tested = contract.features == TestedFeatures::both ||
+                                 is_edge_edge == (contract.features == TestedFeatures::edge_edge);
+          return is_tested && !leaves_out(contract, c.triangles, contact.pair);
+        }));
+    if (count == 0 && !free) free = s;
+    if (count > 0 && (!colliding || count < fewest)) {
+      colliding = s;
+      fewest = count;
+    }
+  }
+  std::vector<std::size_t> places;
+  for (const auto& place : {colliding, free}) {
+    if (place) places.push_back(*place);
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
 // The first step in which the two runs differ. Nothing if they differ in something else than a
 // step.
 std::optional<std::size_t> differing_step(const CaseRun& a, const CaseRun& b) {
@@ -56,14 +85,17 @@ std::optional<std::size_t> differing_step(const CaseRun& a, const CaseRun& b) {
 class Repetitions {
  public:
   Repetitions(const CampaignRequest& request, Store& store) : request_(request), store_(store) {
-    if (request.takes_threads) {
+    if (!request.detector.claims.deterministic) {
+      threads_ = {request.threads};
+    } else if (request.takes_threads) {
       threads_.assign(std::begin(repeated_threads), std::end(repeated_threads));
     } else {
-      threads_ = {request.threads, request.threads};
+      threads_ = {request.threads, request.threads, request.threads};
     }
   }
 
-  void put(const corpus::Case& c) {
+  // `is_judged`: the oracle judges some of its steps.
+  void put(const corpus::Case& c, bool is_judged) {
     Repetition row;
     row.input = c.id;
     row.configuration = configuration().name;
@@ -76,7 +108,7 @@ class Repetitions {
       row.difference = fmt::format("not run: it hung on {} of them before", hung_);
     } else {
       row.steps = corpus::steps_of(*seen).size();
-      run_all(*seen, row);
+      run_all(*seen, is_judged, row);
     }
     store_.set(to_row(row));
   }
@@ -84,24 +116,26 @@ class Repetitions {
  private:
   const Configuration& configuration() const { return request_.detector.configurations.front(); }
 
-  CaseRun run_once(const corpus::Case& c, std::uint64_t threads) {
-    auto known = workers_.find(threads);
-    if (known == workers_.end()) {
-      auto limits = request_.worker_limits();
-      limits.threads = threads;
-      known = workers_.try_emplace(threads, request_.worker, request_.plugin, limits).first;
+  // Each run has a process of its own, which it keeps from mesh to mesh. The last one is a second
+  // run in the process of the run before it.
+  CaseRun run_once(const corpus::Case& c, std::size_t place) {
+    const std::size_t process = place > 1 && place + 1 == threads_.size() ? place - 1 : place;
+    if (process == workers_.size()) {
+      auto limits = request_.worker_limits(static_cast<std::uint32_t>(process));
+      limits.threads = threads_[process];
+      workers_.emplace_back(request_.worker, request_.plugin, limits);
     }
-    auto run = std::move(known->second.run(c, {&configuration(), 1}).front());
+    auto run = std::move(workers_[process].run(c, {&configuration(), 1}).front());
     if (run.end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, run.explanation);
     return run;
   }
 
-  void run_all(const corpus::Case& c, Repetition& row) {
+  void run_all(const corpus::Case& c, bool is_judged, Repetition& row) {
     const auto& claims = request_.detector.claims;
     std::optional<CaseRun> first;
-    for (const auto threads : threads_) {
-      auto run = run_once(c, threads);
-      row.threads.push_back(threads);
+    for (std::size_t place = 0; place < threads_.size(); ++place) {
+      auto run = run_once(c, place);
+      row.threads.push_back(threads_[place]);
       if (run.end == RunEnd::hung || run.end == RunEnd::out_of_memory) {
         hung_ += run.end == RunEnd::hung ? 1 : 0;
         row.difference = run.explanation;
@@ -114,8 +148,54 @@ class Repetitions {
         tell(c, first ? *first : run, run, judged, row);
         return;
       }
-      if (!first) first = std::move(run);
+      if (first) continue;
+      first = std::move(run);
+      if (is_judged) judge_steps(c, *first, row);
     }
+  }
+
+  void judge_steps(const corpus::Case& c, const CaseRun& run, Repetition& row) {
+    const Configuration chooser{"auto", {}};
+    WorkerProcess worker(request_.worker, std::nullopt, {});
+    const auto answered = std::move(worker.run(c, {&chooser, 1}).front());
+    const auto& contract = request_.detector.contract;
+    for (const auto s : steps_to_judge(c, contract, answered)) {
+      const auto alone = with_steps(c, {s});
+      const auto truth = judge_case(alone, contract, request_.jobs);
+      const auto judged =
+          judge_trial(alone, truth, step_alone(run, s), configuration(), request_.detector);
+      if (judged.steps.empty()) continue;
+      row.judged.push_back(
+          {s + 1, counted_contacts(truth[0], alone), judged.outcome == Outcome::holds});
+      if (judged.failure) keep(c, s, run, *judged.failure);
+    }
+  }
+
+  std::uint64_t counted_contacts(const oracle::StepJudgement& truth, const corpus::Case& c) const {
+    const auto& contract = request_.detector.contract;
+    const auto& pairs = contract.features == TestedFeatures::both ? truth.pairs : truth.asked_pairs;
+    return static_cast<std::uint64_t>(
+        std::count_if(pairs.begin(), pairs.end(), [&](const detector::PairContact& contact) {
+          return !leaves_out(contract, c.triangles, contact.pair);
+        }));
+  }
+
+  // Stores a step that breaks a claim: alone, or with the steps before it if the detector answers
+  // otherwise without them.
+  void keep(const corpus::Case& c, std::size_t s, const CaseRun& run, Failure failure) {
+    failure.cause = "large mesh";
+    failure.explanation = fmt::format("{}, {} triangles, step {}: {}", c.id, c.triangles.rows(),
+                                      s + 1, failure.explanation);
+    auto shown = with_steps(c, {s});
+    if (!same_answers(step_alone(run, s), run_once(shown, threads_.front()))) {
+      std::vector<std::size_t> places(s + 1);
+      std::iota(places.begin(), places.end(), std::size_t{0});
+      shown = with_steps(c, places);
+    }
+    store_.add({fmt::format("{}{}, step {}", repeated_in_id, c.id, s + 1), configuration().name,
+                failure.signature(), failure.explanation,
+                corpus::case_text(failing_case(shown, configuration(), request_.detector, failure)),
+                "", false, run.printed});
   }
 
   // Tells of a run that differs from the first one, or that ended in a way that breaks a claim.
@@ -144,38 +224,37 @@ class Repetitions {
   const CampaignRequest& request_;
   Store& store_;
   std::vector<std::uint64_t> threads_;
-  std::map<std::uint64_t, WorkerProcess> workers_;
+  std::vector<WorkerProcess> workers_;  // by the place of the run
   int hung_ = 0;
 };
 
 }  // namespace
 
-bool is_repeated(const CampaignPlan& plan, bool built_in, const std::vector<Claim>& claims) {
-  return plan.policy.repeated_triangles > 0 && !built_in && !asks_queries(plan) &&
-         std::find(claims.begin(), claims.end(), Claim::deterministic) != claims.end();
+bool is_repeated(const CampaignPlan& plan, bool built_in) {
+  return plan.policy.repeated_triangles > 0 && !built_in && !asks_queries_alone(plan);
 }
 
 void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,
                          const std::function<void(const std::string&)>& progress) {
   const auto& detector = request.detector;
-  if (!is_repeated(request.plan, detector.built_in, list_of(detector.claims))) return;
+  if (!is_repeated(request.plan, detector.built_in)) return;
   EvidenceFacts stored;
   for (const auto& row : store.evidence()) stored.take(row);
   Repetitions repetitions(request, store);
   std::uint64_t place = 0;
-  const auto put = [&](const std::string& input, const auto& make) {
+  const auto put = [&](const std::string& input, bool is_judged, const auto& make) {
     const bool is_stored =
         std::any_of(stored.repeated.begin(), stored.repeated.end(),
                     [&](const Repetition& known) { return known.input == input; });
     if (!request.shard.holds(place++) || is_stored) return;
     if (std::chrono::steady_clock::now() >= deadline) return;
     if (progress) progress(input);
-    repetitions.put(make());
+    repetitions.put(make(), is_judged);
   };
   for (const auto& scene : corpus::scenes())
-    put(std::string(scene.name),
+    put(std::string(scene.name), true,
         [&] { return repeated_scene(scene, request.plan.policy.repeated_triangles); });
-  for (const auto& c : request.repeated) put(c.id, [&] { return c; });
+  for (const auto& c : request.repeated) put(c.id, false, [&] { return c; });
 }
 
 }  // namespace assay::properties

@@ -1,5 +1,6 @@
-// Runs large meshes through a plug-in again and again. This tries the claim `deterministic` beyond
-// the small meshes of the trials, in which threads have little to share out.
+// Puts large meshes to a plug-in. The oracle judges some of their steps, and a plug-in that claims
+// to be deterministic runs them again and again. This tries its claims beyond the small meshes of
+// the trials, which fit into any buffer, and in which threads have little to share out.
 #pragma once
 
 #include <functional>
@@ -15,16 +16,24 @@ namespace assay::properties {
 // twice.
 inline constexpr std::uint64_t repeated_threads[] = {1, 2, 4, 4};
 
-// Whether the plan asks for repetitions of this detector. It must be a plug-in of steps, or of a
-// broad phase, that claims to be deterministic.
-bool is_repeated(const CampaignPlan& plan, bool built_in, const std::vector<Claim>& claims);
+// Whether the plan puts large meshes to this detector. It must be a plug-in of steps, or of a broad
+// phase.
+bool is_repeated(const CampaignPlan& plan, bool built_in);
 
 // Puts every scene of the corpus, at the plan's size, and the request's other sequences to the
-// plug-in: with each of repeated_threads if it asks how many it may use, else twice. Stores a
-// Repetition for each mesh that this shard holds and that is not stored yet. If an answer differs
-// from that of the first run, or a run ends in a way that breaks a claimed `total`, that is a
-// failure of the run, whose mesh is the step that differs. A run that hangs is reported and breaks
-// nothing; after three such meshes no further one is run. The oracle is not asked.
+// plug-in: with each of repeated_threads if it asks how many it may use, else three times; once if
+// it does not claim to be deterministic. Each run has a process of its own but for the last, which
+// is a second run in the process of the run before it. Stores a Repetition for each mesh that this
+// shard holds and that is not stored yet. If an answer differs from that of the first run, or a run
+// ends in a way that breaks a claimed `total`, that is a failure of the run, whose mesh is the step
+// that differs. A run that hangs is reported and breaks nothing; after three such meshes no further
+// one is run.
+//
+// Of each scene the oracle judges two steps by the first run: the one with the fewest contacts
+// that the contract does not leave out, and the first without any, in so far as there are such. The
+// built-in detector chooses them, and decides nothing else. Where a claim is broken, that is a
+// failure of the run, whose mesh is the step alone, or, where it fails only after the steps before
+// it, the scene up to this step.
 //
 // Throws StoreProblem; so it is for campaign/ alone.
 void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadline deadline,

@@ -46,6 +46,10 @@ Reduction shrink_case(const corpus::Case& failing, const DetectorUnderTest& dete
 
 namespace {
 
+// A large mesh takes the oracle half a second a step, and may not become small at all, where a
+// detector is wrong on large meshes alone.
+constexpr double most_seconds_of_a_large_mesh = 20;
+
 // The key of the note which says that the shrinking of this failure had all the time that it may
 // have.
 std::string done_note(const StoredFailure& failure) {
@@ -101,12 +105,15 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
                      [&](const Configuration& c) { return c.name == configuration_name(failure); });
     if (configuration == configurations.end()) continue;
     if (progress) progress(failure.signature);
-    const ReduceLimits bounded{std::min(limits.seconds, left.count()), limits.calls};
+    const double most =
+        failure.id.starts_with(repeated_in_id) ? most_seconds_of_a_large_mesh : limits.seconds;
+    const ReduceLimits bounded{std::min({most, limits.seconds, left.count()}), limits.calls};
     const Law* law = failure.signature.starts_with(law_in_signature)
                          ? law_named(failure.signature.substr(law_in_signature.size()))
                          : nullptr;
     const OnBetter keep = [&](const corpus::Case& better) {
-      corpus::Case shown = better;
+      // As the detector saw it: with coordinates that a contract of float32 has rounded.
+      corpus::Case shown = contracted(better, request.detector.contract).value_or(better);
       if (!law) tell_of_itself(shown, judge_of_detector(request.detector, *configuration, worker));
       failure.smallest = corpus::case_text(shown);
       store.set_smallest(failure);
@@ -119,7 +126,7 @@ void shrink_failures(const CampaignRequest& request, Store& store, const ReduceL
       failure.smallest = failure.mesh;
       store.set_smallest(failure);
     }
-    const bool had_its_time = bounded.seconds >= limits.seconds;
+    const bool had_its_time = bounded.seconds >= std::min(most, limits.seconds);
     const bool shows_no_more = reduction.finding.signature.empty();
     if (reduction.fixed_point || had_its_time || shows_no_more)
       store.set_note(done_note(failure), "done");

@@ -4,7 +4,6 @@
 
 #include "corpus/digest.h"
 #include "corpus/json_text.h"
-#include "properties/campaign/plugin_digest.h"
 #include "properties/campaign/stored/contract_json.h"
 #include "properties/campaign/stored/json_optional.h"
 #include "properties/campaign/stored/store.h"
@@ -16,19 +15,29 @@ namespace assay::properties {
 using Json = nlohmann::json;
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector::Configuration, name, claims)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector, name, built_in, contract, threads, configurations)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDetector, name, built_in, contract, threads, configurations,
+                                   query_claims, unjudged_parts)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundDigests, program, worker, plugin, generator)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BoundRun, seed, planted_faults, shard, detector, digests)
 
 namespace {
 
+std::vector<std::string> words_of(const Claims& claims) {
+  std::vector<std::string> words;
+  for (const auto claim : list_of(claims)) words.emplace_back(name_of(claim));
+  return words;
+}
+
 BoundDetector bound(const DetectorUnderTest& detector, std::uint64_t threads) {
-  BoundDetector out{detector.name, detector.built_in, detector.contract, threads, {}};
-  for (const auto& configuration : detector.configurations) {
-    out.configurations.push_back({configuration.name, {}});
-    for (const auto claim : list_of(detector.claims_in(configuration)))
-      out.configurations.back().claims.emplace_back(name_of(claim));
-  }
+  BoundDetector out{detector.name,
+                    detector.built_in,
+                    detector.contract,
+                    threads,
+                    {},
+                    words_of(detector.query_claims),
+                    detector.unjudged_parts};
+  for (const auto& configuration : detector.configurations)
+    out.configurations.push_back({configuration.name, words_of(detector.claims_in(configuration))});
   return out;
 }
 
@@ -40,7 +49,7 @@ std::optional<std::string> digest_of(const std::filesystem::path& file) {
 
 std::optional<std::string> plugin_digest(const CampaignRequest& request) {
   if (!request.plugin) return std::nullopt;
-  const auto digest = digest_of_plugin(*request.plugin, request.worker);
+  const auto digest = JudgedLibrary::of(*request.plugin, request.worker)->digest();
   return digest ? std::optional(digest.value()) : std::nullopt;
 }
 
@@ -109,6 +118,9 @@ std::string difference_of(const std::string& a, const std::string& b) {
   const Json one = left.value().flatten(), other = right.value().flatten();
   for (const auto& [key, value] : one.items()) {
     if (key == "/shard") continue;
+    constexpr std::string_view digests = "/digests/";
+    if (key.starts_with(digests) && other.contains(key) && other[key] != value)
+      return fmt::format("another {} (by SHA-256)", key.substr(digests.size()));
     if (!other.contains(key))
       return fmt::format("{} {} and none", key.substr(1), corpus::json_text(value));
     if (other[key] != value)

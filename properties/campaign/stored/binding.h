@@ -11,11 +11,12 @@
 
 namespace assay::properties {
 
-// Schema `assay-store/4`. The object holds `campaign` (the plan, with its times set to nothing,
+// Schema `assay-store/5`. The object holds `campaign` (the plan, with its times set to nothing,
 // because a run that ran out of time may go on), `seed`, `shard`, `detector` (name, built_in,
-// contract, threads, configurations with their claims), `planted_faults` (how many this build
-// has), `digests` (SHA-256 of program, worker and plug-in, null for the built-in detector, and of
-// the generator's first cases), and `own_cases` (SHA-256) if there are some.
+// contract, threads, configurations with their claims, query_claims, unjudged_parts),
+// `planted_faults` (how many this build has), `digests` (SHA-256 of program, worker and plug-in,
+// null for the built-in detector, and of the generator's first cases), and `own_cases` (SHA-256) if
+// there are some.
 std::string binding_of(const CampaignRequest& request);
 
 // The same, as types.
@@ -29,6 +30,8 @@ struct BoundDetector {
   Contract contract;
   std::uint64_t threads = 1;  // told to a plug-in that asks how many it may use
   std::vector<Configuration> configurations;
+  // As in DetectorUnderTest.
+  std::vector<std::string> query_claims{}, unjudged_parts{};
 };
 struct BoundDigests {
   // Nothing for a program that was gone when the run began, and for the plug-in of the built-in

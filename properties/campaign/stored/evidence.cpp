@@ -36,9 +36,11 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(World, classes, motions, all, collisions, com
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PluginIsolation, asked, got)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SlowCase, id, configuration, undecided, seconds, limit, mesh,
                                    smallest)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Repetition::Judged, step, contacts, holds)
 FACT_WITH_KEYS(Repetition, field("input", x.input), field("configuration", x.configuration),
                field("triangles", x.triangles), field("steps", x.steps), field("runs", x.runs),
-               field("threads", x.threads), field("what", x.difference), field("broken", x.broken))
+               field("threads", x.threads), field("what", x.difference), field("broken", x.broken),
+               field("judged", x.judged))
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Asked, gates, certificate)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Versions, assay, commit, libraries)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Paths, out, detector, own_cases, data)
@@ -47,7 +49,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StoredWaiver, reason, link, expires, expired)
 FACT_WITH_KEYS(CorpusRow::Failed, field("id", x.id), field("signature", x.signature),
                field("what", x.explanation))
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CorpusRow, input, configuration, cases, left_out, steps,
-                                   collisions, pairs, defects, failed, open)
+                                   collisions, pairs, defects, failed, open, triangles,
+                                   triangles_in_contact)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SelfTestRow, queries, contacts, contradictions, open, complete)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SpeedFigure, median, lo, hi, samples)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Issued, at, seconds)
@@ -95,9 +98,10 @@ T told(const Evidence& row, T facts = {}) {
 
 }  // namespace
 
-bool FaultProof::found() const {
-  return curated ||
-         std::any_of(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
+bool FaultProof::found() const { return curated || found_at_random(); }
+
+bool FaultProof::found_at_random() const {
+  return std::any_of(needed.begin(), needed.end(), [](const auto& n) { return n.has_value(); });
 }
 
 bool FaultProof::is_whole(const CampaignPlan& plan) const {

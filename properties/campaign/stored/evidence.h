@@ -58,7 +58,8 @@ struct FaultProof {
   std::uint64_t known_vertices = 0;  // of the smallest known mesh that shows it; 0: unknown
   std::optional<ShrunkFault> shrunk;
 
-  bool found() const;  // by its curated case, or by a random one under any seed
+  bool found() const;            // by its curated case, or by a random one under any seed
+  bool found_at_random() const;  // by a random case under any seed
   // Whether the fault was tried on as many cases and seeds as the plan gives to a fault.
   bool is_whole(const CampaignPlan& plan) const;
   // The median of `needed`. A seed under which the fault did not show counts as more than any
@@ -103,15 +104,22 @@ struct SlowCase {
   std::string mesh, smallest;
 };
 
-// A large mesh that was put to a plug-in several times, to try its claim `deterministic` on more
-// than the trials.
+// A large mesh that was put to a plug-in, several times where it claims to be deterministic, to try
+// its claims on more than the trials.
 struct Repetition {
+  // A step that the oracle judged. `contacts`: pairs in contact that the contract does not leave
+  // out.
+  struct Judged {
+    std::uint64_t step = 0, contacts = 0;  // the step's place, from 1
+    bool holds = false;
+  };
   std::string input, configuration, shard;
   std::uint64_t triangles = 0, steps = 0;
   std::uint64_t runs = 0;              // runs that ended by themselves
   std::vector<std::uint64_t> threads;  // how many it might use, run by run
   std::string difference;              // how two runs differ, or one ended early
   bool broken = false;                 // `difference` breaks a claim
+  std::vector<Judged> judged{};
 };
 
 // What a verb asked of a run.
@@ -157,6 +165,9 @@ struct CorpusRow {
   std::string input, configuration;
   std::uint64_t cases = 0, left_out = 0, steps = 0, collisions = 0, pairs = 0, defects = 0;
   std::vector<Failed> failed, open;
+  // The largest mesh of which a step was judged, and the largest with a contact that the contract
+  // does not leave out.
+  std::uint64_t triangles = 0, triangles_in_contact = 0;
 };
 
 // What one family of queries of the self-test came to.

@@ -92,6 +92,13 @@ void StratumTally::add(const TrialRecord& record) {
   for (const auto& [name, count] : record.counts) {
     if (is_measure(name)) measures[name] += count;
   }
+  const auto shown = measures_in(record.counts);
+  const auto grow = [&](std::uint64_t& most, bool counts) {
+    if (counts) most = std::max(most, record.triangles);
+  };
+  grow(triangles, record.has(Outcome::holds) || record.has(Outcome::defect));
+  grow(triangles_in_contact, shown.contact_trials > 0);
+  grow(triangles_repeated, shown.repeated_trials > 0);
   ++sizes[log2_of(record.triangles)];
   ++contacts[log2_of(record.pairs)];
 }

@@ -53,7 +53,10 @@ struct StratumTally {
     friend bool operator==(const Outcomes&, const Outcomes&) = default;
   };
   std::vector<Outcomes> by_configuration;
-  Counts measures;                        // only of a plug-in (step_measures.h)
+  Counts measures;  // step_measures.h; most of them only of a plug-in
+  // The most triangles of a trial that was judged, of one with a contact that the contract does
+  // not leave out, and of one that was run twice.
+  std::uint64_t triangles = 0, triangles_in_contact = 0, triangles_repeated = 0;
   std::map<int, std::uint64_t> sizes;     // cases by floor(log2(triangles))
   std::map<int, std::uint64_t> contacts;  // cases by floor(log2(pairs)), -1: none
   void add(const TrialRecord& record);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -36,6 +37,8 @@ constexpr NamedMeasure named_measures[] = {
     {"measure:redrawn", &StepMeasures::redrawn},
     {"measure:steps-left-out", &StepMeasures::steps_left_out},
     {"measure:left-out-misses", &StepMeasures::left_out_misses},
+    {"measure:contact-trials", &StepMeasures::contact_trials},
+    {"measure:repeated-trials", &StepMeasures::repeated_trials},
 };
 
 // Rounds upward, so that no time is said to be better than it is.
@@ -87,8 +90,14 @@ void count_step(const StepDiff& diff, const detector::StepResult& result,
   if (!diff.first) return;
   ++sum.collisions;
   sum.without_time += result.first.hi - result.first.lo > widest_stated_time ? 1 : 0;
-  add_time(late_prefix, diff.first->late_by, counts);
-  add_time(early_prefix, diff.first->early_by, counts);
+  add_time(late_prefix, diff.first->off.late, counts);
+  add_time(early_prefix, diff.first->off.early, counts);
+}
+
+void add_sums(const StepMeasures& sum, Counts& counts) {
+  for (const auto& [name, member] : named_measures) {
+    if (sum.*member > 0) counts[std::string(name)] += sum.*member;
+  }
 }
 
 }  // namespace
@@ -96,17 +105,16 @@ void count_step(const StepDiff& diff, const detector::StepResult& result,
 std::uint64_t StepMeasures::late_steps() const { return sum_of(late); }
 std::uint64_t StepMeasures::early_steps() const { return sum_of(early); }
 
-double quantile_of(const ByHowMuch& values, std::uint64_t all, double share) {
-  if (all == 0) return 0;
+double quantile_of(const ByHowMuch& values, double share) {
   // This many values lie at or below the quantile.
-  const auto rank = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(all)));
-  std::uint64_t below = all - std::min(all, sum_of(values));
-  if (rank <= below) return 0;
+  const auto rank =
+      static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(sum_of(values))));
+  std::uint64_t below = 0;
   for (const auto& [value, count] : values) {
     below += count;
     if (rank <= below) return value;
   }
-  return worst_of(values);
+  return 0;
 }
 
 double worst_of(const ByHowMuch& values) { return values.empty() ? 0 : values.rbegin()->first; }
@@ -118,9 +126,21 @@ void count_measures(std::span<const StepDiff> diffs, std::span<const detector::S
     count_step(diffs[s], results[s], truth[s], counts, sum);
   sum.free_steps_squared = sum.free_steps * sum.free_steps;
   sum.contact_steps_squared = sum.contact_steps * sum.contact_steps;
-  for (const auto& [name, member] : named_measures) {
-    if (sum.*member > 0) counts[std::string(name)] += sum.*member;
-  }
+  add_sums(sum, counts);
+}
+
+bool has_judged_contact(std::span<const StepDiff> diffs) {
+  return std::any_of(diffs.begin(), diffs.end(), [](const StepDiff& diff) {
+    return diff.has_answer ? diff.first_contact.has_value() && !diff.partial
+                           : diff.candidates && diff.candidates->least > 0;
+  });
+}
+
+void count_trial(bool has_contact, bool is_repeated, Counts& counts) {
+  StepMeasures sum;
+  sum.contact_trials = has_contact ? 1 : 0;
+  sum.repeated_trials = is_repeated ? 1 : 0;
+  add_sums(sum, counts);
 }
 
 void count_left_out(std::uint64_t redrawn, std::uint64_t steps, std::uint64_t misses,
@@ -129,9 +149,7 @@ void count_left_out(std::uint64_t redrawn, std::uint64_t steps, std::uint64_t mi
   sum.redrawn = redrawn;
   sum.steps_left_out = steps;
   sum.left_out_misses = misses;
-  for (const auto& [name, member] : named_measures) {
-    if (sum.*member > 0) counts[std::string(name)] += sum.*member;
-  }
+  add_sums(sum, counts);
 }
 
 bool is_measure(std::string_view count_name) { return count_name.starts_with(measure_prefix); }

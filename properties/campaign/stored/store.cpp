@@ -7,6 +7,7 @@
 #include "corpus/cases/case_file.h"
 #include "corpus/json_text.h"
 #include "properties/campaign/database/file_lock.h"
+#include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/row_of.h"
 
 namespace assay::properties {
@@ -135,10 +136,9 @@ Expected<Store> Store::open(const std::filesystem::path& file, const std::string
     const auto bound = unchecked_binding(parts->db);
     if (bound && *bound != binding) {
       if (const auto older = other_schema(*bound)) throw refused_schema(file, *older);
-      throw StoreProblem(
-          ProblemKind::another_run,
-          fmt::format("{}: holds another run (of another plan, seed, shard, detector or build)",
-                      file.string()));
+      throw StoreProblem(ProblemKind::another_run,
+                         fmt::format("{}: holds another run: {}; give another folder",
+                                     file.string(), difference_of(*bound, binding)));
     }
     check_tables(parts->db, true);
     parts->db.run(table_declarations());

@@ -21,7 +21,7 @@ namespace assay::properties {
 
 // The schema of a store, which is part of the text that binds it to a run (binding.h). A store of
 // another schema is refused.
-inline constexpr const char* store_schema = "assay-store/4";
+inline constexpr const char* store_schema = "assay-store/5";
 
 // A defect with its mesh. `mesh` and `smallest` are case files (assay-case/1) as text.
 struct StoredFailure {

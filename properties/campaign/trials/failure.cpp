@@ -32,6 +32,11 @@ std::string contact_text(const detector::PairContact& contact) {
                      time_text(contact.time), name_of(contact.feature.kind));
 }
 
+// t* may lie between two adjacent doubles, of which the lower one alone does not hold it.
+std::string share_text(double share) {
+  return share > 0 ? fmt::format("{:.3g}", share) : "less than an ulp";
+}
+
 // Makes a failure of a step: it finds the kind that fits the broken claim, and the pair.
 class FailureOfStep {
  public:
@@ -83,9 +88,8 @@ class FailureOfStep {
   void off_first_time() {
     at(diff_.late_first ? "late" : "early", *diff_.first_contact);
     if (!diff_.first) return;  // the oracle was stopped
-    failure_.explanation += diff_.late_first
-                                ? fmt::format(", late by {:.3g}", diff_.first->late_by)
-                                : fmt::format(", early by {:.3g}", diff_.first->early_by);
+    const double off = diff_.late_first ? diff_.first->off.late : diff_.first->off.early;
+    failure_.explanation += fmt::format(", {} by {}", failure_.kind, share_text(off));
   }
 
   void lost_pair() {

@@ -4,8 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include "properties/judging/contracted_case.h"
+#include "properties/judging/judged_run.h"
+#include "properties/queries/query_families.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 namespace {
@@ -18,57 +23,122 @@ double largest_of(const corpus::Case& c) {
   return largest;
 }
 
-// Multiplies by 2^exponent. The result is 0 if the scaling would round it, or if the contract does
-// not take it because it is below `least`.
-double scaled(double x, int exponent, double least) {
+double shortest_edge_of(const corpus::Case& c) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& edge : edges_of(c)) {
+    for (const auto& frame : c.frames) {
+      const double length = length_of(frame, edge);
+      if (length > 0) shortest = std::min(shortest, length);
+    }
+  }
+  return shortest;
+}
+
+// By which power of two the case comes into the range, or as near to it as it does.
+int exponent_into_range(const corpus::Case& c, const Contract& contract) {
+  const double largest = largest_of(c);
+  if (largest == 0) return 0;
+  int most = std::ilogb(contract.largest) - std::ilogb(largest);
+  if (std::ldexp(largest, most) > contract.largest) --most;
+  if (most < 0) return most;
+  const double shortest = shortest_edge_of(c), least = contract.least_nonzero;
+  if (shortest >= least) return 0;
+  const int wanted = std::ilogb(least) - std::ilogb(shortest);
+  return std::min(most, std::ldexp(shortest, wanted) < least ? wanted + 1 : wanted);
+}
+
+// Multiplies by 2^exponent. The result is 0 if the scaling would round it.
+double scaled(double x, int exponent) {
   const double y = std::ldexp(x, exponent);
-  const bool is_exact = std::ldexp(y, -exponent) == x;
-  return is_exact && std::abs(y) >= least ? y : 0;
+  return std::ldexp(y, -exponent) == x ? y : 0;
 }
 
 template <class Places>
-void scale_all(Places& places, int exponent, double least) {
+void scale_all(Places& places, int exponent) {
   for (auto& place : places) {
-    for (double& x : place) x = scaled(x, exponent, least);
+    for (double& x : place) x = scaled(x, exponent);
   }
+}
+
+// The longest side of the mesh's box in its first frame.
+double extent_of(const corpus::Case& c) {
+  const auto& x = c.frames.front();
+  return x.rows() == 0 ? 0 : (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
+}
+
+// The power of two by which the case is scaled.
+int exponent_within(const corpus::Case& c, const Contract& contract) {
+  const double largest = largest_of(c), extent = extent_of(c);
+  const double wanted = contract.start == StartRule::apart ? 8 * contract.start_distance : 0;
+  const int into_range = contract.has_range() ? exponent_into_range(c, contract) : 0;
+  if (!(extent > 0) || !(std::ldexp(extent, into_range) < wanted) || !std::isfinite(wanted))
+    return into_range;
+  const int apart = std::ilogb(wanted) - std::ilogb(extent) + 1;
+  constexpr double far_enough = 1e100;  // no mesh of anybody is larger
+  const double most = contract.has_range() ? contract.largest : far_enough;
+  return std::ldexp(largest, apart) <= most ? apart : into_range;
+}
+
+// Whether every fourth case of such cases has to have a contact.
+bool leaves_contacts_out(const Contract& contract, const Family& family) {
+  return is_query_family(family.name) || contract.adjacency != Adjacency::all ||
+         contract.start != StartRule::any || contract.features != TestedFeatures::both;
+}
+
+bool is_every_fourth(const std::string& id) {
+  const auto digits = id.substr(id.rfind(':') + 1);
+  return !digits.empty() && std::strtoull(digits.c_str(), nullptr, 10) % 4 == 0;
+}
+
+bool has_contact(const corpus::Case& c, const Contract& contract) {
+  const bool is_query = says_query(c);
+  const bool all_features = is_query || contract.features == TestedFeatures::both;
+  for (const auto& step : judge_case(c, contract)) {
+    for (const auto& contact : all_features ? step.pairs : step.asked_pairs) {
+      if (is_query || !leaves_out(contract, c.triangles, contact.pair)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
 
-corpus::Case brought_into_range(corpus::Case c, const Contract& contract) {
-  if (!contract.has_range()) return c;
-  const double largest = largest_of(c);
-  int exponent = 0;
-  if (largest > contract.largest) {
-    exponent = std::ilogb(contract.largest) - std::ilogb(largest);
-    if (std::ldexp(largest, exponent) > contract.largest) --exponent;
-  }
-  const double least = contract.least_nonzero;
+corpus::Case brought_into_contract(corpus::Case c, const Contract& contract) {
+  const int exponent = exponent_within(c, contract);
+  if (exponent == 0 && !contract.has_range()) return c;
   for (auto& frame : c.frames)
-    frame = frame.unaryExpr([&](double x) { return scaled(x, exponent, least); }).eval();
+    frame = frame.unaryExpr([&](double x) { return scaled(x, exponent); }).eval();
   if (c.view) {
-    scale_all(c.view->q0, exponent, 0);
-    scale_all(c.view->q1, exponent, 0);
+    scale_all(c.view->q0, exponent);
+    scale_all(c.view->q1, exponent);
   }
   if (c.ghosts) {
-    for (auto& apexes : c.ghosts->apexes) scale_all(apexes, exponent, 0);
+    for (auto& apexes : c.ghosts->apexes) scale_all(apexes, exponent);
   }
   return c;
 }
 
 PlannedCase case_within(const Contract& contract, const Family& family, const std::string& id) {
-  PlannedCase planned;
-  for (; planned.redrawn <= most_redrawn; ++planned.redrawn) {
-    const auto attempt = planned.redrawn == 0 ? id : fmt::format("{}~{}", id, planned.redrawn);
+  const bool wants_contact = leaves_contacts_out(contract, family) && is_every_fourth(id);
+  PlannedCase last;
+  std::uint64_t without_contact = 0;
+  for (std::uint64_t redrawn = 0; redrawn <= most_redrawn; ++redrawn) {
+    const auto attempt = redrawn == 0 ? id : fmt::format("{}~{}", id, redrawn);
+    PlannedCase planned;
     planned.made = make_case(family, attempt);
-    planned.made.c = brought_into_range(std::move(planned.made.c), contract);
+    planned.made.c = brought_into_contract(std::move(planned.made.c), contract);
     planned.seen = contracted(planned.made.c, contract);
-    if (!planned.seen) continue;
-    planned.steps_left_out =
-        corpus::steps_of(planned.made.c).size() - corpus::steps_of(*planned.seen).size();
-    break;
+    planned.redrawn = redrawn;
+    if (planned.seen) {
+      planned.steps_left_out =
+          corpus::steps_of(planned.made.c).size() - corpus::steps_of(*planned.seen).size();
+      const bool may_stay = !wants_contact || ++without_contact > most_without_contact;
+      if (may_stay || has_contact(*planned.seen, contract)) return planned;
+    }
+    if (planned.seen || !last.seen) last = std::move(planned);
   }
-  return planned;
+  if (!last.seen) last.redrawn = most_redrawn + 1;
+  return last;
 }
 
 }  // namespace assay::properties

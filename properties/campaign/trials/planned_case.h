@@ -15,20 +15,24 @@ struct PlannedCase {
   // The case as the detector and the oracle are given it; nothing if no attempt led to a case that
   // the contract takes.
   std::optional<corpus::Case> seen;
-  std::uint64_t redrawn = 0;         // cases before this one, which the contract does not take
+  std::uint64_t redrawn = 0;         // cases before this one, which did not serve
   std::uint64_t steps_left_out = 0;  // steps of this case that the contract leaves out
 };
 
 // The case of a trial id. If the contract takes none of its steps, the next ids
 // "quick:1:broken:3~1", "~2", ... are tried until it takes some, so that a stratum has as many
-// judged cases under every contract. At most most_redrawn attempts are made, each deterministic.
-// If the contract has a range of coordinates, the case is brought into it: it is scaled by a power
-// of two until its largest coordinate fits, and coordinates that are too small become 0. Without a
-// contract this is the case of the id.
-inline constexpr std::uint64_t most_redrawn = 200;
+// judged cases under every contract. Of a query, and under a contract that leaves contacts out,
+// every fourth case has to have a contact that counts, and is drawn again until it has one. At most
+// most_redrawn attempts are made, each deterministic; of them at most most_without_contact on cases
+// that the contract takes, and then the last of these stays. The case is brought into the contract
+// (below). Without a contract this is, of a mesh, the case of the id.
+inline constexpr std::uint64_t most_redrawn = 200, most_without_contact = 40;
 PlannedCase case_within(const Contract& contract, const Family& family, const std::string& id);
 
-// The case with its coordinates brought into the contract's range in this way.
-corpus::Case brought_into_range(corpus::Case c, const Contract& contract);
+// The case scaled by a power of two, so that the contract may take it. Its features can hardly lie
+// start_distance apart if the whole mesh is smaller than eight times that, so it becomes that
+// large, if a range of the contract allows it. If the contract has a range, the case is scaled
+// until its largest coordinate fits, or until its shortest edge does.
+corpus::Case brought_into_contract(corpus::Case c, const Contract& contract);
 
 }  // namespace assay::properties

@@ -18,6 +18,11 @@ Claims DetectorUnderTest::claims_in(const Configuration& configuration) const {
   return built_in ? claims_of(configuration.options) : claims;
 }
 
+Claims DetectorUnderTest::claims_on(const corpus::Case& c,
+                                    const Configuration& configuration) const {
+  return says_query(c) && !built_in ? query_claims : claims_in(configuration);
+}
+
 DetectorUnderTest built_in_detector() {
   DetectorUnderTest detector;
   detector.name = "built-in";
@@ -55,7 +60,7 @@ void find_cause(Failure& failure, const corpus::Case& c, const corpus::CaseStep&
                 const oracle::StepJudgement& truth, const Contract& contract) {
   if (!failure.pair) return;
   const auto &x_t0 = start_of(c, step), &x_t1 = end_of(c, step);
-  const auto& pairs = contract.features == TestedFeatures::both ? truth.pairs : truth.asked_pairs;
+  const auto pairs = truth_of(c, truth, contract).pairs;
   const auto contact = std::find_if(pairs.begin(), pairs.end(),
                                     [&](const auto& exact) { return exact.pair == *failure.pair; });
   failure.cause =
@@ -78,7 +83,7 @@ void name_features(Failure& failure, const detector::FourPoints& query) {
 JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudgement> truth,
                         const CaseRun& run, const Configuration& configuration,
                         const DetectorUnderTest& detector, const CaseRun* again) {
-  const Claims claims = detector.claims_in(configuration);
+  const Claims claims = detector.claims_on(c, configuration);
   // The steps of the built-in detector are left out here, because they are judged more strictly
   // below.
   const auto by_claims = detector.built_in ? std::span<const oracle::StepJudgement>{} : truth;

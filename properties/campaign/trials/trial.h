@@ -20,8 +20,14 @@ struct DetectorUnderTest {
   Contract contract;
   std::vector<Configuration> configurations;
   bool of_queries = false;  // only the elementary query of a plug-in is judged
+  // What a plug-in claims of its elementary query; nothing if that is not judged.
+  Claims query_claims{};
+  // The parts that the library holds and that are not judged, in words: "elementary query".
+  std::vector<std::string> unjudged_parts{};
 
   Claims claims_in(const Configuration& configuration) const;
+  // What it claims of this case, which may be a query (query_case.h).
+  Claims claims_on(const corpus::Case& c, const Configuration& configuration) const;
 };
 
 // The built-in detector with every culling and pairs all, and the view cullings with pairs first

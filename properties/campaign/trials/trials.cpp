@@ -23,8 +23,9 @@ corpus::Case failing_case(const corpus::Case& c, const Configuration& configurat
                           const DetectorUnderTest& detector, const Failure& failure) {
   corpus::Case out = c;
   out.about = about_text(failure.signature(), failure.explanation);
-  out.source =
-      fmt::format("campaign case {}, detector {}, {}", c.id, detector.name, configuration.name);
+  // A plug-in's one configuration has its name.
+  out.source = fmt::format("campaign case {}, detector {}", c.id, detector.name) +
+               (detector.built_in ? ", " + configuration.name : "");
   std::replace(out.id.begin(), out.id.end(), ':', '-');
   if (detector.built_in) out.options = options_text(configuration.options);
   return out;
@@ -98,15 +99,30 @@ class Trials {
   }
 
  private:
-  // Every 16th trial is run twice, to judge the claim `deterministic`.
+  // Every 16th trial is run twice, to judge the claim `deterministic`: the second time in another
+  // process, which was started at another time with other hash seeds and addresses (variation),
+  // and in another order: some of these trials wait for each other, and the last comes first.
   static constexpr std::uint64_t repeat_every = 16;
+  static constexpr std::size_t repeated_together = 4;
+  static constexpr std::uint32_t variation = 1;
   static constexpr std::uint64_t meshes_kept = 3;  // this many meshes of each signature are stored
 
   void work() {
-    WorkerProcess worker(request_.worker, request_.plugin, request_.worker_limits());
+    Workers workers{{request_.worker, request_.plugin, request_.worker_limits()},
+                    {request_.worker, request_.plugin, request_.worker_limits(variation)}};
+    std::vector<Trial> waiting;
     // If something goes wrong in one thread, all of them end.
     try {
-      while (const PlannedTrial* trial = next_trial()) judge(*trial, worker);
+      while (const PlannedTrial* planned = next_trial()) {
+        Trial trial = run_first(*planned, workers.first);
+        if (planned->index % repeat_every != 0 || !trial.is_within) {
+          conclude(trial, nullptr, workers.first);
+          continue;
+        }
+        waiting.push_back(std::move(trial));
+        if (waiting.size() == repeated_together) repeat(waiting, workers);
+      }
+      repeat(waiting, workers);
     } catch (const StoreProblem& failure) {
       const std::lock_guard lock(mutex_);
       end_.problem = failure.problem();
@@ -138,35 +154,55 @@ class Trials {
   // A trial that is being made: its case, what the oracle and the detector say of it, and what it
   // showed.
   struct Trial {
+    const PlannedTrial* planned = nullptr;
     GeneratedCase made;
     corpus::Case seen;  // the case as the detector's contract has it, if it takes it
     bool is_within = true;
     std::vector<Configuration> configurations;
     std::vector<oracle::StepJudgement> truth;
     std::vector<CaseRun> runs;
+    bool has_contact = false;  // one that the contract does not leave out, and that was judged
     TrialRecord record;
     std::vector<StoredFailure> failures;
   };
 
-  void judge(const PlannedTrial& planned, WorkerProcess& worker) {
+  struct Workers {
+    WorkerProcess first, second;
+  };
+
+  Trial run_first(const PlannedTrial& planned, WorkerProcess& worker) const {
     Trial trial = make(planned);
-    if (!trial.is_within) return keep(trial);
+    if (!trial.is_within) return trial;
     auto begin = Clock::now();
     trial.truth = judge_case(trial.seen, request_.detector.contract);
     trial.record.oracle_us = microseconds_since(begin);
     begin = Clock::now();
     trial.runs = run(trial, trial.configurations, worker);
     trial.record.detector_us = microseconds_since(begin);
-    std::vector<CaseRun> again;
-    if (planned.index % repeat_every == 0) again = run(trial, trial.configurations, worker);
+    return trial;
+  }
+
+  void repeat(std::vector<Trial>& waiting, Workers& workers) {
+    for (; !waiting.empty(); waiting.pop_back()) {
+      auto& trial = waiting.back();
+      const auto again = run(trial, trial.configurations, workers.second);
+      conclude(trial, again.data(), workers.first);
+    }
+  }
+
+  // `again` is a second run for each configuration, or NULL.
+  void conclude(Trial& trial, const CaseRun* again, WorkerProcess& worker) {
+    if (!trial.is_within) return keep(trial);
     for (std::size_t i = 0; i < trial.runs.size(); ++i)
-      judge_configuration(trial, i, again.empty() ? nullptr : &again[i], worker);
-    count(trial, planned);
+      judge_configuration(trial, i, again ? again + i : nullptr, worker);
+    count_trial(trial.has_contact, again != nullptr, trial.record.counts);
+    count(trial);
     keep(trial);
   }
 
   Trial make(const PlannedTrial& planned) const {
     Trial trial;
+    trial.planned = &planned;
     auto drawn = case_within(request_.detector.contract, *planned.family, id_of(planned));
     trial.made = std::move(drawn.made);
     trial.is_within = drawn.seen.has_value();
@@ -205,6 +241,7 @@ class Trials {
     const JudgedTrial judged = judge_trial(trial.seen, trial.truth, trial.runs[i], configuration,
                                            request_.detector, again);
     trial.record.outcomes += letter_of(judged.outcome);
+    trial.has_contact |= has_judged_contact(judged.steps);
     if (!request_.detector.built_in) {
       count_measures(judged.steps, trial.runs[i].steps, trial.truth, trial.record.counts);
       count_left_out(0, 0, judged.left_out_misses, trial.record.counts);
@@ -227,7 +264,7 @@ class Trials {
     return run.printed.empty() && again ? again->printed : run.printed;
   }
 
-  void count(Trial& trial, const PlannedTrial& planned) const {
+  void count(Trial& trial) const {
     auto& record = trial.record;
     record.triangles = static_cast<std::uint64_t>(trial.seen.triangles.rows());
     for (const auto& step : trial.truth) {
@@ -237,7 +274,7 @@ class Trials {
     }
     if (!request_.detector.built_in) return;
     const bool with_laws =
-        request_.plan.laws_every > 0 && planned.index % request_.plan.laws_every == 0;
+        request_.plan.laws_every > 0 && trial.planned->index % request_.plan.laws_every == 0;
     const CaseTally tally =
         tally_case(trial.made, trial.configurations, trial.runs, trial.truth, with_laws);
     add(record.counts, tally.counts);

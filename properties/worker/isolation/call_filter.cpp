@@ -1,11 +1,15 @@
 #include "properties/worker/isolation/call_filter.h"
 
+#include <fcntl.h>
 #include <sched.h>
 #include <seccomp.h>
+#include <sys/ioctl.h>
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <memory>
 
 namespace assay::properties {
@@ -23,7 +27,10 @@ class Filter {
   // A call that the processor of this machine does not have is passed over.
   template <class... Condition>
   void refuse(const char* name, int error, Condition... condition) {
-    const int call = ::seccomp_syscall_resolve_name(name);
+    refuse(::seccomp_syscall_resolve_name(name), error, condition...);
+  }
+  template <class... Condition>
+  void refuse(int call, int error, Condition... condition) {
     if (!ok_ || call < 0) return;
     ok_ = ::seccomp_rule_add(context_.get(), SCMP_ACT_ERRNO(static_cast<unsigned>(error)), call,
                              sizeof...(condition), condition...) == 0;
@@ -105,16 +112,87 @@ constexpr const char* forbidden[] = {
     "mknodat",
     "vhangup",
     "lookup_dcookie",
+    // Calls that change what a file is, but not what it holds. Landlock does not guard these.
+    "chmod",
+    "fchmod",
+    "fchmodat",
+    "chown",
+    "fchown",
+    "lchown",
+    "fchownat",
+    "setxattr",
+    "lsetxattr",
+    "fsetxattr",
+    "removexattr",
+    "lremovexattr",
+    "fremovexattr",
+    "utime",
+    "utimes",
+    "futimesat",
+    "utimensat",
+    "flock",
 };
+
+// Calls of the same kind that are younger than the library of filters may be. Their numbers are
+// the same for every processor.
+constexpr int forbidden_numbers[] = {
+    452,  // fchmodat2
+    463,  // setxattrat
+    466,  // removexattrat
+    467,  // open_tree_attr
+    469,  // file_setattr
+};
+
+// What is not there, so that programs do without it.
+constexpr const char* missing[] = {
+    "io_uring_setup", "io_uring_enter", "io_uring_register",
+    "memfd_create",   "memfd_secret",   "shmget",
+    "shmat",          "shmctl",         "semget",
+    "semop",          "semtimedop",     "semctl",
+    "msgget",         "msgsnd",         "msgrcv",
+    "msgctl",         "mq_open",        "mq_unlink",
+};
+
+// The system looks at the lower half of these arguments only.
+constexpr scmp_datum_t lower_half = 0xffffffff;
+
+// Locks, leases, and hints that stay with a file (the headers may be older than some).
+constexpr scmp_datum_t forbidden_fcntls[] = {
+    F_SETLK, F_SETLKW,
+    37,    // F_OFD_SETLK
+    38,    // F_OFD_SETLKW
+    1024,  // F_SETLEASE
+    1036,  // F_SET_RW_HINT
+    1038,  // F_SET_FILE_RW_HINT
+    1040,  // F_SETDELEG
+};
+
+// Orders to files and terminals (ioctl). Only these harmless ones are let through; they have a
+// high byte in common. Others change flags of files, seal them, or tell a terminal what was typed.
+constexpr scmp_datum_t allowed_orders[] = {TCGETS,  TIOCGPGRP, TIOCGWINSZ, FIONREAD,
+                                           FIONBIO, FIONCLEX,  FIOCLEX};
+
+void refuse_orders(Filter& filter) {
+  constexpr scmp_datum_t high_byte = 0x5400, low_byte = 0xff;
+  for (scmp_datum_t bit = low_byte + 1; bit <= lower_half; bit <<= 1)
+    filter.refuse("ioctl", ENOTTY, SCMP_A1(SCMP_CMP_MASKED_EQ, bit, ~high_byte & bit));
+  for (scmp_datum_t low = 0; low <= low_byte; ++low) {
+    const bool is_allowed = std::find(std::begin(allowed_orders), std::end(allowed_orders),
+                                      high_byte | low) != std::end(allowed_orders);
+    if (!is_allowed) filter.refuse("ioctl", ENOTTY, SCMP_A1(SCMP_CMP_MASKED_EQ, low_byte, low));
+  }
+}
 
 }  // namespace
 
 bool filter_calls(bool alone) {
   Filter filter;
   for (const char* name : forbidden) filter.refuse(name, EPERM);
-  for (const char* name : {"io_uring_setup", "io_uring_enter", "io_uring_register"}) {
-    filter.refuse(name, ENOSYS);
-  }
+  for (const int number : forbidden_numbers) filter.refuse(number, EPERM);
+  for (const char* name : missing) filter.refuse(name, ENOSYS);
+  for (const scmp_datum_t order : forbidden_fcntls)
+    filter.refuse("fcntl", EPERM, SCMP_A1(SCMP_CMP_MASKED_EQ, lower_half, order));
+  refuse_orders(filter);
   // Calls that make new namespaces. clone3 hides its flags from a filter, so it is refused as a
   // whole; the C library then uses clone.
   filter.refuse("clone3", ENOSYS);
@@ -137,6 +215,9 @@ bool filter_calls(bool alone) {
                              "sched_setparam", "sched_setattr"}) {
       filter.refuse(name, EPERM, SCMP_A0(SCMP_CMP_NE, 0));
     }
+    for (const char* name : {"setpriority", "ioprio_set"}) filter.refuse(name, EPERM);
+    for (const scmp_datum_t receiver : {8 /* F_SETOWN */, 15 /* F_SETOWN_EX */})
+      filter.refuse("fcntl", EPERM, SCMP_A1(SCMP_CMP_MASKED_EQ, lower_half, receiver));
   }
   return filter.load();
 }

@@ -7,6 +7,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 
@@ -57,21 +58,31 @@ bool allow(int rules, const std::string& path, std::uint64_t rights) {
   return ::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
 }
 
-// Landlock has no exceptions from a rule, so each folder of / gets a rule of its own.
-bool allow_reading_all_but_proc(int rules) {
-  const std::unique_ptr<DIR, int (*)(DIR*)> root(::opendir("/"), ::closedir);
-  if (!root) return false;
-  while (const dirent* entry = ::readdir(root.get())) {
+// Landlock has no exceptions from a rule, so all that lies beside an unread folder, and beside the
+// folders above it, gets a rule of its own. Links are passed over, because they may lead there.
+bool allow_reading(int rules, const std::string& folder, const std::vector<std::string>& unread) {
+  if (std::find(unread.begin(), unread.end(), folder) != unread.end()) return true;
+  const std::string below = folder == "/" ? folder : folder + "/";
+  const bool has_unread = std::any_of(unread.begin(), unread.end(), [&](const std::string& other) {
+    return other.starts_with(below);
+  });
+  if (!has_unread) return allow(rules, folder, read_rights);
+  // Python looks for a module by listing the folder.
+  if (folder != "/" && !allow(rules, folder, LANDLOCK_ACCESS_FS_READ_DIR)) return false;
+  const std::unique_ptr<DIR, int (*)(DIR*)> open(::opendir(folder.c_str()), ::closedir);
+  if (!open) return true;  // nothing in there can be read anyway
+  while (const dirent* entry = ::readdir(open.get())) {
     const std::string name = entry->d_name;
-    if (name == "." || name == ".." || name == "proc") continue;
-    if (!allow(rules, "/" + name, read_rights)) return false;
+    struct stat seen;
+    if (name == "." || name == ".." || ::lstat((below + name).c_str(), &seen) != 0) continue;
+    if (!S_ISLNK(seen.st_mode) && !allow_reading(rules, below + name, unread)) return false;
   }
   return true;
 }
 
 }  // namespace
 
-bool fence_files(const std::vector<std::string>& folders, bool without_proc) {
+bool fence_files(const std::vector<std::string>& folders, const std::vector<std::string>& unread) {
   const long version = ::syscall(SYS_landlock_create_ruleset, nullptr, 0, 1U /* its version */);
   constexpr long guards_truncate = 3, guards_ioctl = 5, has_scopes = 6;
   if (version < guards_truncate) return false;
@@ -86,9 +97,7 @@ bool fence_files(const std::vector<std::string>& folders, bool without_proc) {
   const Descriptor rules(
       static_cast<int>(::syscall(SYS_landlock_create_ruleset, &wanted, size, 0)));
   if (rules.number() < 0) return false;
-  const bool may_read = without_proc ? allow_reading_all_but_proc(rules.number())
-                                     : allow(rules.number(), "/", read_rights);
-  if (!may_read) return false;
+  if (!allow_reading(rules.number(), "/", unread)) return false;
   for (const auto& folder : folders) {
     if (!allow(rules.number(), folder, read_rights | write_rights | truncate_right)) return false;
   }

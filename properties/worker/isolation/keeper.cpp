@@ -106,7 +106,8 @@ class Keeper {
   [[noreturn]] void run() {
     // If there is no report, the process of the plug-in has ended already.
     if (const auto ready = receive_report(reports_, 0)) {
-      const KeeperHello hello = {wire_version(), ready->report.isolation, ready->sender};
+      const KeeperHello hello = {wire_version(), ready->report.isolation, ready->sender,
+                                 ready->report.has_copies};
       host_.send(encode(hello));
     }
     for (;;) {
@@ -219,7 +220,7 @@ void keep(Channel host, const KeptPlugin& kept, const std::function<int(Channel)
   const pid_t child = ::fork();
   if (child == 0) {
     if (in_new_world) begin_with_plugin(kept, ends, serve);
-    become_plugin(kept, ends, false, serve);
+    become_plugin(kept, ends, false, false, serve);
   }
   if (child < 0) ::_exit(EXIT_FAILURE);
   ::close(channel[1]);

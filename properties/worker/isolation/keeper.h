@@ -11,16 +11,24 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "properties/worker/channel.h"
 #include "properties/worker/isolation/isolation.h"
 
 namespace assay::properties {
 
+// A file that the plug-in sees in the place of another one.
+struct ReplacedFile {
+  std::string copy, original;
+};
+
 struct KeptPlugin {
   IsolationMode mode = IsolationMode::best;
   std::string scratch;      // a folder, unless the mode is none
-  std::uint64_t bytes = 0;  // address space; 0: no limit
+  std::uint64_t bytes = 0;  // address space of a process, and what it may write; 0: no limit
+  std::string unread = {};  // a folder in which it reads no file (file_fence.h); empty: none
+  std::vector<ReplacedFile> replaced = {};  // in its own world, if it has one
 };
 
 // What the keeper tells the host first, before the plug-in is loaded.
@@ -29,6 +37,7 @@ struct KeeperHello {
   Isolation isolation;
   // The process of the plug-in, as the host sees it; 0: unknown.
   std::int64_t process = 0;
+  bool has_copies = false;  // all files are replaced
 };
 
 // Starts the plug-in's process, which calls `serve` with its channel and exits with what that

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <string>
@@ -59,14 +60,24 @@ void become_limitable() {
 
 bool begin_new_world() { return is_allowed() && enter(); }
 
-bool show_new_world() {
+bool show_new_world(const std::string& scratch, std::uint64_t bytes) {
   // From now on mounts are not visible outside.
   if (::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return false;
-  constexpr unsigned long flags = MS_NOSUID | MS_NODEV | MS_NOEXEC;
-  // It gets shared memory of its own, because some libraries count their threads there.
-  ::mount("shm", shared_memory, "tmpfs", flags, nullptr);
-  return ::mount("proc", "/proc", "proc", flags, nullptr) == 0 ||
-         ::mount("none", "/proc", "tmpfs", flags | MS_RDONLY, nullptr) == 0;
+  constexpr unsigned long flags = MS_NOSUID | MS_NODEV;
+  // Some libraries count their threads in shared memory. It is the same folder as the scratch
+  // folder, so that one limit holds for both.
+  const std::string options =
+      "mode=0700" + (bytes > 0 ? ",size=" + std::to_string(bytes) : std::string());
+  if (::mount("scratch", scratch.c_str(), "tmpfs", flags, options.c_str()) == 0)
+    ::mount(scratch.c_str(), shared_memory, nullptr, MS_BIND, nullptr);
+  return ::mount("proc", "/proc", "proc", flags | MS_NOEXEC, nullptr) == 0 ||
+         ::mount("none", "/proc", "tmpfs", flags | MS_NOEXEC | MS_RDONLY, nullptr) == 0;
+}
+
+bool replace_files(const std::vector<ReplacedFile>& files) {
+  return std::all_of(files.begin(), files.end(), [](const ReplacedFile& file) {
+    return ::mount(file.copy.c_str(), file.original.c_str(), nullptr, MS_BIND, nullptr) == 0;
+  });
 }
 
 bool drop_capabilities() {

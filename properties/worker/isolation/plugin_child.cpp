@@ -52,6 +52,11 @@ void limit(const KeptPlugin& kept) {
   if (kept.mode != IsolationMode::none) {
     const rlimit processes = {most_processes, most_processes};
     ::setrlimit(RLIMIT_NPROC, &processes);
+    // Where the scratch folder is one of the disk, each file in it has the limit of memory. A file
+    // that would grow beyond is an error of the call, and not the end of the process.
+    const rlimit size = {kept.bytes, kept.bytes};
+    if (kept.bytes > 0) ::setrlimit(RLIMIT_FSIZE, &size);
+    ::signal(SIGXFSZ, SIG_IGN);
   }
   if (!limit_memory(kept.bytes)) ::_exit(EXIT_FAILURE);
 }
@@ -62,7 +67,10 @@ Isolation shut_in(const KeptPlugin& kept, bool in_new_world) {
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return isolation;
   std::vector<std::string> folders = {kept.scratch};
   if (in_new_world) folders.emplace_back(shared_memory);
-  isolation.files = fence_files(folders, !in_new_world);
+  std::vector<std::string> unread;
+  if (!kept.unread.empty()) unread.push_back(kept.unread);
+  if (!in_new_world) unread.emplace_back("/proc");
+  isolation.files = fence_files(folders, unread);
   const bool has_dropped = drop_capabilities();
   isolation.calls = filter_calls(!in_new_world) && has_dropped;
   // If the plug-in has no world of its own, /proc is behind the fence and the filter stops every
@@ -74,7 +82,7 @@ Isolation shut_in(const KeptPlugin& kept, bool in_new_world) {
 }  // namespace
 
 void become_plugin(const KeptPlugin& kept, const ChildEnds& ends, bool in_new_world,
-                   const std::function<int(Channel)>& serve) {
+                   bool has_copies, const std::function<int(Channel)>& serve) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (kept.mode != IsolationMode::none) {
     ::setsid();  // it gets no terminal
@@ -85,6 +93,7 @@ void become_plugin(const KeptPlugin& kept, const ChildEnds& ends, bool in_new_wo
   limit(kept);
   ChildReport ready;
   ready.isolation = shut_in(kept, in_new_world);
+  ready.has_copies = has_copies;
   report(ends.reports, ready);
   ::close(ends.reports);
   if (kept.mode == IsolationMode::required && !ready.isolation.is_whole()) ::_exit(EXIT_SUCCESS);
@@ -100,9 +109,10 @@ void become_plugin(const KeptPlugin& kept, const ChildEnds& ends, bool in_new_wo
 void begin_with_plugin(const KeptPlugin& kept, const ChildEnds& ends,
                        const std::function<int(Channel)>& serve) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const bool is_alone = show_new_world();
+  const bool is_alone = show_new_world(kept.scratch, kept.bytes);
+  const bool has_copies = !kept.replaced.empty() && replace_files(kept.replaced);
   const pid_t plugin = ::fork();
-  if (plugin == 0) become_plugin(kept, ends, is_alone, serve);
+  if (plugin == 0) become_plugin(kept, ends, is_alone, has_copies, serve);
   // The plug-in is the same user in the same world, and must not be able to read this process.
   ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
   ::close(ends.channel);

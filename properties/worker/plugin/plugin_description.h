@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "properties/claims/claims.h"
 
@@ -20,6 +21,12 @@ struct PluginDescription {
   Contract contract;
   PluginParts parts = {};
 };
+
+// What keeps a text from being the name of a detector, or its version: it is longer than 100
+// characters, holds characters that nobody sees or that turn the text around, begins or ends with a
+// space, or is the name of the built-in detector. Empty if nothing does. REQUIRES UTF-8
+// (printable.h).
+std::string fault_of_name(std::string_view name);
 
 // Those of its claims that can be judged by playing steps. These are all that it makes, or, for a
 // library that only lists the candidates of a step, those of candidates, deterministic and total

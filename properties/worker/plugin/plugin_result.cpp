@@ -4,6 +4,7 @@
 
 #include "detector/mesh/step_types.h"
 #include "detector/step_result.h"
+#include "properties/claims/contract.h"
 
 namespace assay::properties {
 
@@ -23,6 +24,10 @@ bool read_pair(const std::int32_t* raw, std::int32_t triangle_count, detector::T
   return 0 <= pair.a && pair.a < pair.b && pair.b < triangle_count;
 }
 
+std::string numbers_of(const detector::TimeEnclosure& time) {
+  return "[" + number_text(time.lo) + ", " + number_text(time.hi) + "]";
+}
+
 // Says which rule is broken; empty if none is.
 std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
                        std::vector<PairContact>& pairs) {
@@ -35,7 +40,8 @@ std::string read_pairs(const assay_result& raw, std::int32_t triangle_count,
     contact.time = {0, 1};
     if (raw.pair_times) contact.time = {raw.pair_times[2 * i], raw.pair_times[2 * i + 1]};
     if (!is_interval(contact.time)) {
-      return "the time of pair " + std::to_string(i) + " is no interval in [0, 1]";
+      return "the time of pair " + std::to_string(i) + ", " + numbers_of(contact.time) +
+             ", is no interval in [0, 1]";
     }
     pairs.push_back(contact);
   }
@@ -63,7 +69,9 @@ std::string read_result(const assay_result& raw, std::int32_t triangle_count,
     case ASSAY_COLLISION:
       result.answer = Answer::collision;
       result.first = {raw.first_lo, raw.first_hi};
-      if (!is_interval(result.first)) return "its first time is no interval in [0, 1]";
+      if (!is_interval(result.first)) {
+        return "its first time, " + numbers_of(result.first) + ", is no interval in [0, 1]";
+      }
       return read_pairs(raw, triangle_count, result.pairs);
     default:
       return "answer " + std::to_string(raw.answer) + " is none";

@@ -121,6 +121,9 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   description.name = line_of(raw.name);
   description.version = line_of(raw.version);
   if (description.name.empty()) return broken("it has no name");
+  for (const auto& text : {description.name, description.version}) {
+    if (const auto fault = fault_of_name(text); !fault.empty()) return broken("it has " + fault);
+  }
   const auto has = [&](std::uint32_t bit) { return (raw.claims & bit) != 0; };
   description.claims = {
       has(ASSAY_CLAIM_FREE_SOUND),    has(ASSAY_CLAIM_NOT_LATE),  has(ASSAY_CLAIM_FIRST_TIME),

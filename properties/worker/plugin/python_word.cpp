@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <fstream>
 #include <vector>
 
 namespace assay::properties {
 namespace {
+
+namespace fs = std::filesystem;
 
 bool is_identifier(std::string_view text) {
   const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c >= 0x80; };
@@ -36,6 +39,36 @@ std::vector<std::filesystem::path> places_beside(const std::filesystem::path& pr
       places.push_back(entry.path() / "dist-packages" / "assay");
   }
   return places;
+}
+
+// Adds the file of a module or package, if there is one that is not there yet.
+void add_module(const fs::path& place, std::vector<fs::path>& files) {
+  for (const auto& file : {fs::path(place.string() + ".py"), place / "__init__.py"}) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) continue;
+    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+    return;
+  }
+}
+
+// The words of a file's lines that import something. Some of them are names of modules.
+std::vector<std::string> imported_names(const fs::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> names;
+  for (std::string line; std::getline(in, line);) {
+    line.erase(0, std::min(line.find_first_not_of(" \t"), line.size()));
+    if (!line.starts_with("import ") && !line.starts_with("from ")) continue;
+    std::replace_if(
+        line.begin(), line.end(),
+        [](char c) {
+          return !is_identifier({&c, 1}) && !std::isdigit(static_cast<unsigned char>(c));
+        },
+        ' ');
+    for (auto& name : parts_of(line, ' ')) {
+      if (is_identifier(name)) names.push_back(std::move(name));
+    }
+  }
+  return names;
 }
 
 Problem not_here(std::string_view word, const std::string& reason) {
@@ -68,20 +101,31 @@ Expected<std::filesystem::path> python_plugin(std::string_view word,
   return not_here(word, "the Python module of this build is not beside " + worker.string());
 }
 
-Expected<std::filesystem::path> python_module_file(std::string_view word) {
+Expected<std::vector<fs::path>> python_module_files(std::string_view word) {
   const auto named = python_word_of(word);
   if (!named) return not_here(word, no_word);
-  std::filesystem::path place;
-  for (const auto& part : parts_of(named->module, '.')) place /= part;
+  const auto packages = parts_of(named->module, '.');
   std::vector<std::string> folders = {"."};
   if (const char* more = std::getenv("PYTHONPATH")) {
     for (auto& folder : parts_of(more, ':')) folders.push_back(std::move(folder));
   }
-  for (const std::filesystem::path folder : folders) {
-    for (const auto& file : {folder / (place.string() + ".py"), folder / place / "__init__.py"}) {
-      std::error_code ignored;
-      if (std::filesystem::is_regular_file(file, ignored)) return file;
+  for (const fs::path folder : folders) {
+    fs::path place = folder;
+    for (const auto& part : packages) place /= part;
+    std::vector<fs::path> files;
+    add_module(place, files);
+    if (files.empty()) continue;
+    for (place = place.parent_path(); place != folder && !place.empty();
+         place = place.parent_path())
+      add_module(place, files);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      const auto file = files[i];
+      for (const auto& name : imported_names(file)) {
+        add_module(file.parent_path() / name, files);
+        add_module(folder / name, files);
+      }
     }
+    return files;
   }
   return not_here(word, "no module " + named->module + " in this folder or those of PYTHONPATH");
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "properties/problem.h"
 
@@ -36,8 +37,9 @@ std::optional<PythonWord> python_word_of(std::string_view word);
 Expected<std::filesystem::path> python_plugin(std::string_view word,
                                               const std::filesystem::path& worker);
 
-// The file of the module, or of the package of that name, in this folder or in one of PYTHONPATH.
-// not_found if there is none.
-Expected<std::filesystem::path> python_module_file(std::string_view word);
+// The file of the module, or of the package of that name, in this folder or in one of PYTHONPATH,
+// comes first. Then come the files of the packages around it, and those that these files import by
+// name from beside them or from the same folder, and so on. not_found if there is no module.
+Expected<std::vector<std::filesystem::path>> python_module_files(std::string_view word);
 
 }  // namespace assay::properties

@@ -68,7 +68,7 @@ Json json_of(const PluginErrors& e) {
 
 std::string text_of(const ComparedDetector& detector, std::span<const ComparedSequence> sequences) {
   auto text = fmt::format(
-      "beside the built-in detector, view-auto, exact, {} pairs; processor time in ms with all "
+      "beside the built-in detector, auto, exact, {} pairs; processor time in ms with all "
       "threads, medians\n",
       detector.claims.all_pairs ? "all" : "first");
   text += fmt::format(compared_row, "sequence", "triangles", "steps", "a step", "built-in",

@@ -86,7 +86,7 @@ ComparedSequence ComparedWorkers::compare(const SequenceToCompare& sequence,
   const auto pairs = claims.all_pairs ? detector::Pairs::all : detector::Pairs::first;
   const properties::Configuration own = {name, {}, {}, true};
   const properties::Configuration built_in = {
-      "built-in", {detector::Culling::view_auto, start, pairs}, {}, true};
+      "built-in", {detector::Options{}.culling, start, pairs}, {}, true};
   TimedRuns plugin_runs, built_in_runs;
   const auto measure = [&](auto& worker, const auto& configuration, TimedRuns& runs) {
     return [&] {

@@ -1,6 +1,5 @@
 #include "reports/bench/peers/peer_counts.h"
 
-#include "reports/bench/judged_step.h"
 #include "reports/bench/peers/confirmation.h"
 
 namespace assay::reports {
@@ -8,8 +7,8 @@ namespace {
 
 using detector::Answer;
 
-void count_step(const PeerSubject& subject, const properties::StepDiff& diff,
-                const detector::StepResult& result, PeerCounts& counts) {
+void count_step(const properties::StepDiff& diff, const detector::StepResult& result,
+                PeerCounts& counts) {
   counts.contact += diff.first_contact ? 1 : 0;
   const bool has_answer = result.answer == Answer::free || result.answer == Answer::collision;
   counts.undecided += has_answer ? 0 : 1;
@@ -20,10 +19,9 @@ void count_step(const PeerSubject& subject, const properties::StepDiff& diff,
   if (result.answer != Answer::collision) return;
   counts.timed_collisions += result.first.lo > 0 || result.first.hi < 1 ? 1 : 0;
   if (!diff.first) return;
-  const double tolerated = subject.contract.time_tolerance;
-  const auto error = first_time_error(diff.first->detector, diff.first->oracle);
-  if (diff.late_first) counts.late.add(error.late_share);
-  if (error.early_share > tolerated) counts.early.add(error.early_share);
+  const auto& off = diff.first->off;
+  if (off.late > 0) counts.late.add(off.late);
+  if (off.early > 0) counts.early.add(off.early);
 }
 
 bool is_unsafe(const PeerSubject& subject, const properties::StepDiff& diff) {
@@ -58,7 +56,7 @@ PeerCounts counts_of(const PeerSubject& subject, const corpus::Case& seen,
   }
   for (std::size_t s = 0; s < verdict.steps.size(); ++s) {
     const auto& diff = verdict.steps[s];
-    count_step(subject, diff, run.steps[s], counts);
+    count_step(diff, run.steps[s], counts);
     if (!is_unsafe(subject, diff)) continue;
     const bool confirmed = is_confirmed(seen, s, diff, run.steps[s], subject.contract);
     ++counts.unsafe;

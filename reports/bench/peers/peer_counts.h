@@ -13,8 +13,7 @@
 
 namespace assay::reports {
 
-// First times that are off on one side of the exact one. They are compared by their lower ends,
-// because a user goes up to there.
+// First times that are off on one side of the exact one (properties::TimeOff).
 struct PeerTimes {
   std::uint64_t steps = 0;
   double worst = 0;  // share of the step

@@ -1,6 +1,7 @@
 #include "reports/page/data/scene_json.h"
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "detector/step_result.h"
 #include "reports/pictures/contact_point.h"
@@ -69,6 +70,21 @@ Json views_json(const CaseScene& scene, const detector::StepResult& seen) {
           {"primitives", std::move(primitives)}};
 }
 
+// One for each pair that is in contact or reported, ascending.
+Json differences_json(const CaseScene& scene, const SceneStep& step) {
+  std::set<detector::TrianglePair> pairs;
+  const auto add = [&](const std::vector<detector::PairContact>& contacts) {
+    for (const auto& contact : contacts) pairs.insert(contact.pair);
+  };
+  add(step.truth.pairs);
+  add(step.truth.left_out);
+  if (step.answered) add(step.answered->pairs);
+  Json list = Json::array();
+  for (const auto& pair : pairs)
+    list.push_back({{"triangles", {pair.a, pair.b}}, {"difference", step.difference(pair, scene)}});
+  return list;
+}
+
 Json candidates_json(const properties::CandidatePairs& candidates) {
   if (!candidates) return nullptr;
   Json list = Json::array();
@@ -87,23 +103,25 @@ Json scene_json(const CaseScene& scene) {
   for (const auto& frame : scene.c.frames) frames.push_back(frame_json(frame));
   for (const auto& step : scene.steps) {
     const auto& truth = step.truth;
+    const auto first = truth.first ? truth.first->time : detector::TimeEnclosure{};
     steps.push_back(
         {{"from", step.span.from},
          {"to", step.span.to},
          {"commit", step.span.commit},
-         {"oracle", answer_json(scene, step, truth.answer, truth.first, truth.pairs)},
+         {"oracle", answer_json(scene, step, truth.answer(), first, truth.pairs)},
+         {"left_out", pairs_json(scene, step, truth.left_out)},
+         {"differences", differences_json(scene, step)},
          {"detector", step.answered ? answer_json(scene, step, step.answered->answer,
                                                   step.answered->first, step.answered->pairs)
                                     : Json()},
          {"candidates", candidates_json(step.candidates)},
-         {"views", step.seen ? views_json(scene, *step.seen) : Json()}});
+         {"views", step.has_views() ? views_json(scene, *step.answered) : Json()}});
   }
   const auto pair = scene.shown_pair();
   return {{"triangles", std::move(triangles)},
           {"frames", std::move(frames)},
           {"steps", std::move(steps)},
           {"reports_pairs", scene.reports_pairs},
-          {"views_by", scene.views_by.empty() ? Json() : Json(scene.views_by)},
           {"ended", scene.ended.empty() ? Json() : Json(scene.ended)},
           {"shown",
            {{"step", scene.shown_step()}, {"pair", pair ? Json({pair->a, pair->b}) : Json()}}}};

@@ -39,13 +39,18 @@ export interface Column<Row> {
   short?: boolean; // never broken into lines
 }
 
-// A table that scrolls by itself where the window is narrow.
-export function table<Row>(caption: string, columns: Column<Row>[], rows: Row[]): HTMLElement {
+// A table that scrolls by itself where the window is narrow. Rows that are `aside` are grey.
+export function table<Row>(
+  caption: string,
+  columns: Column<Row>[],
+  rows: Row[],
+  aside: (row: Row) => boolean = () => false,
+): HTMLElement {
   const kind = (column: Column<Row>): Attributes => 
     column.number ? { class: "number" } : column.short ? { class: "short" } : {};
   const head = html("tr", {}, ...columns.map((c) => html("th", { scope: "col", ...kind(c) }, c.head)));
   const body = rows.map((row) =>
-    html("tr", {}, ...columns.map((c) => html("td", kind(c), c.cell(row)))),
+    html("tr", aside(row) ? { class: "quiet" } : {}, ...columns.map((c) => html("td", kind(c), c.cell(row)))),
   );
   return html(
     "div",

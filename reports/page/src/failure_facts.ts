@@ -1,7 +1,7 @@
 // What is known of a failure besides its picture, and the line that replays it.
 import { html } from "./dom";
-import type { Failure } from "./report";
-import { size, time } from "./words";
+import type { Answer, Failure } from "./report";
+import { counted, size, time } from "./words";
 
 export function replayLine(line: string): HTMLElement {
   const said = html("span", { class: "said", role: "status" });
@@ -37,6 +37,9 @@ async function copy(text: string): Promise<boolean> {
   }
 }
 
+const said = ({ answer, first_time }: Answer): string =>
+  first_time === null ? answer : `${answer}, first contact ${time(first_time)}`;
+
 export function failureFacts(failure: Failure): HTMLElement {
   const rows: [string, string | null][] = [];
   const law = failure.configuration.split(", law ")[1];
@@ -49,11 +52,16 @@ export function failureFacts(failure: Failure): HTMLElement {
   const scene = failure.scene;
   if (scene && scene.steps.length > 0) {
     const step = scene.steps[scene.shown.step]!;
-    rows.push(["Oracle", `${step.oracle.answer}, first contact ${time(step.oracle.first_time)}`]);
+    rows.push(["Oracle", said(step.oracle)]);
+    if (step.left_out.length > 0)
+      rows.push([
+        "Left out by the contract",
+        `${counted(step.left_out.length, "pair")}, which the detector may report or not`,
+      ]);
     rows.push([
       "Detector",
       step.detector
-        ? `${step.detector.answer}, first contact ${time(step.detector.first_time)}`
+        ? said(step.detector)
         : `no answer (${scene.ended ?? "not run"})`,
     ]);
   }

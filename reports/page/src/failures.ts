@@ -5,18 +5,7 @@ import { pairTable } from "./pair_table";
 import { legend } from "./legend";
 import type { Failure, Run } from "./report";
 import { counted } from "./words";
-import { staticPicture, Viewer } from "./viewer/viewer";
-
-// What a missed contact breaks first, then what else is claimed, then laws.
-const claims = ["free-sound", "not-late", "total", "first-time", "first-pairs", "all-pairs", "candidates", "no-spurious", "deterministic"];
-
-function bySeverity(list: Failure[]): Failure[] {
-  const rank = (f: Failure): number => {
-    const at = claims.indexOf(f.signature.split(":")[0]!);
-    return at < 0 ? claims.length : at;
-  };
-  return [...list].sort((a, b) => rank(a) - rank(b) || b.met - a.met);
-}
+import { picture, staticPicture, Viewer } from "./viewer/viewer";
 
 export interface FailuresView {
   element: HTMLElement;
@@ -40,7 +29,7 @@ export function failures(run: Run): FailuresView {
       const sets = legend(scene);
       try {
         viewer = new Viewer(scene, (time) => sets.show(time));
-        detail.append(viewer.element);
+        detail.append(viewer.element, html("div", { class: "printed-only" }, picture(failure)));
       } catch {
         detail.append(staticPicture(failure));
       }
@@ -50,7 +39,8 @@ export function failures(run: Run): FailuresView {
     detail.append(failureFacts(failure));
   };
 
-  for (const failure of bySeverity(run.failures)) {
+  // In the order of the findings, so that the first is the one that the verdict names.
+  for (const failure of run.failures) {
     const button = html(
       "button",
       { type: "button", "aria-pressed": "false", click: () => show(failure, button) },

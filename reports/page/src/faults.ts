@@ -5,9 +5,16 @@ import type { Fault, Run } from "./report";
 import { count, counted } from "./words";
 
 function verdict(f: Fault): string {
-  if (f.status === "planted") return f.found ? "found" : f.time_over ? "the time was over" : "NOT FOUND";
+  if (f.status === "planted") return f.found ? (f.found_at_random ? "found at random" : "found by its curated case alone") : f.time_over ? "the time was over" : "NOT FOUND";
   if (f.status === "open") return f.found ? "found: no longer open" : "open";
   return f.found ? "FOUND, but equivalent" : "survives, rightly";
+}
+
+// The median is none if most seeds did not show the fault.
+function wordsOf(f: Fault): string {
+  if (f.median_cases !== null) return counted(f.median_cases, "case");
+  if (f.found_at_random) return `by random cases of ${f.cases.filter((n) => n !== null).length} of ${f.cases.length} seeds`;
+  return f.found ? "by its curated case alone" : "not found";
 }
 
 const details = (title: string, content: HTMLElement): HTMLElement =>
@@ -21,6 +28,7 @@ export function faults(run: Run): HTMLElement {
       : `The canary (${run.canary.fault}) was found after ${counted(run.canary.found_after, "case")}.`
     : "No canary was met.";
   const list = run.faults;
+  const { power } = run;
   if (!list) return section("faults", title, html("p", {}, canary, " No faults were planted in this run."));
   const planted = list.filter((f) => f.status === "planted");
   const lost = planted.filter((f) => !f.found);
@@ -31,15 +39,16 @@ export function faults(run: Run): HTMLElement {
     html(
       "p",
       {},
-      `${canary} ${planted.filter((f) => f.found).length} of ${planted.length} planted faults were found: ` +
-        "detectors that are wrong on purpose, each in one stage. The cases that each takes say how sharp the harness is." +
+      `${canary} ${power.found} of ${power.planted} planted faults were found, ${power.found_at_random} by random cases, ` +
+        `${power.found_by_curated_case_alone} by their curated case alone. A planted fault is a detector that is wrong on purpose, in one stage. ` +
+        "The cases that each takes say how sharp the campaign is; a curated case was written for its fault, and proves only that the harness sees it." +
         (run.faults_taken_from === null
           ? ""
           : ` They were planted by campaign ${run.faults_taken_from.campaign}, seed ${run.faults_taken_from.seed}, of the same build: they prove the harness, not this detector.`),
     ),
     lost.length === 0 ? null : html("p", {}, `Not found: ${lost.map((f) => f.name).join(", ")}.`),
     logPlot(
-      "Cases until each planted fault showed (median over seeds)",
+      "Random cases until each planted fault showed (median over seeds)",
       [...planted]
         .sort((a, b) => (b.median_cases ?? Infinity) - (a.median_cases ?? Infinity))
         .map((f) => ({
@@ -47,7 +56,8 @@ export function faults(run: Run): HTMLElement {
           value: f.median_cases,
           limit: null,
           bad: !f.found,
-          words: f.median_cases === null ? (f.found ? "found under some seeds" : "not found") : counted(f.median_cases, "case"),
+          kind: f.found && !f.found_at_random ? "curated" : "",
+          words: wordsOf(f),
         })),
     ),
     details(`All ${list.length} faults, with those that are equivalent or open`, table(

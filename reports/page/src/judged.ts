@@ -1,7 +1,7 @@
 // What the verdict is about: the detector's claims, under which contract, how a plug-in was kept
 // apart, the campaign; and what a plug-in does whatever it claims.
 import { html, section, table } from "./dom";
-import type { Measures, Rate, Repetition, Run, TimesOff } from "./report";
+import type { JudgedSize, Measures, Rate, Repetition, Run, TimesOff } from "./report";
 import { count } from "./words";
 
 // Configurations that claim the same are one line.
@@ -20,11 +20,28 @@ function repeated(list: Repetition[]): string[] {
   const most = Math.max(...list.map((one) => one.triangles));
   const threads = Math.max(...list.flatMap((one) => one.threads), 1);
   const differing = list.filter((one) => one.broken).length;
+  const steps = list.flatMap((one) => one.judged);
+  const wrong = steps.filter((one) => !one.holds).length;
   return [
     `${count(list.length)} sequences of up to ${count(most)} triangles, with up to ${threads} threads: ${differing === 0 ? "no two runs differ" : `runs differ on ${differing}`}`,
+    `${count(steps.length)} of their steps were judged by the oracle, ${count(steps.filter((one) => one.contacts > 0).length)} of them with a contact: ${wrong === 0 ? "all hold" : `${wrong} break a claim`}`,
     ...list.filter((one) => one.what !== "").map((one) => `${one.input}: ${one.what}`),
   ];
 }
+
+// Sizes with the claims that were tried up to them, the largest first.
+function sizesOf(list: JudgedSize[]): string[] {
+  const sizes = new Map<number, string[]>();
+  for (const { claim, triangles } of list) sizes.set(triangles, [...(sizes.get(triangles) ?? []), claim]);
+  return [...sizes].sort(([a], [b]) => b - a).map(([triangles, claims]) => `up to ${count(triangles)} triangles: ${claims.join(", ")}`);
+}
+
+// What nobody judged: claims, parts of the library, families.
+const notJudged = (run: Run): string[] => [
+  ...run.not_judged.map(({ claim, reason }) => `${claim}: ${reason}`),
+  ...run.detector.unjudged_parts.map((part) => `the ${part} of this library`),
+  ...run.left_out_families.map((family) => `family ${family}, which the contract leaves out`),
+];
 
 const isolations: Record<string, string> = {
   full: "full: its process wrote to no file but temporary ones of its own, saw no other process, and opened no socket",
@@ -35,18 +52,20 @@ export function judged(run: Run): HTMLElement {
   const { contract } = run.detector;
   const rows: [string, string[]][] = [
     ["Claims", claimsOf(run)],
-    ...(run.not_judged.length === 0
+    ...(run.detector.query_claims.length === 0 || run.judged_up_to.length === 0
       ? []
-      : ([["Not judged", run.not_judged.map(({ claim, reason }) => `${claim}: ${reason}`)]] as [string, string[]][])),
+      : ([["Claims of its query", [run.detector.query_claims.join(", ")]]] as [string, string[]][])),
+    ...(notJudged(run).length === 0 ? [] : ([["Not judged", notJudged(run)]] as [string, string[]][])),
+    ...(run.judged_up_to.length === 0 ? [] : ([["Tried on meshes", sizesOf(run.judged_up_to)]] as [string, string[]][])),
     ["Contract", [contract.leaves_out.length === 0 ? "leaves nothing out" : contract.leaves_out.join(", ")]],
     ...(run.isolation === null ? [] : ([["Isolation", [isolations[run.isolation] ?? run.isolation]]] as [string, string[]][])),
-    ...(run.repeated === null ? [] : ([["Repeated", repeated(run.repeated)]] as [string, string[]][])),
-    ["Campaign", [`${run.campaign}, seed ${run.seed}`]],
+    ...(run.repeated === null ? [] : ([["Larger meshes", repeated(run.repeated)]] as [string, string[]][])),
+    ["Campaign", [`${run.campaign}, seed ${run.seed}${run.is_default_seed ? ", the default one, whose cases everybody knows" : ""}`]],
   ];
   return section(
     "judged",
     "What was judged",
-    html("p", {}, "The verdict speaks of these claims, under this contract, and of no others. What is not judged holds for nobody."),
+    html("p", {}, "The verdict speaks of these claims, under this contract, and of no others. What is not judged holds for nobody. Of meshes larger than those that tried a claim it says nothing."),
     html(
       "dl",
       { class: "judged" },
@@ -72,7 +91,7 @@ function measures(run: Run): HTMLElement[] {
   type Row = Run["measures"][number];
   const gives = run.measures.some(({ measures }) => measures.candidates.steps > 0);
   return [
-    html("p", {}, "Counted whatever is claimed. Intervals have a confidence of 95 %; times are shares of the step, given as median, 99 of 100, and worst."),
+    html("p", {}, "Counted whatever is claimed. Intervals have a confidence of 95 %. Late and early: how many steps, and of these the median, 99 of 100 and the worst, in shares of the step."),
     table(
       "What the detector does, whatever it claims",
       [

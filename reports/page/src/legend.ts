@@ -1,7 +1,8 @@
-// The colours of the view sets, with how many triangles are in each at the shown step.
+// The colours of the view sets, with how many triangles are in each at the shown step; of a detector
+// that shows none, those of the two triangles of the pair.
 import { html } from "./dom";
 import type { Scene, SetName } from "./report";
-import { setClass, setNames } from "./viewer/palette";
+import { pairSets, setClass, setNames } from "./viewer/palette";
 
 const meaning: Record<SetName, string> = {
   "V+": "V+ positive at all times",
@@ -9,33 +10,42 @@ const meaning: Record<SetName, string> = {
   V0: "V0 the rest",
   dirty: "dirty: carried doubt",
   violated: "violated: touched by a ghost",
-  none: "not seen from a view",
+  none: "other triangles",
 };
+
+const swatch = (kind: string, words: string): HTMLElement =>
+  html("li", {}, html("span", { class: `swatch ${kind}` }), words);
 
 export function legend(scene: Scene): { element: HTMLElement; show: (time: number) => void } {
   const list = html("ul", { class: "legend" });
-  const by = scene.views_by
-    ? html("p", { class: "note" }, `View sets by ${scene.views_by}: the detector itself shows none.`)
-    : null;
+  const pairItems = (): HTMLElement[] => {
+    const [a, b] = scene.shown.pair ?? [];
+    const others = scene.triangles.length - (scene.shown.pair ? 2 : 0);
+    return [
+      ...(a === undefined ? [] : [swatch(setClass(pairSets[0]), `triangle ${a}`)]),
+      ...(b === undefined ? [] : [swatch(setClass(pairSets[1]), `triangle ${b}`)]),
+      ...(others > 0 ? [swatch(setClass("none"), `${meaning.none}: ${others}`)] : []),
+    ];
+  };
   let last = -1;
   const show = (time: number): void => {
     const step = Math.min(scene.steps.length - 1, Math.max(0, Math.floor(time)));
     if (step === last) return;
     last = step;
-    const sets = scene.steps[step]!.views?.sets ?? scene.triangles.map(() => "none" as const);
-    const items = setNames.flatMap((name) => {
+    const sets = scene.steps[step]!.views?.sets;
+    const items = !sets ? pairItems() : setNames.flatMap((name) => {
       const size = sets.filter((s) => s === name).length;
       if (size === 0) return [];
-      return [html("li", {}, html("span", { class: `swatch ${setClass(name)}` }), `${meaning[name]}: ${size}`)];
+      return [swatch(setClass(name), `${meaning[name]}: ${size}`)];
     });
     const ghosts = scene.steps[step]!.views?.ghosts.length ?? 0;
     list.replaceChildren(
       ...items,
-      ...(ghosts ? [html("li", {}, html("span", { class: "swatch ghost" }), `ghosts that close the mesh: ${ghosts}`)] : []),
-      html("li", {}, html("span", { class: "swatch pair" }), "the pair"),
-      html("li", {}, html("span", { class: "swatch exact" }), "exact contact"),
-      html("li", {}, html("span", { class: "swatch detector" }), "the detector's"),
+      ...(ghosts ? [swatch("ghost", `ghosts that close the mesh: ${ghosts}`)] : []),
+      swatch("pair", "the pair"),
+      swatch("exact", "exact contact"),
+      ...(scene.steps.some((s) => s.detector?.pairs.some((c) => c.point)) ? [swatch("detector", "the detector's")] : []),
     );
   };
-  return { element: html("div", {}, list, by), show };
+  return { element: list, show };
 }

@@ -6,7 +6,7 @@ import { failures, type FailuresView } from "./failures";
 import { faults } from "./faults";
 import { history } from "./history";
 import { judged } from "./judged";
-import { gates, overview } from "./overview";
+import { gates, overview, verdictWord } from "./overview";
 import type { Report, Run, StoredReport } from "./report";
 import { runOf } from "./run";
 import { strata } from "./strata";
@@ -46,6 +46,8 @@ function show(page: HTMLElement, report: Report): void {
     const view = runView(report.runs[index]!);
     shown = view.failures;
     choice.value = String(index);
+    const run = report.runs[index]!;
+    document.title = `${run.detector.name}: ${verdictWord(run.verdict)} \u2013 Assay report`;
     place.replaceChildren(view.element);
     view.failures.viewer();
   };

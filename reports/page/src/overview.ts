@@ -35,7 +35,7 @@ export function overview(run: Run): HTMLElement {
     html(
       "p",
       { class: "note" },
-      `Detector ${run.detector.name} in ${counted(run.detector.configurations.length, "configuration")}; ` +
+      `Detector: ${run.detector.name} (${counted(run.detector.configurations.length, "configuration")}); ` +
         `campaign ${run.campaign}, seed ${run.seed}${shards}; ` +
         `${count(run.trials.done)} of ${count(run.trials.planned)} trials.` +
         (run.trials.disturbed === 0

@@ -1,4 +1,5 @@
-// The pairs in contact of a scene: what the oracle has, what the detector has.
+// The pairs in contact of a scene: what the oracle has, what the detector has, and what its claims
+// and its contract make of that.
 import { html, table } from "./dom";
 import type { Contact, Scene } from "./report";
 import { time } from "./words";
@@ -9,41 +10,41 @@ interface Row {
   exact: Contact | null;
   detector: Contact | null;
   ran: boolean;
-  reported: boolean; // whether the detector says anything of pairs
   candidate: boolean | null; // null: it gives none
+  isLeftOut: boolean;
+  difference: string;
 }
 
+const of = (pairs: Contact[] | undefined, [a, b]: [number, number]): Contact | null =>
+  pairs?.find((c) => c.triangles[0] === a && c.triangles[1] === b) ?? null;
+
+// Those that count come first in each step.
 function rowsOf(scene: Scene): Row[] {
-  const rows: Row[] = [];
-  scene.steps.forEach((step, index) => {
-    const found = new Map<string, Row>();
-    const row = (c: Contact): Row => {
-      const key = c.triangles.join(",");
-      const known = found.get(key);
-      if (known) return known;
-      const candidate = step.candidates?.some(([a, b]) => `${a},${b}` === key) ?? null;
-      const made = { step: index, pair: c.triangles, exact: null, detector: null, ran: step.detector !== null, reported: scene.reports_pairs, candidate };
-      found.set(key, made);
-      return made;
-    };
-    for (const c of step.oracle.pairs) row(c).exact = c;
-    for (const c of step.detector?.pairs ?? []) row(c).detector = c;
-    rows.push(...found.values());
+  return scene.steps.flatMap((step, index) => {
+    const rows = step.differences.map(({ triangles: pair, difference }): Row => {
+      const counted = of(step.oracle.pairs, pair);
+      const exact = counted ?? of(step.left_out, pair);
+      return {
+        step: index,
+        pair,
+        exact,
+        detector: of(step.detector?.pairs, pair),
+        ran: step.detector !== null,
+        candidate: step.candidates?.some(([a, b]) => a === pair[0] && b === pair[1]) ?? null,
+        isLeftOut: exact !== null && counted === null,
+        difference,
+      };
+    });
+    return [...rows.filter((r) => !r.isLeftOut), ...rows.filter((r) => r.isLeftOut)];
   });
-  return rows.sort((a, b) => a.step - b.step || a.pair[0] - b.pair[0] || a.pair[1] - b.pair[1]);
 }
 
-function difference(row: Row): string {
-  if (!row.ran) return "not run";
-  if (!row.reported) return row.candidate === false ? "no candidate" : "\u2013";
-  if (!row.detector) return "missing";
-  if (!row.exact) return "spurious";
-  const [lo, hi] = row.detector.time;
-  if (lo > row.exact.time[0]) return "late";
-  return hi < row.exact.time[1] ? "early" : "agrees";
-}
+const stated = (c: Contact): string => (c.time[0] <= 0 && c.time[1] >= 1 ? "not stated" : time(c.time));
 
-const stated = (c: Contact): string => (c.time[1] - c.time[0] >= 1 ? "not stated" : time(c.time));
+function reported(row: Row, scene: Scene): string {
+  if (row.detector) return stated(row.detector);
+  return row.ran && scene.reports_pairs ? "not reported" : "\u2013";
+}
 
 export function pairTable(scene: Scene, choose: (step: number, pair: [number, number]) => void): HTMLElement {
   const rows = rowsOf(scene);
@@ -61,10 +62,11 @@ export function pairTable(scene: Scene, choose: (step: number, pair: [number, nu
       { head: "step", cell: (r: Row) => String(r.step + 1), number: true },
       { head: "feature", cell: (r: Row) => r.exact?.feature ?? "\u2013", short: true },
       { head: "exact time", cell: (r: Row) => (r.exact ? time(r.exact.time) : "no contact") },
-      { head: "detector's time", cell: (r: Row) => (r.detector ? stated(r.detector) : r.ran ? "not reported" : "\u2013") },
+      { head: "detector's time", cell: (r: Row) => reported(r, scene) },
       ...(gives ? [{ head: "candidate", cell: (r: Row) => (r.candidate ? "yes" : "no") }] : []),
-      { head: "difference", cell: difference },
+      { head: "difference", cell: (r: Row) => r.difference },
     ],
     rows,
+    (r) => r.isLeftOut,
   );
 }

@@ -6,11 +6,12 @@ export interface LogRow {
   value: number | null;
   limit: number | null; // a mark that the value should stay below
   bad: boolean;
+  kind?: string; // a class for the row's words, which gives them a colour of their own
   words: string;
 }
 
 const wide = 720;
-const labels = 230;
+const letter = 6.6;
 const right = 16;
 const rowHeight = 22;
 const head = 26;
@@ -26,6 +27,10 @@ function decades(rows: LogRow[]): [number, number] {
   return [lo, Math.max(hi, lo + 1)];
 }
 
+// The place of the row labels: as wide as the longest.
+const widthOfLabels = (rows: { label: string }[]): number =>
+  Math.max(230, ...rows.map((row) => 20 + letter * row.label.length));
+
 const yOf = (row: number): number => head + rowHeight * (row + 0.5);
 
 function frame(title: string, rows: number): SVGSVGElement {
@@ -40,6 +45,7 @@ function frame(title: string, rows: number): SVGSVGElement {
 export function logPlot(title: string, rows: LogRow[]): SVGSVGElement | null {
   if (!rows.some((r) => r.value !== null && r.value > 0)) return null;
   const [lo, hi] = decades(rows);
+  const labels = widthOfLabels(rows);
   const x = (n: number): number => labels + ((wide - right - labels) * (Math.log10(n) - lo)) / (hi - lo);
   const plot = frame(title, rows.length);
   const rule = (n: number, label: string, kind: string): void => {
@@ -66,7 +72,7 @@ export function logPlot(title: string, rows: LogRow[]): SVGSVGElement | null {
           ? svg("path", { class: "dot bad", d: `M${x(row.value)} ${y - 6}l6 6-6 6-6-6Z` })
           : svg("circle", { class: "dot", cx: x(row.value), cy: y, r: 5 }),
       );
-    } else group.append(svg("text", { x: labels + 4, y: y + 4, class: "none-label" }, row.words));
+    } else group.append(svg("text", { x: labels + 4, y: y + 4, class: `none-label ${row.kind ?? ""}`.trim() }, row.words));
     plot.append(group);
   });
   return plot;
@@ -75,6 +81,7 @@ export function logPlot(title: string, rows: LogRow[]): SVGSVGElement | null {
 // Bars of counts, from zero.
 export function barPlot(title: string, rows: { label: string; value: number }[]): SVGSVGElement {
   const most = Math.max(1, ...rows.map((r) => r.value));
+  const labels = widthOfLabels(rows);
   const plot = frame(title, rows.length);
   rows.forEach((row, i) => {
     const y = yOf(i);

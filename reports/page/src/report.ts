@@ -31,7 +31,9 @@ export interface Step {
   from: number;
   to: number;
   commit: boolean;
-  oracle: Answer;
+  oracle: Answer; // what counts under the detector's contract
+  left_out: Contact[]; // by the contract
+  differences: { triangles: [number, number]; difference: string }[]; // of each pair that meets or is reported
   detector: Answer | null;
   candidates: [number, number][] | null; // of a plug-in that gives some
   views: Views | null;
@@ -42,7 +44,6 @@ export interface Scene {
   frames: Point[][];
   steps: Step[];
   reports_pairs: boolean;
-  views_by: string | null;
   ended: string | null;
   shown: { step: number; pair: [number, number] | null };
 }
@@ -94,6 +95,7 @@ export interface Fault {
   law: string;
   status: "planted" | "open" | "equivalent";
   found: boolean;
+  found_at_random: boolean; // by a random case, not by its curated case alone
   time_over: boolean;
   median_cases: number | null;
   cases: (number | null)[];
@@ -154,7 +156,7 @@ export interface Waiver {
   met: number;
 }
 
-// What a certificate (assay-certificate/3) says beyond the run.
+// What a certificate (assay-certificate/4) says beyond the run.
 export interface Certificate {
   subject: { name: string; digest: Record<string, string> }[];
   versions: { assay: string; commit: string | null; libraries: string } | null;
@@ -184,6 +186,12 @@ export interface Contract {
 export interface NotJudged {
   claim: string;
   reason: string;
+}
+
+// The size of the largest mesh that tried a claim.
+export interface JudgedSize {
+  claim: string;
+  triangles: number;
 }
 
 // A share of counted steps, with its interval of confidence 95 %.
@@ -225,12 +233,14 @@ export interface Repetition {
   threads: number[];
   what: string;
   broken: boolean;
+  judged: { step: number; contacts: number; holds: boolean }[]; // by the oracle
 }
 
 export interface Run {
   folder: string;
   campaign: string;
   seed: number;
+  is_default_seed: boolean;
   shards: { count: number; present: number[] };
   detector: {
     name: string;
@@ -239,8 +249,12 @@ export interface Run {
     configurations: string[];
     claims: Claims[];
     contract: Contract;
+    query_claims: string[]; // of its elementary query; empty: not judged
+    unjudged_parts: string[]; // "elementary query": held by the library, judged by nobody
   };
-  // Of a plug-in that was put to large meshes again and again.
+  judged_up_to: JudgedSize[];
+  left_out_families: string[];
+  // Of a plug-in that was put to large meshes.
   repeated: Repetition[] | null;
   // "full", "none", "partial: lacks files"; null: of no plug-in.
   isolation: string | null;
@@ -260,6 +274,7 @@ export interface Run {
   laws: Law[];
   canary: { fault: string; found_after: number | null } | null;
   faults: Fault[] | null;
+  power: { planted: number; found: number; found_at_random: number; found_by_curated_case_alone: number };
   faults_taken_from: { campaign: string; seed: number } | null;
   worlds: World[];
   signatures: Record<string, number>;
@@ -279,7 +294,7 @@ export interface StoredReport {
   runs: StoredRun[];
 }
 
-// What stands in the page of a run: findings are the predicate of assay-certificate/3.
+// What stands in the page of a run: findings are the predicate of assay-certificate/4.
 export interface StoredRun {
   folder: string;
   library: string | null;
@@ -301,12 +316,14 @@ export interface StoredFailure {
 
 export interface Findings {
   gates: Gate[];
-  detector: { name: string; built_in: boolean; contract: Contract; configurations: Claims[] };
+  detector: { name: string; built_in: boolean; contract: Contract; configurations: Claims[]; query_claims: string[]; unjudged_parts: string[] };
   repeated: Repetition[] | null;
   isolation: string | null;
   not_judged: NotJudged[];
+  judged_up_to: JudgedSize[];
+  left_out_families: string[];
   versions: Certificate["versions"];
-  campaign: { name: string; seed: number; shards: string[]; plan: { policy: { speed_limits: Record<string, number> } } };
+  campaign: { name: string; seed: number; is_default_seed: boolean; shards: string[]; plan: { policy: { speed_limits: Record<string, number> } } };
   confidence: { family: number; bounds: number; speaks_of: string };
   strata: {
     family: string;
@@ -324,12 +341,17 @@ export interface Findings {
   power: {
     canaries: { fault: string; found_after: number | null }[];
     taken_from: Run["faults_taken_from"];
+    planted: number;
+    found: number;
+    found_at_random: number;
+    found_by_curated_case_alone: number;
     faults: {
       fault: string;
       about: string | null;
       law: string;
       status: Fault["status"];
       found: boolean;
+      found_at_random: boolean;
       time_over: boolean;
       median_cases: number | null;
       needed: (number | null)[];

@@ -47,7 +47,7 @@ describe("the page", () => {
 
   test("says which claims were judged, under which contract, and how the plug-in was kept apart", async () => {
     const terms = await at.page.locator("#judged dt").allTextContents();
-    assert.deepEqual(terms, ["Claims", "Contract", "Isolation", "Campaign"]);
+    assert.deepEqual(terms, ["Claims", "Tried on meshes", "Contract", "Isolation", "Campaign"]);
     const text = await at.page.locator("#judged").textContent();
     assert.match(text, /free-sound, not-late, /);
     assert.match(text, /Contract\s*leaves nothing out/);
@@ -119,11 +119,23 @@ describe("the page", () => {
     assert.notEqual(await shot(), before_);
   });
 
-  test("the view primitive can be hidden", async () => {
-    assert.ok((await at.page.locator(".mark-primitive path").count()) > 0);
-    await at.page.getByLabel("view primitive").uncheck();
+  test("a plug-in's pair is seen in two colours, and nothing of views", async () => {
     assert.equal(await at.page.locator(".mark-primitive path").count(), 0);
-    await at.page.getByLabel("view primitive").check();
+    assert.equal(await at.page.getByLabel("view primitive").count(), 0);
+    const items = await at.page.locator(".legend li").allTextContents();
+    assert.equal(items.filter((item) => /^triangle \d+$/.test(item)).length, 2, items.join());
+    assert.ok(items.every((item) => !item.includes("violated")), items.join());
+  });
+
+  test("its title names the detector", async () => {
+    assert.match(await at.page.title(), /fast.math.*: Defect/);
+  });
+
+  test("on paper a picture stands in place of the 3D view", async () => {
+    await at.page.emulateMedia({ media: "print" });
+    assert.ok(await at.page.locator(".printed-only img").isVisible());
+    assert.ok(!(await at.page.locator(".frame").isVisible()));
+    await at.page.emulateMedia({ media: null });
   });
 
   test("the replay line can be copied", async () => {

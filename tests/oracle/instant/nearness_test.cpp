@@ -69,7 +69,7 @@ TEST(Nearness, AgreesWithEmbeddingOnRandomMeshes) {
     detector::Positions x(9, 3);
     for (Eigen::Index k = 0; k < x.size(); ++k) x.data()[k] = static_cast<double>(engine() % 7);
     const auto f = triangles({{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {2, 3, 6}});
-    const bool meets = any_nearer_than(x, f, 0, all);
+    const bool meets = any_nearer_than(x, f, 0, all).has_value();
     EXPECT_EQ(meets, !embedded(x, f)) << "i = " << i;
     met += meets ? 1 : 0;
   }

@@ -45,6 +45,20 @@ void add_defect(RunFindings& f, const std::string& signature = "free-sound: miss
   f.failures.push_back(failure(signature));
 }
 
+// Who leaves neighbours out looks at strangers first, and everybody at ordinary numbers.
+TEST(Gates, TellTheLeastOddFailuresFirst) {
+  const std::string generic = "free-sound: answered free, edge-edge, t inside, moving, generic";
+  const auto judgement = judged_after({[&](RunFindings& f) {
+    for (const char* special : {", huge numbers", ", sharing an edge", ", sharing a vertex", ""})
+      add_defect(f, generic + special);
+  }});
+  const auto& reasons = judgement.of(Gate::claims).reasons;
+  ASSERT_EQ(reasons.size(), 4u);
+  std::size_t place = 0;
+  for (const char* special : {"", ", sharing a vertex", ", sharing an edge", ", huge numbers"})
+    EXPECT_TRUE(reasons[place++].starts_with(generic + special + ", met")) << reasons[place - 1];
+}
+
 TEST(Gates, StandInTheOrderOfTheExitCodes) {
   const std::vector<int> order = {4, 1, 3};
   std::size_t place = 0;
@@ -146,7 +160,7 @@ TEST(Gates, WhatIsAbsentIsIncomplete) {
       [](auto& f) {
         f.evidence.corpus[0].open = {{"A1", "", "no verdict: no answer in 60 s"}};
       },
-      [](auto& f) { f.tally.strata["broken"].discards = 20; },
+      [](auto& f) { f.tally.strata["broken"].discards = 1; },
       [](auto& f) { f.tally.strata["broken"].disturbed = 1; },  // one of twenty
       [](auto& f) {
         f.run.plan.strata.clear();
@@ -218,6 +232,92 @@ TEST(Gates, ADefectGoesBeforeWhatIsMissing) {
          Gate::claims, "defect", 1);
 }
 
+// What a contract leaves in has to be enough for a verdict.
+TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
+  const auto contacts = [](std::size_t stratum, std::uint64_t trials) -> Change {
+    return [=](auto& f) {
+      const auto& family = f.run.plan.strata[stratum].family;
+      f.tally.strata[family].measures["measure:contact-trials"] = trials;
+    };
+  };
+  const Change plug_in = [](auto& f) { f.run.detector.built_in = false; };
+  const auto few = judged_after({contacts(0, 1)});
+  expect(few, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(few.of(Gate::complete).reasons,
+            std::vector<std::string>{"broken: 1 of 20 planned cases have a contact inside the "
+                                     "contract, a tenth is wanted"});
+  expect_certified({contacts(0, 2)});
+  expect_certified({plug_in, contacts(0, 2)});
+  const auto none = judged_after({plug_in, contacts(0, 0), contacts(1, 0), contacts(2, 0)});
+  expect(none, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(none.of(Gate::complete).reasons.size(), 4u);
+  // A family that the contract leaves out wholly is named, and no contact of it is wanted. Of the
+  // others there have to be three.
+  const Change left_out = [](auto& f) {
+    auto& tally = f.tally.strata["broken"] = {};
+    tally.trials = tally.discards = 20;
+  };
+  const auto two = judged_after({left_out});
+  expect(two, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(
+      two.of(Gate::complete).reasons,
+      std::vector<std::string>{"2 of 3 families have a contact inside the contract, 3 are wanted"});
+  expect_certified({left_out, [](auto& f) {
+                      f.run.plan.strata.push_back({"closed-degenerate", 2, 0.99});
+                      f.tally.strata["closed-degenerate"] = test::good_tally(2);
+                    }});
+  // A campaign of fewer families cannot end in a certificate, but a run of it may hold.
+  const Change one_family = [](auto& f) {
+    f.run.plan.strata.resize(1);
+    f.tally.strata.erase("closed-generic");
+    f.tally.strata.erase("unclosed-generic");
+  };
+  expect(judged_after({one_family}), Gate::complete, "incomplete", 3);
+  EXPECT_EQ(judged_after({one_family}, asked_of_a_run()).verdict, "holds");
+  // Nothing is wanted where nothing was claimed of contacts, or the contract makes it void.
+  const Change claims_total = [](auto& f) { f.run.detector.configurations[0].claims = {"total"}; };
+  expect_certified({plug_in, claims_total, contacts(0, 0)});
+  const Change void_pairs = [](auto& f) {
+    f.run.detector.configurations[0].claims = {"all-pairs", "total"};
+    f.run.detector.contract.reports_pairs = false;
+  };
+  expect_certified({plug_in, void_pairs, contacts(0, 0)});
+  // A shard by itself may have too few.
+  EXPECT_EQ(judged_after({contacts(0, 0),
+                          [](auto& f) {
+                            for (auto& stratum : f.run.plan.strata) stratum.cases *= 2;
+                            f.alone = Shard{1, 2};
+                          }},
+                         asked_of_a_run())
+                .verdict,
+            "holds");
+}
+
+// The steps and the query of a library are judged apart from each other.
+TEST(Gates, ContactsOfQueriesDoNotStandForThoseOfSteps) {
+  const auto with_queries = [](auto& f) {
+    f.run.detector.built_in = false;
+    f.run.detector.query_claims = {"free-sound"};
+    for (const std::string family : {"query-ulp", "query-far", "query-generic"}) {
+      f.run.plan.strata.push_back({family, 2, 0.99});
+      f.tally.strata[family] = test::good_tally(2);
+    }
+  };
+  expect_certified({with_queries});
+  const auto none =
+      judged_after({with_queries, [](auto& f) {
+                      for (const char* family : {"broken", "closed-generic", "unclosed-generic"})
+                        f.tally.strata[family].measures.clear();
+                    }});
+  expect(none, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(none.of(Gate::complete).reasons.back(), "free-sound: no step had a contact");
+  const auto no_query =
+      judged_after({with_queries, [](auto& f) { f.tally.strata["query-ulp"].measures.clear(); }});
+  expect(no_query, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(no_query.of(Gate::complete).reasons.back(),
+            "2 of 3 families of queries have a contact inside the contract, 3 are wanted");
+}
+
 TEST(Gates, BoundsAndSpeed) {
   const Change undecided = [](auto& f) {
     f.tally.strata["broken"].by_configuration[0] = {19, 0, 1, 0};
@@ -230,7 +330,8 @@ TEST(Gates, BoundsAndSpeed) {
          Gate::bounds, "undecided", 3);
   // Wanted of all shards together.
   const auto alone = judged_after({[](auto& f) {
-                                    f.run.plan.strata[0] = {"broken", 40, 0.01};
+                                    for (auto& stratum : f.run.plan.strata) stratum.cases *= 2;
+                                    f.run.plan.strata[0].wanted_bound = 0.01;
                                     f.alone = Shard{1, 2};
                                   }},
                                   asked_of_a_run());

@@ -26,11 +26,24 @@ inline StoredFailure failure(const std::string& signature,
   return {id, "bvh", signature, "a & b < c", "{}", "", false};
 }
 
-// One stratum of 20 trials in one configuration, two planted faults, corpus, self-test and speed.
+// A tally of trials that hold in one configuration, each with a contact.
+inline StratumTally good_tally(std::uint64_t trials) {
+  StratumTally tally;
+  tally.trials = trials;
+  tally.by_configuration = {{trials, 0, 0, 0}};
+  tally.measures = {{"measure:steps", trials},
+                    {"measure:contact-steps", trials},
+                    {"measure:contact-trials", trials}};
+  return tally;
+}
+
+// Three strata of 20, 2 and 2 trials in one configuration, two planted faults, corpus, self-test
+// and speed.
 inline RunFindings good_findings() {
   RunFindings f;
   f.run.plan.name = "tiny";
-  f.run.plan.strata = {{"broken", 20, 0.5}};
+  f.run.plan.strata = {
+      {"broken", 20, 0.5}, {"closed-generic", 2, 0.99}, {"unclosed-generic", 2, 0.99}};
   f.run.plan.fault_cases = 100;
   f.run.plan.fault_seeds = 1;
   f.run.plan.law_premises = 4;
@@ -41,9 +54,8 @@ inline RunFindings good_findings() {
   f.run.planted_faults = 2;
   f.run.detector.configurations = {{"bvh", {"free-sound"}}};
   f.shards = {{1, 1}};
-  auto& broken = f.tally.strata["broken"];
-  broken.trials = 20;
-  broken.by_configuration = {{20, 0, 0, 0}};
+  for (const auto& stratum : f.run.plan.strata)
+    f.tally.strata[stratum.family] = good_tally(stratum.cases);
   LawTally law_tally;
   law_tally.premise = 8;
   law_tally.close = 2;

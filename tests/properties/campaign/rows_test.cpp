@@ -13,7 +13,7 @@
 namespace assay::properties {
 namespace {
 
-const std::string test_binding = R"({"schema": "assay-store/4", "shard": "1/1"})";
+const std::string test_binding = R"({"schema": "assay-store/5", "shard": "1/1"})";
 
 TEST(RowHash, TellsAllRowsApart) {
   const auto hash = [](const StoreTable& table, const Row& row) { return row_hash(table, row); };

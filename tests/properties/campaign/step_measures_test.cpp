@@ -12,7 +12,7 @@ namespace {
 void count_collision(double late, double early, detector::TimeEnclosure stated, Counts& counts) {
   StepDiff diff;
   diff.first_contact.emplace();
-  diff.first = FirstTimes{stated, {0.5, 0.5}, late, early};
+  diff.first = FirstTimes{stated, {0.5, 0.5}, {late, early}};
   detector::StepResult result;
   result.answer = detector::Answer::collision;
   result.first = stated;
@@ -42,10 +42,31 @@ TEST(StepMeasures, QuantilesOfWhatIsOff) {
   EXPECT_EQ(m.collisions, 100u);
   EXPECT_EQ(m.late_steps(), 60u);
   const auto off = times_late(m);
-  EXPECT_NEAR(off.median, 0.010, 1e-12);
-  EXPECT_NEAR(off.p99, 0.059, 1e-12);
+  // Of the 60 that are late; the 40 others are none of them.
+  EXPECT_NEAR(off.median, 0.030, 1e-12);
+  EXPECT_NEAR(off.p99, 0.060, 1e-12);
   EXPECT_NEAR(off.worst, 0.060, 1e-12);
   EXPECT_EQ(times_early(m).worst, 0);
+}
+
+// What claims not-late alone answers a step size, [size, 1]: that is early by what is left to t*.
+TEST(StepMeasures, AStepSizeIsEarly) {
+  const detector::Triangles triangles(0, 3);
+  oracle::StepJudgement truth;
+  truth.complete = true;
+  truth.answer = detector::Answer::collision;
+  truth.pairs = {{{0, 1}, {0.75, 0.75}, {}}};
+  detector::StepResult result;
+  result.answer = detector::Answer::collision;
+  result.first = {0.25, 1};
+  const auto diff = compare(result, truth, {.not_late = true}, {}, triangles);
+  EXPECT_EQ(diff.outcome, Outcome::holds);
+  Counts counts;
+  count_measures({&diff, 1}, {&result, 1}, {&truth, 1}, counts);
+  const auto m = measures_in(counts);
+  EXPECT_EQ(m.early_steps(), 1u);
+  EXPECT_EQ(times_early(m).median, 0.5);
+  EXPECT_EQ(m.late_steps(), 0u);
 }
 
 TEST(StepMeasures, AreRoundedUp) {

@@ -167,7 +167,7 @@ TEST_F(Stores, OfAnotherSchemaAreTold) {
   { open(R"({"schema": "assay-store/2"})"); }
   EXPECT_NE(problem_of_read(file, ProblemKind::other_schema).find("run it again"),
             std::string::npos);
-  problem_of_open(file, R"({"schema": "assay-store/4"})", ProblemKind::other_schema);
+  problem_of_open(file, R"({"schema": "assay-store/5"})", ProblemKind::other_schema);
 }
 
 TEST_F(Stores, DamageIsSeen) {
@@ -187,7 +187,7 @@ TEST_F(Stores, DamageIsSeen) {
 // What other rooms ask of a store comes back as a value, even in the middle of its rows.
 TEST_F(Stores, DamageThatIsMetLateIsAValueToo) {
   {
-    Store store = open(R"({"schema": "assay-store/4"})");
+    Store store = open(R"({"schema": "assay-store/5"})");
     for (std::uint64_t i = 0; i < 400; ++i) {
       store.add(record(i), {failure(record(i).id, "s")}, {{"one", "s"}});
     }

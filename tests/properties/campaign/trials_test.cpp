@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <sstream>
 
@@ -16,6 +17,7 @@
 #include "properties/judging/case_check.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/campaign/campaign_request.h"
+#include "tests/properties/small_case.h"
 #include "tests/reports/program.h"
 
 namespace assay::properties {
@@ -215,6 +217,44 @@ TEST_F(Trials, FailuresShrinkAndGoOnShrinking) {
     smaller |= static_cast<std::size_t>(small.triangles.rows()) < before;
   }
   EXPECT_TRUE(smaller);
+}
+
+// Who leaves neighbours out would not recognise a miss of strangers that had become one of
+// neighbours, nor one far into the step that had moved to its start.
+TEST_F(Trials, AFailureOfAPlugInKeepsWhatItsPairSharesAndWhen) {
+  auto request = request_of(60, 2);
+  request.plan.laws_every = 0;
+  request.plugin = test::plugin("always_free");
+  WorkerProcess worker(ASSAY_WORKER, request.plugin);
+  const auto told = worker.describe().value();
+  request.detector = {told.name, false, told.claims, told.contract, {{told.name, {}}}};
+  Store store = open("store");
+  ASSERT_TRUE(run_trials(request, store, in_a_minute(), {}).complete);
+  constexpr double hour = 3600;
+  constexpr std::uint64_t calls = 300;
+  shrink_failures(request, store, {hour, calls}, in_a_minute(), {});
+  const auto judge =
+      judge_of_detector(request.detector, request.detector.configurations[0], worker);
+  using Shown = std::pair<int, bool>;  // vertices shared, in the first thousandth of the step
+  const auto shown_by = [&](const std::string& text) {
+    const auto c = corpus::parse_case(text, "failure").value();
+    const auto finding = judge(c);
+    EXPECT_TRUE(finding && finding->focus.size() == 2);
+    if (!finding || finding->focus.size() != 2) return Shown{-1, false};
+    const detector::TrianglePair pair{finding->focus[0], finding->focus[1]};
+    const auto truth = judge_case(c, Contract{})[finding->step];
+    const auto contact = std::find_if(truth.pairs.begin(), truth.pairs.end(),
+                                      [&](const auto& met) { return met.pair == pair; });
+    return Shown{shared_vertices(c.triangles, pair), contact->time.hi <= 0x1p-10};
+  };
+  std::array<int, 3> kinds{};
+  for (const auto& failure : store.failures()) {
+    if (failure.smallest.empty()) continue;
+    const Shown whole = shown_by(failure.mesh);
+    EXPECT_EQ(shown_by(failure.smallest), whole) << failure.signature;
+    ++kinds[static_cast<std::size_t>(std::clamp(whole.first, 0, 2))];
+  }
+  for (const int kind : kinds) EXPECT_GT(kind, 0) << kinds[0] << ' ' << kinds[1] << ' ' << kinds[2];
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "properties/judging/case_check.h"
 #include "properties/queries/query_generators.h"
 #include "properties/worlds/small_steps.h"
+#include "tests/public_data.h"
 
 namespace assay::properties {
 namespace {
@@ -92,11 +93,9 @@ TEST(ArithmeticQueries, BoundedNeverMissesAndIsNeverLate) {
   EXPECT_GT(floats.alarms, doubles.alarms);
 }
 
-TEST(ArithmeticQueries, LabelledQueries) {
-  const char* folder = std::getenv("ASSAY_DATA");
-  if (!folder || !std::filesystem::is_directory(folder)) {
-    GTEST_SKIP() << "no public data: ASSAY_DATA is " << (folder ? folder : "not set");
-  }
+TEST(ArithmeticQueries, PublicLabelledQueries) {
+  const char* folder = tests::public_data();
+  if (!folder) GTEST_SKIP() << "no public data";
   QueryScore score;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(
            std::filesystem::path(folder) / "sample-queries")) {

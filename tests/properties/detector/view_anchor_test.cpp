@@ -11,6 +11,7 @@
 #include "detector/detector.h"
 #include "detector/geometry/winding.h"
 #include "detector/view/view_signs.h"
+#include "tests/public_data.h"
 
 namespace assay::properties {
 namespace {
@@ -116,11 +117,11 @@ TEST(ViewAnchor, L1_LineSettlesTubes) {
   }
 }
 
-TEST(ViewAnchor, Bunny) {
-  const char* data = std::getenv("ASSAY_DATA");
-  if (!data) GTEST_SKIP() << "ASSAY_DATA is not set";
+TEST(ViewAnchor, PublicBunny) {
+  const char* data = tests::public_data();
+  if (!data) GTEST_SKIP() << "no public data";
   auto bunny = corpus::read_mesh(std::string(data) + "/ipc-toolkit/bunny.ply");
-  if (!bunny) GTEST_SKIP() << "no bunny in ASSAY_DATA";
+  if (!bunny) GTEST_SKIP() << "no bunny in it";
   const auto& mesh = bunny.value();
   const Judged judged = judge(mesh.triangles, mesh.positions, "bunny");
   EXPECT_GE(judged.point.positive, 0.89);

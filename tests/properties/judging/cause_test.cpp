@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "oracle/mesh/step.h"
 
 namespace assay::properties {
@@ -52,6 +54,74 @@ TEST(Cause, SaysWhatIsSpecial) {
   EXPECT_EQ(at_edge.cause(), "t inside, moving, at the end of a feature");
 }
 
+TEST(Cause, NeighboursSayWhatTheyShare) {
+  Fall one;
+  one.triangles(1, 1) = 1;  // a vertex of the first triangle
+  one.x_t0.row(5) << 4, 1, 3;
+  one.x_t1.row(5) = one.x_t0.row(5);
+  EXPECT_EQ(one.cause(), "t inside, moving, generic, sharing a vertex");
+  Fall two;
+  two.triangles.row(1) << 3, 1, 2;
+  EXPECT_EQ(two.cause(), "t inside, moving, generic, sharing an edge");
+}
+
+// The threshold is 1e-5 of the extent, 4 here, by exact distances: 4e-5 is no double.
+TEST(Cause, AStartThatIsNearIsACauseOfItsOwn) {
+  const double threshold = 4e-5;
+  for (const double scale : {0x1p-1000, 1., 0x1p30}) {
+    Fall near, apart;
+    near.x_t0(3, 2) = std::nextafter(threshold, 0);
+    apart.x_t0(3, 2) = std::nextafter(threshold, 1);
+    // The fall goes on long enough that its time is not near 0.
+    near.x_t1(3, 2) = -near.x_t0(3, 2);
+    apart.x_t1(3, 2) = -apart.x_t0(3, 2);
+    for (Fall* fall : {&near, &apart}) {
+      fall->x_t0 *= scale;
+      fall->x_t1 *= scale;
+    }
+    EXPECT_NE(near.cause().find("moving, generic, near contact at the start"), std::string::npos);
+    EXPECT_EQ(apart.cause().find("near contact"), std::string::npos) << scale;
+  }
+  Fall huge;
+  huge.x_t0 *= 0x1p1020;
+  huge.x_t1 *= 0x1p1020;
+  EXPECT_EQ(huge.cause(), "t inside, moving, generic, huge numbers");
+  // Who starts in contact is not near it.
+  Fall at_0;
+  at_0.x_t0(3, 2) = 0;
+  EXPECT_EQ(at_0.cause(), "t at 0, moving, generic");
+}
+
+// A far vertex: 1e-5 of the mesh's extent is more than the two triangles are apart.
+TEST(Cause, TheExtentIsThatOfTheWholeMesh) {
+  Fall fall;
+  fall.x_t0.conservativeResize(7, 3);
+  fall.x_t0.row(6) << 0, 0, 3e5;
+  fall.x_t1.conservativeResize(7, 3);
+  fall.x_t1.row(6) = fall.x_t0.row(6);
+  EXPECT_EQ(fall.cause(), "t inside, moving, generic, near contact at the start");
+}
+
+TEST(Cause, OfAQueryItsFeaturesAloneAreNear) {
+  Fall fall;  // the second triangle rests in the first one, but the vertex asked is above it
+  const detector::PairContact contact{
+      {0, 1}, {0.5, 0.5}, {detector::FeatureKind::vertex_face, {3, 0, 1, 2, -1}}};
+  fall.x_t0(4, 2) = fall.x_t1(4, 2) = 0;
+  EXPECT_EQ(text_of(cause_of_query(fall.triangles, {fall.x_t0, fall.x_t1}, contact)),
+            "t inside, moving, generic");
+  EXPECT_EQ(text_of(cause_of(fall.triangles, {fall.x_t0, fall.x_t1}, contact)),
+            "t inside, moving, generic, near contact at the start");
+  fall.x_t0(3, 2) = 1e-6;
+  EXPECT_EQ(text_of(cause_of_query(fall.triangles, {fall.x_t0, fall.x_t1}, contact)),
+            "t inside, moving, generic, near contact at the start");
+}
+
+TEST(Cause, AContactSoonAfterTheStartIsOneOfItsOwn) {
+  Fall soon;
+  soon.x_t1(3, 2) = -2000;
+  EXPECT_EQ(soon.cause(), "t near 0, moving, generic");
+}
+
 TEST(Cause, OfAPairThatDoesNotMeet) {
   const Fall fall;
   EXPECT_EQ(text_of(cause_of(fall.triangles, {fall.x_t0, fall.x_t1}, detector::TrianglePair{0, 1})),
@@ -65,6 +135,11 @@ TEST(Cause, TheMostOrdinaryIsTheLeastOdd) {
       "free-sound: answered free, vertex-face, t inside, moving, coplanar throughout",
       "free-sound: answered free, vertex-face, t inside, moving, without area",
       "free-sound: answered free, vertex-face, t at 0, at rest, generic",
+      "free-sound: answered free, vertex-face, t inside, moving, generic, sharing a vertex",
+      "free-sound: answered free, vertex-face, t inside, moving, generic, sharing an edge",
+      "free-sound: answered free, vertex-face, t at 0, moving, generic, sharing an edge",
+      "free-sound: answered free, vertex-face, t inside, moving, generic, near contact at the "
+      "start",
       "free-sound: answered free, vertex-face, t inside, moving, generic, tiny numbers",
       "free-sound: answered free, vertex-face, t inside, moving, generic, huge numbers",
   };

@@ -118,6 +118,24 @@ TEST(Claims, ATimeIsAnIntervalThatMustHoldTheOracles) {
   EXPECT_EQ(judged(late, step, {.not_late = true}).broken, List{Claim::not_late});
 }
 
+// One meaning for all counts: by the lower end, by more than the tolerance.
+TEST(Claims, ATimeIsLateOrEarlyByItsLowerEnd) {
+  const auto off_by = [](double lo, double hi, double tolerance) {
+    const auto off = judged(collision({lo, hi}, {pair_at(3, 4, 0, 1)}), truth({pair_at(3, 4, .5)}),
+                            {.first_time = true}, {.time_tolerance = tolerance})
+                         .first->off;
+    return std::pair(off.late, off.early);
+  };
+  using Off = std::pair<double, double>;
+  EXPECT_EQ(off_by(.5, .5, 0), (Off{0, 0}));
+  EXPECT_EQ(off_by(.5, 1, 0), (Off{0, 0}));
+  EXPECT_EQ(off_by(.25, 1, 0), (Off{0, .25})) << "a step size states a time";
+  EXPECT_EQ(off_by(.25, .375, 0), (Off{0, .25}));
+  EXPECT_EQ(off_by(.75, 1, 0), (Off{.25, 0}));
+  EXPECT_EQ(off_by(.5 + 1e-4, .75, 1e-3), (Off{0, 0})) << "tolerated";
+  EXPECT_EQ(off_by(.5 - 1e-4, .75, 1e-3), (Off{0, 0}));
+}
+
 TEST(Claims, APairWithoutATimeIsJudgedByTheFirstTimeOnly) {
   const auto step = truth({pair_at(0, 3, .75), pair_at(3, 4, .5)});
   const auto without =

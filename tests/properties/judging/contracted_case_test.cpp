@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "properties/campaign/trials/planned_case.h"
+#include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
 namespace {
@@ -53,17 +54,70 @@ TEST(ContractedCase, LeavesOutStepsThatStartTooNear) {
 TEST(ContractedCase, IsNoneBeyondTheRange) {
   const Contract range = {.least_nonzero = 0.5, .largest = 4};
   EXPECT_TRUE(contracted(at_heights({0.5, 0}), range));
-  EXPECT_FALSE(contracted(at_heights({0.25, 0}), range));
   EXPECT_FALSE(contracted(at_heights({1, -5}), range));
+  EXPECT_EQ(why_left_out(at_heights({1, -5}), range),
+            "frame 2 of 2: vertex 3 has the coordinate -5, above largest, 4");
+  EXPECT_EQ(why_left_out(at_heights({1, 0}), range), "");
+}
+
+// Real meshes have vertices next to a plane of the axes: what a threshold goes by is lengths.
+TEST(ContractedCase, ASmallCoordinateIsNoShortEdge) {
+  const Contract range = {.least_nonzero = 0.5, .largest = 8};
+  EXPECT_TRUE(contracted(at_heights({0.25, 5e-324}), range));
+  auto c = at_heights({1, 2});
+  c.frames[1].row(4) << 1.25, 1, 2.25;
+  EXPECT_FALSE(contracted(c, range));
+  EXPECT_EQ(why_left_out(c, range),
+            "frame 2 of 2: edge 3-4 is 0.25 long, below least_nonzero, 0.5");
+  c.frames[1].row(4) = c.frames[1].row(3);  // without a length
+  EXPECT_TRUE(contracted(c, range));
+}
+
+TEST(ContractedCase, OfAQueryTheEdgesOfItsFeaturesCount) {
+  const Contract range = {.least_nonzero = 0.5, .largest = 8};
+  detector::FourPoints q;
+  q.first_group = 1;
+  const auto rest = [](double x, double y) { return detector::MovingPoint{{x, y, 0}, {x, y, 0}}; };
+  q.points = {rest(0.1, 0), rest(0, 0), rest(1, 0), rest(0, 1)};
+  EXPECT_TRUE(contracted(case_of_query(q, "near a corner"), range));
+  q.points[3] = rest(0, 0.25);
+  EXPECT_EQ(why_left_out(case_of_query(q, "short"), range),
+            "frame 1 of 2: edge 3-1 is 0.25 long, below least_nonzero, 0.5");
+  const Contract edges = {.features = TestedFeatures::edge_edge};
+  EXPECT_EQ(why_left_out(case_of_query(q, "other"), edges),
+            "features edge-edge: the query is one of vertex-face");
+}
+
+TEST(ContractedCase, WhyNoStepIsLeftNamesThePair) {
+  EXPECT_EQ(why_left_out(at_heights({0, 1}), free_start),
+            "start free: triangles 0 and 1 are in contact where step 1 starts");
+  const Contract apart = {.start = StartRule::apart, .start_distance = 1.5};
+  EXPECT_EQ(
+      why_left_out(at_heights({1.25, 1, 2}), apart),
+      "start apart: triangles 0 and 1 are nearer than 1.5 where step 1 starts, and every other "
+      "step starts so");
+  EXPECT_EQ(why_left_out(at_heights({1, 2}), {.coordinates = Coordinates::float32}), "");
+  auto large = at_heights({1, 2});
+  large.frames[0](0, 0) = 1e300;
+  EXPECT_EQ(why_left_out(large, {.coordinates = Coordinates::float32}),
+            "frame 1 of 2: a coordinate has no float32");
 }
 
 TEST(ContractedCase, IsBroughtIntoTheRange) {
   const Contract range = {.least_nonzero = 1e-3, .largest = 2};
-  const auto c = brought_into_range(at_heights({1024, 1e-3}), range);
+  const auto c = brought_into_contract(at_heights({1024, 1e-3}), range);
   EXPECT_EQ(c.frames[0](3, 2), 2);
   EXPECT_EQ(c.frames[0](1, 0), 4. / 512);
-  EXPECT_EQ(c.frames[1](3, 2), 0);  // too small now
+  EXPECT_EQ(c.frames[1](3, 2), 1e-3 / 512);
   EXPECT_TRUE(contracted(c, range));
+  // Short edges are enlarged, as far as the largest coordinate may grow.
+  auto small = at_heights({1e-6, 2e-6});
+  for (auto& frame : small.frames) frame *= 0x1p-20;
+  const auto enlarged = brought_into_contract(small, range);
+  EXPECT_EQ(enlarged.frames[0](1, 0), 4 * 0x1p-9);
+  EXPECT_TRUE(contracted(enlarged, range));
+  small.frames[0](5, 0) = 1;
+  EXPECT_EQ(brought_into_contract(small, range).frames[0](5, 0), 2);
 }
 
 TEST(ContractedCase, OfEveryFamilyThereIsOneWithinEveryContract) {

@@ -1,16 +1,21 @@
 // A plug-in that answers nothing and tries everything: no reply of its is a run that holds, and
 // what is not its own stays as it is.
+#include <grp.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
 
+#include "properties/worker/isolation/scratch_folder.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/worker/worker_cases.h"
 
@@ -57,11 +62,12 @@ class Hostile : public testing::Test {
 
   std::string victim() const { return (folder_ / "victim").string(); }
 
-  CaseRun run(const std::string& mode, IsolationMode isolation = IsolationMode::best) {
+  const std::filesystem::path& folder() const { return folder_; }
+
+  static constexpr std::uint64_t two_gigabytes = std::uint64_t{1} << 31;
+  CaseRun run(const std::string& mode, const WorkerLimits& limits = {.2, two_gigabytes}) {
     setenv("ASSAY_HOSTILE", mode.c_str(), 1);
-    constexpr double seconds = .2;
-    constexpr std::uint64_t bytes = std::uint64_t{1} << 31;
-    WorkerProcess worker(ASSAY_WORKER, plugin("hostile"), {seconds, bytes, isolation});
+    WorkerProcess worker(ASSAY_WORKER, plugin("hostile"), limits);
     return worker.run(small_case(31, 0), plugin_alone)[0];
   }
 
@@ -159,6 +165,10 @@ TEST_F(Hostile, ForgedDescriptionsAreNamed) {
            {"forge-refusal", "a refusal that is no line"},
            {"forge-long-refusal", "a refusal that is no line"},
            {"forge-refusal-kind", "a refusal that loading a plug-in does not end with"},
+           {"forge-built-in", "the name of the built-in detector"},
+           {"forge-turned-name", "a name or version with characters that nobody sees"},
+           {"forge-space", "a name or version that begins or ends with a space"},
+           {"forge-long-name", "a name or version of 101 characters, and 100 are the most"},
            {"forge-margin", "its margin is no length"},
            {"forge-length", "no description"}}) {
     setenv("ASSAY_HOSTILE", mode.c_str(), 1);
@@ -245,6 +255,121 @@ TEST_F(Hostile, ItIsNotLoadedAgainWithLessIsolation) {
       << described.error().message;
   const auto run = worker.run(small_case(31, 0), plugin_alone)[0];
   EXPECT_EQ(run.end, RunEnd::not_run) << run.explanation;
+}
+
+// All that a stranger sees of a file but what it holds.
+std::string looks_of(const std::string& path) {
+  struct stat seen = {};
+  stat(path.c_str(), &seen);
+  std::string looks;
+  for (const auto number : {static_cast<long>(seen.st_mode), static_cast<long>(seen.st_uid),
+                            static_cast<long>(seen.st_gid), static_cast<long>(seen.st_mtime)})
+    looks += std::to_string(number) + " ";
+  std::array<char, 256> names;
+  const auto size = listxattr(path.c_str(), names.data(), names.size());
+  return looks.append(names.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+}
+
+TEST_F(Hostile, NoCallChangesTheHost) {
+  setxattr(victim().c_str(), "user.kept", "x", 1, 0);
+  const auto file = looks_of(victim()), folder = looks_of(this->folder());
+  const auto run = this->run("change-host");
+  EXPECT_EQ(run.explanation, "exited with code 3") << "what was done:\n" << run.printed;
+  EXPECT_EQ(looks_of(victim()), file);
+  EXPECT_EQ(looks_of(this->folder()), folder);
+  expect_all_is_well("change-host");
+  // The library of filters kills what comes in by another door of the processor.
+  EXPECT_EQ(this->run("foreign-call").explanation, "killed by signal 31 (Bad system call)");
+#if defined(__x86_64__)
+  const auto older = this->run("older-call").explanation;
+  EXPECT_TRUE(older == "killed by signal 31 (Bad system call)" ||
+              older == "killed by signal 11 (Segmentation fault)")  // the kernel has no such door
+      << older;
+#endif
+  EXPECT_EQ(looks_of(victim()), file);
+}
+
+// The same for a user who is not root. Where this is run by root, as another user.
+TEST_F(Hostile, NoCallChangesTheHostOfAnOrdinaryUser) {
+  if (geteuid() != 0) GTEST_SKIP() << "this user is an ordinary one, whom the test before is of";
+  constexpr uid_t nobody = 65534;
+  constexpr int cannot = 77;
+  ASSERT_EQ(chown(victim().c_str(), nobody, nobody), 0);
+  ASSERT_EQ(chown(folder().c_str(), nobody, nobody), 0);
+  const auto file = looks_of(victim());
+  const pid_t child = fork();
+  if (child == 0) {
+    if (setgroups(0, nullptr) != 0 || setresgid(nobody, nobody, nobody) != 0 ||
+        setresuid(nobody, nobody, nobody) != 0 || access(ASSAY_WORKER, X_OK) != 0)
+      _exit(cannot);
+    const auto run = this->run("change-host");
+    std::printf("%s\n%s\n", run.explanation.c_str(), run.printed.c_str());
+    std::fflush(stdout);
+    _exit(run.explanation == "exited with code 3" ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  if (WEXITSTATUS(status) == cannot) GTEST_SKIP() << "another user cannot run the worker";
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(looks_of(victim()), file);
+  expect_all_is_well("change-host");
+}
+
+// One that was killed leaves its folder, which the next process clears. One that lives keeps it.
+TEST_F(Hostile, FoldersOfKilledRunsAreCleared) {
+  const auto before = std::getenv("TMPDIR") ? std::string(std::getenv("TMPDIR")) : "/tmp";
+  setenv("TMPDIR", folder().c_str(), 1);
+  const auto folders = [&] {
+    return std::distance(std::filesystem::directory_iterator(folder()), {}) - 1;  // the victim
+  };
+  const auto start = [] {
+    const pid_t id = fork();
+    if (id != 0) return id;
+    WorkerProcess worker(ASSAY_WORKER, plugin("hostile"));
+    if (!worker.describe()) _exit(1);
+    for (;;) pause();
+  };
+  const auto wait_for = [&](long count) {
+    for (int i = 0; i < 6000 && folders() != count; ++i) usleep(10'000);
+    EXPECT_EQ(folders(), count);
+  };
+  unsetenv("ASSAY_HOSTILE");
+  std::vector<pid_t> started;
+  constexpr long folders_of_one = 2;  // the copy of the library, and what TMPDIR names
+  for (const long count : {1, 2}) {
+    started.push_back(start());
+    wait_for(count * folders_of_one);
+  }
+  for (const pid_t id : started) {
+    kill(id, SIGKILL);
+    waitpid(id, nullptr, 0);
+  }
+  EXPECT_EQ(folders(), 2 * folders_of_one);
+  EXPECT_TRUE(ScratchFolder::make());
+  EXPECT_EQ(folders(), 0);
+  setenv("TMPDIR", before.c_str(), 1);
+}
+
+TEST_F(Hostile, WhatItWritesCountsAsMemory) {
+  constexpr std::uint64_t bytes = std::uint64_t{1} << 29;
+  for (const char* mode : {"fill-scratch", "fill-shared-memory"})
+    EXPECT_EQ(this->run(mode, {10, bytes}).explanation, "exited with code 3") << mode;
+}
+
+TEST_F(Hostile, ItReadsNothingInTheFolderOfItsRun) {
+  EXPECT_EQ(run("read").explanation, "killed by signal 10 (User defined signal 1)");
+  WorkerLimits limits{.seconds = 10};
+  limits.unread = folder();
+  EXPECT_EQ(run("read", limits).explanation, "exited with code 3");
+}
+
+// Both are asleep, so they end after 10 times the limit, and not after 100 times.
+TEST_F(Hostile, WhatStopsItselfOrWaitsForAChildSleeps) {
+  for (const char* mode : {"stop-itself", "wait-for-a-child"}) {
+    const auto run = this->run(mode, {.seconds = .05});
+    EXPECT_EQ(run.end, RunEnd::hung) << mode;
+    EXPECT_EQ(run.explanation, "no answer in 0.05 s of processor time: asleep for 0.5 s") << mode;
+  }
 }
 
 TEST_F(Hostile, NothingThatItStartedOutlivesIt) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 
 namespace assay::properties {
 namespace {
@@ -56,10 +57,15 @@ TEST(PluginResult, BrokenRulesAreNamed) {
   };
   assay_result raw = collision();
   raw.first_hi = 2;
-  expect_broken(raw, "its first time is no interval in [0, 1]");
+  expect_broken(raw, "its first time, [0.5, 2], is no interval in [0, 1]");
   raw = collision();
   raw.pair_count = 1;
   expect_broken(raw, "pairs are counted but not given");
+  const std::array<std::int32_t, 2> pair = {0, 1};
+  const std::array<double, 2> no_time = {std::numeric_limits<double>::quiet_NaN(), 1};
+  raw.pairs = pair.data();
+  raw.pair_times = no_time.data();
+  expect_broken(raw, "the time of pair 0, [nan, 1], is no interval in [0, 1]");
   const std::array<std::int32_t, 2> outside = {0, triangle_count};
   raw.pairs = outside.data();
   expect_broken(raw, "pair 0 names no two triangles");

@@ -227,7 +227,7 @@ TEST(Plugins, WhatIsNoPlugInIsRefusedInOneLine) {
 TEST(Plugins, WhatBreaksTheRulesOfTheHeaderIsAnError) {
   const std::map<std::string, std::string> wrong = {
       {"no_such_triangle", "step 1: pair 0 names no two triangles"},
-      {"no_interval", "step 1: its first time is no interval in [0, 1]"},
+      {"no_interval", "step 1: its first time, [1, 0], is no interval in [0, 1]"},
       {"fail", "step 1: evaluate returned 3"}};
   const auto c = small_case(41, 0);
   for (const auto& [name, why] : wrong) {

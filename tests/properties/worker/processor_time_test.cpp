@@ -141,7 +141,7 @@ bool comes_true(const std::function<bool()>& holds) {
   return true;
 }
 
-TEST(ProcessTree, TellsSleepFromWorkAndFromBeingStopped) {
+TEST(ProcessTree, TellsSleepFromWork) {
   Worker worker([] {
     // A thread that works beside one that sleeps.
     std::thread([] { burn(burnt_seconds); }).detach();
@@ -150,8 +150,14 @@ TEST(ProcessTree, TellsSleepFromWorkAndFromBeingStopped) {
   worker.go();
   worker.wait_until_done();
   EXPECT_TRUE(comes_true([&] { return look_at(worker.id()).is_asleep; }));
+}
+
+TEST(ProcessTree, WhatIsStoppedSleepsEvenIfItHadWorkToDo) {
+  Worker worker([] { std::thread([] { burn(60); }).detach(); });
+  worker.go();
+  worker.wait_until_done();
   kill(worker.id(), SIGSTOP);
-  EXPECT_TRUE(comes_true([&] { return !look_at(worker.id()).is_asleep; }));
+  EXPECT_TRUE(comes_true([&] { return look_at(worker.id()).is_asleep; }));
 }
 
 TEST(ProcessTree, AThreadThatWorksIsNotAsleep) {

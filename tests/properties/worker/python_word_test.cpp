@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "corpus/digest.h"
-#include "properties/campaign/plugin_digest.h"
+#include "properties/worker/plugin/judged_library.h"
 
 namespace assay::properties {
 namespace {
@@ -68,30 +68,41 @@ TEST_F(PythonWords, AreServedByThePackageBesideTheWorker) {
 }
 
 TEST_F(PythonWords, AreOfAFile) {
-  EXPECT_FALSE(python_module_file("python:mine:B"));
+  EXPECT_FALSE(python_module_files("python:mine:B"));
   write("more/mine/__init__.py", "");
-  ASSERT_TRUE(python_module_file("python:mine:B"));
-  EXPECT_EQ(python_module_file("python:mine:B").value(), folder_ / "more/mine/__init__.py");
+  ASSERT_TRUE(python_module_files("python:mine:B"));
+  EXPECT_EQ(python_module_files("python:mine:B").value().front(),
+            folder_ / "more/mine/__init__.py");
   write("more/mine/inner.py", "");
-  EXPECT_EQ(python_module_file("python:mine.inner:B").value(), folder_ / "more/mine/inner.py");
-  EXPECT_FALSE(python_module_file("python:mine.other:B"));
+  EXPECT_EQ(python_module_files("python:mine.inner:B").value().front(),
+            folder_ / "more/mine/inner.py");
+  EXPECT_FALSE(python_module_files("python:mine.other:B"));
+  // What a package is around, and what is imported by name from beside it.
+  write("more/mine/inner.py", "import numpy\n  from .beside import a, b\nimport far as near\n");
+  write("more/mine/beside.py", "");
+  write("more/far.py", "");
+  EXPECT_EQ(
+      python_module_files("python:mine.inner:B").value(),
+      (std::vector<fs::path>{folder_ / "more/mine/inner.py", folder_ / "more/mine/__init__.py",
+                             folder_ / "more/mine/beside.py", folder_ / "more/far.py"}));
 }
 
 TEST_F(PythonWords, AreToldApartByThatFileAndWhatServesThem) {
-  EXPECT_FALSE(digest_of_plugin("python:mine:B", worker()));
+  EXPECT_FALSE(JudgedLibrary::of("python:mine:B", worker())->digest());
   write("bin/python/assay/python_detector.so", "library");
-  EXPECT_FALSE(digest_of_plugin("python:mine:B", worker()));
+  EXPECT_FALSE(JudgedLibrary::of("python:mine:B", worker())->digest());
   write("more/mine.py", "one");
-  const auto one = digest_of_plugin("python:mine:B", worker()).value();
-  EXPECT_EQ(one, digest_of_plugin("python:mine:B", worker()).value());
+  const auto one = JudgedLibrary::of("python:mine:B", worker())->digest().value();
+  EXPECT_EQ(one, JudgedLibrary::of("python:mine:B", worker())->digest().value());
   write("more/mine.py", "two");
-  const auto two = digest_of_plugin("python:mine:B", worker()).value();
+  const auto two = JudgedLibrary::of("python:mine:B", worker())->digest().value();
   EXPECT_NE(one, two);
   write("bin/python/assay/python_detector.so", "another library");
-  EXPECT_NE(two, digest_of_plugin("python:mine:B", worker()).value());
+  EXPECT_NE(two, JudgedLibrary::of("python:mine:B", worker())->digest().value());
 
   const auto library = folder_ / "bin/python/assay/python_detector.so";
-  EXPECT_EQ(digest_of_plugin(library, worker()).value(), corpus::sha256_of("another library"));
+  EXPECT_EQ(JudgedLibrary::of(library, worker())->digest().value(),
+            corpus::sha256_of("another library"));
 }
 
 }  // namespace

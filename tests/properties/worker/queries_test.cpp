@@ -35,7 +35,7 @@ FoundInQueries queries_with(const std::string& words, std::uint64_t queries_a_fa
   }
   DetectorUnderTest detector;
   detector.built_in = false;
-  detector.claims = claims_on_queries(description.value());
+  detector.claims = detector.query_claims = claims_on_queries(description.value());
   detector.contract = description.value().contract;
   detector.configurations = {{"plug-in", {}}};
   std::vector<corpus::Case> cases;

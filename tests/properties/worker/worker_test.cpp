@@ -91,7 +91,7 @@ TEST(Worker, ExpectedFactsStayWithTheHost) {
   ASSERT_TRUE(decode(encode(std::uint64_t{7}, c, four), arrived));
   EXPECT_EQ(arrived.c.frames, c.frames);
   EXPECT_EQ(arrived.c.triangles, c.triangles);
-  EXPECT_EQ(arrived.c.expected.answer, Answer::free);
+  EXPECT_EQ(arrived.c.expected.answer, std::nullopt);
   EXPECT_TRUE(arrived.c.expected.steps.empty());
 }
 

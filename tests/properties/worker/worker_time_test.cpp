@@ -2,11 +2,16 @@
 // what uses none. No test here asks that something be over soon.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/ptrace.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "properties/worker/worker_process.h"
@@ -109,21 +114,64 @@ TEST(WorkerTime, WhatSleepsIsCaughtByTheWallClock) {
   EXPECT_LT(run.processor_seconds, limit);
 }
 
-TEST(WorkerTime, WhatIsStoppedIsNotAsleepAndSendingEndsToo) {
+// A process that holds another one as a debugger does, until the end of its life.
+class Debugger {
+ public:
+  explicit Debugger(pid_t held) {
+    std::array<int, 2> ends;
+    if (pipe(ends.data()) != 0) return;
+    id_ = fork();
+    if (id_ == 0) {
+      const bool holds = ptrace(PTRACE_SEIZE, held, nullptr, nullptr) == 0 &&
+                         ptrace(PTRACE_INTERRUPT, held, nullptr, nullptr) == 0 &&
+                         waitpid(held, nullptr, __WALL) == held;
+      if (write(ends[1], holds ? "y" : "n", 1) != 1) _exit(1);
+      waitpid(held, nullptr, __WALL);  // its end is told to the debugger first
+      for (;;) pause();
+    }
+    char answer = 'n';
+    holds_ = read(ends[0], &answer, 1) == 1 && answer == 'y';
+    close(ends[0]);
+    close(ends[1]);
+  }
+  ~Debugger() {
+    kill(id_, SIGKILL);
+    waitpid(id_, nullptr, 0);
+  }
+  bool holds() const { return holds_; }
+
+ private:
+  pid_t id_ = -1;
+  bool holds_ = false;
+};
+
+// One that was stopped sleeps. One that a debugger holds does not, and so has longer.
+TEST(WorkerTime, WhatIsStoppedSleepsAndWhatIsDebuggedDoesNotAndSendingEndsToo) {
   // A request that no socket takes at once, to a worker that does not read.
   corpus::Case c = small_case(31, 0);
   c.triangles.resize(1'000'000, 3);
   c.triangles.setZero();
   constexpr double limit = .05;
-  WorkerProcess worker(ASSAY_WORKER, std::nullopt, {.seconds = limit});
-  ASSERT_TRUE(worker.describe());
-  kill(children().at(0), SIGSTOP);
-  const auto begin = Clock::now();
-  const auto run = worker.run(c, plugin_alone)[0];
-  EXPECT_EQ(run.end, RunEnd::hung);
-  EXPECT_EQ(run.explanation, "no answer in 0.05 s of processor time, nor in 5 s");
-  EXPECT_GE(seconds_since(begin), 100 * limit);
-  EXPECT_EQ(run.disturbances, 0u);
+  for (const bool is_debugged : {false, true}) {
+    WorkerProcess worker(ASSAY_WORKER, std::nullopt, {.seconds = limit});
+    ASSERT_TRUE(worker.describe());
+    const pid_t child = children().at(0);
+    std::optional<Debugger> debugger;
+    if (is_debugged) {
+      debugger.emplace(child);
+      if (!debugger->holds()) GTEST_SKIP() << "this user may not debug";
+    } else {
+      kill(child, SIGSTOP);
+    }
+    const auto begin = Clock::now();
+    const auto run = worker.run(c, plugin_alone)[0];
+    EXPECT_EQ(run.end, RunEnd::hung);
+    EXPECT_EQ(run.explanation, is_debugged
+                                   ? "no answer in 0.05 s of processor time, nor in 5 s"
+                                   : "no answer in 0.05 s of processor time: asleep for 0.5 s");
+    EXPECT_GE(seconds_since(begin), (is_debugged ? 100 : 10) * limit);
+    EXPECT_EQ(run.disturbances, 0u);
+  }
 }
 
 TEST(WorkerTime, LoadingIsLimitedToo) {

@@ -85,6 +85,26 @@ TEST_F(HostilePlugin, ARunThatGoesOnSaysWhatHeldForAllOfIt) {
   EXPECT_TRUE(contains(summary, "isolation none;")) << summary;
 }
 
+TEST_F(HostilePlugin, ARunThatBeganIsolatedDoesNotGoOnWithLess) {
+  for (const std::string verb : {"run", "certify"}) {
+    const std::string command = verb + " --campaign " + plan + " --detector " +
+                                plugin("wrapped_builtin") + " --out " + scratch / "less";
+    ASSERT_LE(run_assay("run" + command.substr(verb.size())).exit_code, 1);
+    const auto ended = run_assay(command + " --isolation none");
+    EXPECT_EQ(ended.exit_code, 2) << verb;
+    EXPECT_TRUE(contains(ended.err, "began with isolation full, and would go on with none"))
+        << ended.err;
+  }
+}
+
+// Where the library, or the current folder, lies in the folder of the run, it could not be read.
+TEST_F(HostilePlugin, TheFolderOfARunHoldsNoDetector) {
+  const auto ended =
+      run_assay("run --campaign " + plan + " --detector " + plugin("wrapped_builtin") + " --out " +
+                std::filesystem::path(plugin("wrapped_builtin")).parent_path().string());
+  expect_refused(ended, "name a folder of the run's own");
+}
+
 // No limit of the user's makes a run hold, and none crashes it or makes it doubt itself.
 TEST_F(HostilePlugin, LimitsOfTheUserAreNoExcuse) {
   std::set<int> codes;

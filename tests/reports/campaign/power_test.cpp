@@ -25,11 +25,12 @@ TEST_F(Power, OfAnotherRunIsCopiedToldAndJudged) {
       << made.out;
   const auto proved = rows_of(proof_folder() + "/shard-1-of-1.sqlite", "fault");
   EXPECT_TRUE(
-      contains(made.out, " planted faults found, by campaign proof, seed 7, of this build\n"))
+      contains(made.out, " by their curated case alone; campaign proof, seed 7, of this build\n"))
       << made.out;
-  EXPECT_TRUE(contains(read_text(out + "/summary.md"),
-                       " planted faults found. Their proof is taken from campaign proof, seed 7, "
-                       "of the same build.\n"));
+  EXPECT_TRUE(
+      contains(read_text(out + "/summary.md"),
+               " by their curated case alone. Their proof is taken from campaign proof, seed 7, "
+               "of the same build.\n"));
 
   // Nothing was planted here: all rows are those of the proof.
   const auto taken = rows_of(store, "fault");
@@ -74,7 +75,7 @@ TEST_F(Power, ACertificateNamesItAndIsVerified) {
   EXPECT_EQ(Json::parse(read_text(certificate))["predicate"]["verdict"], "incomplete");
   const auto before = trials_of(out);
   EXPECT_GT(before.size(), 0u);
-  EXPECT_LT(before.size(), 2400u);
+  EXPECT_LT(before.size(), 3600u);
 
   const auto made = certify("");
   ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
@@ -82,7 +83,7 @@ TEST_F(Power, ACertificateNamesItAndIsVerified) {
       << made.out;
   EXPECT_TRUE(contains(made.out, "; until done\n")) << made.out;
   const auto after = trials_of(out);
-  EXPECT_EQ(after.size(), 2400u);
+  EXPECT_EQ(after.size(), 3600u);
   EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
   const auto verified = run_assay("verify " + certificate);
   EXPECT_EQ(verified.exit_code, 0) << verified.out;
@@ -125,7 +126,11 @@ TEST_F(Power, IsRefusedInOneLine) {
           "gave each fault 20 cases of 1 seeds, campaign more asks for 21 of 1");
   refused(scratch.write("seeds.json", faults_text("seeds", 20, 2)), proof_folder(),
           "campaign seeds asks for 20 of 2");
-  refused(none, proof_folder(), "campaign tiny plants no faults");
+  // Where nothing is planted, no proof is wanted.
+  const auto ignored = run_assay("run --campaign " + none + " --out " + (scratch / "ignored") +
+                                 " --power " + proof_folder());
+  EXPECT_EQ(ignored.exit_code, 0) << ignored.err;
+  EXPECT_TRUE(contains(ignored.out, "campaign tiny plants no faults: --power is not needed"));
 
   // A proof of a proof.
   ASSERT_EQ(run(scratch / "second", with_proof).exit_code, 0);

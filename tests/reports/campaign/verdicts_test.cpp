@@ -40,7 +40,9 @@ class GeneratedFolder {
     request_.plan.policy.self_test_queries = 10;
     request_.plan.policy.speed_limits = {{"exact-over-double", 1.3}};
     // A bound that two trials, half a defect aside, meet; and one that they do not.
-    request_.plan.strata = {{"broken", 2, fails(states, Gate::bounds) ? 0.001 : 0.9999}};
+    request_.plan.strata = {{"broken", 2, fails(states, Gate::bounds) ? 0.001 : 0.9999},
+                            {"closed-generic", 1, 0},
+                            {"unclosed-generic", 1, 0}};
     request_.detector.name = "d";
     request_.detector.built_in = true;
     request_.detector.configurations = {{"bvh", {detector::Culling::bvh}}};
@@ -71,14 +73,17 @@ class GeneratedFolder {
   // A trial less is incomplete; a world with a counterexample breaks a claim.
   void store_trials(const States& states) {
     auto store = open(store_file(folder_, {}), binding());
-    const int trials = fails(states, Gate::complete) ? 1 : 2;
-    for (int i = 0; i < trials; ++i) {
-      TrialRecord record;
-      record.family = "broken";
-      record.index = static_cast<std::uint64_t>(i);
-      record.id = trial_id(request_.plan, request_.seed, record.family, record.index);
-      record.outcomes = "H";
-      store.add(record);
+    const std::uint64_t trials = fails(states, Gate::complete) ? 1 : 2;
+    for (const auto& stratum : request_.plan.strata) {
+      for (std::uint64_t i = 0; i < std::min(stratum.cases, trials); ++i) {
+        TrialRecord record;
+        record.family = stratum.family;
+        record.index = i;
+        record.id = trial_id(request_.plan, request_.seed, record.family, record.index);
+        record.outcomes = "H";
+        count_trial(true, false, record.counts);
+        store.add(record);
+      }
     }
     store.set(to_row(Canary{"c", "1/1", 3}));
     for (const auto& fault : faults()) {

@@ -22,7 +22,8 @@ class CiJob : public testing::Test {
     fs::copy_file(curated("D6_fast_passage"), scratch / "mine/cases/fast.json");
     scratch.write("few.json",
                   R"({"schema": "assay-campaign/1", "name": "few", "seconds": null, "strata": [)"
-                  R"({"family": "closed-generic", "cases": 6}, {"family": "broken", "cases": 6}],)"
+                  R"({"family": "closed-generic", "cases": 6}, {"family": "broken", "cases": 6}, )"
+                  R"({"family": "unclosed-generic", "cases": 6}],)"
                   R"("fault_cases": 20, "fault_seeds": 1, "policy": {"self_test_queries": 20}})");
   }
 
@@ -62,7 +63,8 @@ TEST_F(CiJob, EndsWithTheVerdict) {
                 R"("reason": "r", "link": "l", "expires": "9999-12-31"}]})");
   EXPECT_EQ(run("2"), 0) << printed;
   EXPECT_TRUE(contains(printed, "\nown cases ")) << printed;
-  EXPECT_TRUE(contains(printed, " planted faults found, by campaign few, seed 1, of this build\n"));
+  EXPECT_TRUE(
+      contains(printed, " by their curated case alone; campaign few, seed 1, of this build\n"));
   EXPECT_TRUE(contains(printed, "\nverdict: certified in ")) << printed;
   EXPECT_TRUE(contains(report("junit.xml"), "own cases"));
   EXPECT_TRUE(contains(report("summary.md"), "certified"));

@@ -55,11 +55,12 @@ TEST(Junit, WhatWasNotJudgedIsSkipped) {
 
 TEST(Junit, OfOneShardByItselfNoBoundIsWanted) {
   auto findings = good_findings();
-  findings.run.plan.strata[0] = {"broken", 40, 0.001};
+  for (auto& stratum : findings.run.plan.strata) stratum.cases *= 2;
+  findings.run.plan.strata[0].wanted_bound = 0.001;
   findings.alone = properties::Shard{1, 2};
   EXPECT_FALSE(contains(junit_text(judged(findings, properties::asked_of_a_run())), "<failure"));
   findings.alone.reset();
-  findings.run.plan.strata[0].cases = 20;
+  for (auto& stratum : findings.run.plan.strata) stratum.cases /= 2;
   EXPECT_TRUE(contains(junit_text(judged(findings, properties::asked_of_a_run())),
                        "name=\"broken, bvh\">\n      <failure"));
 }
@@ -83,10 +84,11 @@ TEST(Summary, NamesVerdictGatesAndFailures) {
   findings.evidence.waivers = {{"c", "known", "link", "2026-01-31", false}};
   const auto text = summary_text(judged(findings));
   for (const std::string word :
-       {"## Assay: defect\n", "| claims | **fails** | a\\|b, met 1 times; tiny:1:broken:3 (bvh)",
+       {"## Assay: defect\n", "| claims | **fails** | a\\|b, met once; tiny:1:broken:3 (bvh)",
         "| complete | holds |", "| broken | 20 of 20 | 3 | 0 | 1 | 0 | ", "\n    assay replay ",
-        "2 of 2 planted faults found", "**c** (bvh, waived), met in the corpus alone\n",
-        "All 1 bounds together hold with confidence 95 %"}) {
+        "2 of 2 planted faults found: 0 by random cases, 2 by their curated case alone.",
+        "**c** (bvh, waived), met in the corpus alone\n",
+        "All 3 bounds together hold with confidence 95 %"}) {
     EXPECT_TRUE(contains(text, word)) << word << "\n" << text;
   }
 }

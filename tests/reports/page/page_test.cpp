@@ -138,7 +138,7 @@ TEST_F(Runs, ShardsAreSummed) {
 TEST_F(Runs, VerdictAndReasonsAreThoseOfTheGates) {
   const auto part = page_of(RunToStore().meet_canary(3).judge("closed-generic", 3, 'H'), "part");
   EXPECT_EQ(part["verdict"], "incomplete");
-  EXPECT_EQ(part["why"], "gate \"complete\" fails: closed-generic: 3 of 10 trials; and 1 more");
+  EXPECT_EQ(part["why"], "gate \"complete\" fails: closed-generic: 3 of 10 trials; and 2 more");
   const auto wrong = page_of(RunToStore().meet_canary(3).judge("closed-generic", 3, 'D'), "wrong");
   EXPECT_EQ(wrong["verdict"], "defect") << "a defect stands, however little was judged";
   const auto whole = page_of(
@@ -275,6 +275,26 @@ TEST_F(Runs, ASceneHoldsWhatTheOracleFound) {
   EXPECT_EQ(scene["steps"][0]["views"]["primitives"][0]["q1"], nullptr) << "a view-point";
   EXPECT_EQ(scene["triangles"].size(), 12u);
   EXPECT_EQ(scene["frames"].size(), 2u);
+}
+
+// A page that holds a neighbour against a detector that tests none accuses it of what nobody
+// promised.
+TEST_F(Runs, ASceneObeysThePlugInsContract) {
+  setenv("ASSAY_BY_CONTRACT", "strangers drop-last", 1);
+  RunToStore run;
+  run.request.plugin = std::string(ASSAY_PLUGIN_DIR) + "/plugin_by_contract.so";
+  run.request.detector.built_in = false;
+  run.fail("A1_winding2_allpositive", "all-pairs: missing pair", "a line");
+  const auto scene = reports::failure_scenes(read_run(run.store(scratch / "contract")))[0]["scene"];
+  unsetenv("ASSAY_BY_CONTRACT");
+  const auto& step = scene["steps"][0];
+  ASSERT_FALSE(step["left_out"].empty());
+  EXPECT_EQ(step["oracle"]["pairs"].size() + step["left_out"].size(), 10u);
+  std::map<std::string, std::size_t> counts;
+  for (const auto& one : step["differences"]) ++counts[one["difference"]];
+  EXPECT_EQ(counts["missing"], 1u);
+  EXPECT_EQ(counts["left out by the contract"], step["left_out"].size());
+  EXPECT_TRUE(step["views"].is_null()) << "of a plug-in nobody knows them";
 }
 
 }  // namespace

@@ -103,7 +103,6 @@ TEST(ContactPoint, OfEveryCuratedPairLiesInBothTrianglesBoxes) {
 TEST(Scene, ShowsSetsDoubtsGhostsAndThePairOfTheFirstContact) {
   const auto scene = scene_of(curated_case("D8_release_arm_sequence"));
   ASSERT_EQ(scene.steps.size(), 2u);
-  EXPECT_EQ(scene.views_by, "");
   EXPECT_EQ(scene.ended, "");
   EXPECT_FALSE(scene.failure);
   EXPECT_EQ(scene.shown_step(), 1u);
@@ -112,20 +111,24 @@ TEST(Scene, ShowsSetsDoubtsGhostsAndThePairOfTheFirstContact) {
   EXPECT_EQ(scene.surface->ghost_count(), 4u);
   std::map<ViewSet, int> first, second;
   for (std::size_t t = 0; t < 36; ++t) {
-    ++first[reports::view_set(*scene.steps[0].seen, t)];
-    ++second[reports::view_set(*scene.steps[1].seen, t)];
+    ++first[reports::view_set(*scene.steps[0].answered, t)];
+    ++second[reports::view_set(*scene.steps[1].answered, t)];
   }
   EXPECT_GT(first[ViewSet::violated], 0) << "the arm goes through the hole";
   EXPECT_EQ(second[ViewSet::dirty], first[ViewSet::violated]) << "and stays in doubt (L8)";
   EXPECT_EQ(second[ViewSet::violated], 0);
 }
 
-TEST(Scene, WithoutOwnViewSetsThoseOfTheBuiltInDetectorAreShown) {
+TEST(Scene, WithoutViewSetsThePairHasTwoColoursAndTheRestIsGrey) {
   auto c = curated_case("D8_release_arm_sequence");
   c.options["culling"] = "bvh";
   const auto scene = scene_of(c);
-  EXPECT_NE(scene.views_by, "");
-  EXPECT_TRUE(scene.steps[0].seen);
+  EXPECT_FALSE(scene.steps[0].has_views());
+  const auto svg = reports::mesh_svg(scene, "x");
+  EXPECT_EQ(count_of(svg, "fill=\"#56b4e9\""), 1u);
+  EXPECT_EQ(count_of(svg, "fill=\"#e69f00\""), 1u);
+  EXPECT_EQ(count_of(svg, "fill=\"#9aa0a6\""), 34u);
+  EXPECT_EQ(count_of(svg, "stroke-dasharray"), 0u) << "no ghosts that the detector does not use";
 }
 
 TEST(Scene, ADetectorThatIsNotAtHandCostsItsPartAlone) {
@@ -135,7 +138,8 @@ TEST(Scene, ADetectorThatIsNotAtHandCostsItsPartAlone) {
   EXPECT_NE(scene->ended, "");
   EXPECT_FALSE(scene->steps[0].answered);
   EXPECT_EQ(scene->steps[0].truth.pairs.size(), 10u);
-  EXPECT_TRUE(scene->steps[0].seen);
+  EXPECT_FALSE(scene->steps[0].has_views());
+  EXPECT_EQ(scene->steps[0].difference({0, 1}, *scene), "not run");
 }
 
 TEST(Scene, APlugInThatIsAlwaysFreeShowsItsFailure) {
@@ -147,6 +151,31 @@ TEST(Scene, APlugInThatIsAlwaysFreeShowsItsFailure) {
   EXPECT_EQ(scene->failure->kind, "answered free");
   EXPECT_EQ(scene->shown_pair(), scene->failure->pair);
   EXPECT_TRUE(scene->steps[0].answered->pairs.empty());
+}
+
+// What is missing is what its claims and its contract let nobody leave out.
+TEST(Scene, OfAPlugInObeysItsClaimsAndItsContract) {
+  const auto c = curated_case("A1_winding2_allpositive");
+  const auto differences = [&](const char* words) {
+    setenv("ASSAY_BY_CONTRACT", words, 1);
+    reports::SceneMaker maker{
+        reports::DetectorWords{std::string(ASSAY_PLUGIN_DIR) + "/plugin_by_contract.so", {}}};
+    const auto scene = maker.scene_of(c, "x");
+    unsetenv("ASSAY_BY_CONTRACT");
+    std::map<std::string, std::size_t> counts;
+    const auto& truth = scene->steps[0].truth;
+    for (const auto* list : {&truth.pairs, &truth.left_out}) {
+      for (const auto& contact : *list) ++counts[scene->steps[0].difference(contact.pair, *scene)];
+    }
+    return counts;
+  };
+  using Counts = std::map<std::string, std::size_t>;
+  EXPECT_EQ(differences("drop-last"), (Counts{{"agrees", 9}, {"missing", 1}}));
+  const auto strangers = differences("strangers drop-last");
+  EXPECT_EQ(strangers.at("missing"), 1u);
+  EXPECT_GT(strangers.at("left out by the contract"), 0u);
+  EXPECT_EQ(differences("claims=1 drop-last"), (Counts{{"agrees", 9}, {"not claimed", 1}}));
+  EXPECT_EQ(differences("claims=1 late=1 drop-last").count("late"), 0u);
 }
 
 TEST(Picture, HasEveryTriangleThePairAndTheContact) {

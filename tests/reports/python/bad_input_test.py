@@ -65,6 +65,7 @@ WRONG_TRIANGLES = {
     "flat": (lambda t: t.ravel(), ValueError, r"shape \(24,\)"),
     "beyond int32": (lambda t: t.astype(np.int64) + 2**32, ValueError, "exact"),
     "no triangles": (lambda t: t[:0], ValueError, "no triangles"),
+    "no triangles of int64": (lambda t: np.zeros((0, 3), int), assay.InputError, "no triangles"),
     "an empty list": (lambda t: [], ValueError, r"shape \(0,\)"),
     "too large": (lambda t: t + 1, ValueError, "vertex 8"),
     "negative": (lambda t: t - 1, ValueError, "vertex -1"),

@@ -9,10 +9,11 @@ import assay
 CAMPAIGN = {
     "schema": "assay-campaign/1",
     "name": "few",
-    "about": "a few cases of two kinds",
+    "about": "a few cases of three kinds",
     "strata": [
         {"family": "closed-generic", "cases": 6, "bound": 0.9},
         {"family": "unclosed-generic", "cases": 6, "bound": 0.9},
+        {"family": "broken", "cases": 6, "bound": 0.9},
     ],
     "seconds": None,
     "laws_every": 0,

@@ -16,7 +16,6 @@ import assay
 from assay.places import program
 
 SOURCES = Path(__file__).resolve().parents[3]
-DATA = os.environ.get("ASSAY_DATA", "")
 
 
 def write_ply(path, triangles, x):
@@ -203,6 +202,19 @@ def test_a_free_step_and_a_judgement_are_written_too(pair, tmp_path):
     assert "view_sign" not in meshio.read(tmp_path / "judged.vtu").cell_data
 
 
+def test_what_cannot_be_written_for_paraview_is_refused(pair, tmp_path):
+    for nothing in (None, pair.x_t0, "step"):
+        with pytest.raises(TypeError, match="a StepResult or a Judgement is wanted"):
+            assay.write_vtk(nothing, tmp_path / "step.vtu")
+    with pytest.raises(assay.InputError, match="has to end with .vtu or .vtk"):
+        assay.write_vtk(assay.judge(pair.triangles, pair.x_t0, pair.x_t1), tmp_path / "step")
+
+
+def test_no_triangles_are_no_mesh(pair):
+    with pytest.raises(assay.InputError, match="no triangles"):
+        assay.judge(np.zeros((0, 3), int), pair.x_t0, pair.x_t1)
+
+
 def same_report(files, tmp_path):
     command = [program(), "check", "--json", tmp_path / "report.json", *files]
     code = subprocess.run(command, capture_output=True, check=False).returncode
@@ -221,18 +233,3 @@ def test_a_report_is_that_of_the_command_line(cloud, tmp_path):
         write_ply(files[-1], cloud.triangles, x)
     report = same_report(files, tmp_path)
     assert len(report.steps) == 3 and report.outcome == "holds"
-
-
-SEQUENCES = {
-    "cloth": ["ipc-toolkit/thick-cloth/t0.ply", "ipc-toolkit/thick-cloth/t1.ply"],
-    "rod": [f"scalable-ccd/rod-twist/frames/{k}.ply" for k in (3036, 3037)],
-    "dancer": [f"codim-ipc-kick/shell{k}.obj.gz" for k in range(56, 63)],
-}
-
-
-@pytest.mark.parametrize("name", SEQUENCES)
-def test_the_report_of_a_public_sequence_is_that_of_the_command_line(name, tmp_path):
-    files = [os.path.join(DATA, file) for file in SEQUENCES[name]]
-    if not DATA or not os.path.exists(files[0]):
-        pytest.skip(f"no public data: ASSAY_DATA is {DATA or 'not set'}")
-    same_report(files, tmp_path)

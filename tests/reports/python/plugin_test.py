@@ -76,7 +76,7 @@ SOURCE = """
             return {"first": (contacts.lo[0], contacts.hi[0])} if contacts.hit[0] else None
 
     class NotCreated:
-        claims = []
+        claims = ["deterministic"]
         def evaluate(self, x_t0, x_t1):
             return None
 """

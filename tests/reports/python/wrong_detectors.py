@@ -1,4 +1,4 @@
-"""assay.Detector wrapped, wrong in one of ten ways. The same in C++: tests/plugins/wrong_wrapper.cpp."""
+"""assay.Detector wrapped, wrong in one of eleven ways. The same in C++: tests/plugins/wrong_wrapper.cpp."""
 
 from dataclasses import replace
 
@@ -92,3 +92,12 @@ class AddAPair(Wrapper):
 class HalfAStep(Wrapper):
     def evaluate(self, x_t0, x_t1):
         return super().evaluate(x_t0, (x_t0 + x_t1) / 2)
+
+
+class OrderOfASet(Wrapper):
+    """Right, but each process has another order of a set of strings."""
+
+    def spoiled(self, result):
+        names = list({f"name {i}" for i in range(40)})
+        lo, hi = result.first
+        return replace(result, first=(lo * (1 + names.index("name 0")) / 40, hi))

@@ -1,4 +1,4 @@
-"""Ten wrong detectors in Python are found, each by a mesh no larger than that of the same in C++."""
+"""Wrong detectors in Python are found, each by a mesh no larger than that of the same in C++."""
 
 import json
 import os
@@ -56,3 +56,17 @@ def test_a_wrong_detector_is_found(way, tmp_path, monkeypatch):
     sizes = smallest_mesh(tmp_path / "python"), smallest_mesh(tmp_path / "cpp")
     print(WAYS[way].__name__, *sizes)
     assert sizes[0] <= sizes[1]
+
+
+# The eleventh way: each process has its own answer, and gives it always.
+@pytest.mark.parametrize("detector", [wrong.OrderOfASet, PLUGINS / "plugin_wrong_wrapper.so"])
+def test_one_that_differs_from_process_to_process_is_found(detector, tmp_path, monkeypatch, pair):
+    monkeypatch.setenv("ASSAY_TEST_WRONG", str(len(WAYS)))
+    campaign = tmp_path / "wrong.json"
+    campaign.write_text(json.dumps(CAMPAIGN))
+    run = assay.run(str(campaign), detector, out=tmp_path / "run")
+    assert run.outcome == "defect", run.text
+    assert "deterministic" in run.text and "two runs differ" in run.text
+    checked = assay.check((pair.triangles, [pair.x_t0, pair.x_t1]), detector)
+    assert checked.outcome == "defect", checked.text
+    assert "deterministic" in checked.text

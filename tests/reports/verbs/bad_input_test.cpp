@@ -150,6 +150,12 @@ TEST_F(BadInput, Options) {
   expect_refused("check " + good + " " + good + " --time -3", "time");
   expect_refused("check " + good + " " + good + " --memory lots", "memory");
   expect_refused("check " + good + " " + good + " --json /nowhere/report.json", "/nowhere");
+  expect_refused("check " + good + " " + good + " --json -", "-: name a file");
+  expect_refused("run --campain smoke --out " + (scratch / "x"),
+                 "not expected: --campain smoke (assay run --help lists options)");
+  expect_refused("chekc " + good, "unknown verb 'chekc'; did you mean check?");
+  expect_refused("run --campaign smok --out " + (scratch / "x"),
+                 "smok: is no campaign and no file; did you mean smoke?");
   for (const std::string size : {"-1", "0", "GB", "1.5GB", "99999999999999999999", "6TB"}) {
     expect_refused("check " + good + " " + good + " --memory " + size, "memory");
   }

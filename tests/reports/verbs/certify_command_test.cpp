@@ -18,7 +18,7 @@ class Certify : public testing::Test {
   const Scratch scratch;
   const std::string out = scratch / "out", certificate = out + "/certificate.json";
   std::string plan = scratch.write(
-      "plan.json", plan_text(12, R"(, "shrink_share": 0.05, "policy": {"self_test_queries": 20})"));
+      "plan.json", plan_text(12, R"(, "shrink_share": 0.4, "policy": {"self_test_queries": 20})"));
 
   Outcome certify(const std::string& more = "") const {
     return run_assay("certify --campaign " + plan + " --out " + out + " " + more);
@@ -78,14 +78,22 @@ void expect_tampering_is_seen(const std::string& file, const std::string& certif
 TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   const auto made = certify();
   ASSERT_EQ(made.exit_code, 0) << made.out << made.err;
-  for (const std::string word : {"curated cases      view-auto", "speed (a ratio)",
-                                 "self-test of the oracle: 0 contradictions",
-                                 "verdict: certified in ", "next: assay verify "}) {
+  for (const std::string word :
+       {"curated cases      view-auto", "speed (a ratio)",
+        "self-test of the oracle: 0 contradictions", "verdict: certified in ", "/assay verify "}) {
     EXPECT_TRUE(contains(made.out, word)) << word << "\n" << made.out;
   }
+  // The row that the top README shows is this one.
+  const auto readme = read_text(std::string(ASSAY_SOURCE_DIR) + "/README.md");
+  const auto row = made.out.find("curated cases      auto ");
+  ASSERT_NE(row, std::string::npos);
+  EXPECT_TRUE(
+      contains(readme, "    " + made.out.substr(row, made.out.find('\n', row) - row) + "\n"))
+      << "reports/pictures/renew writes it anew:\n"
+      << made.out.substr(row, 80);
   const Json statement = read();
   EXPECT_EQ(statement["_type"], "https://in-toto.io/Statement/v1");
-  EXPECT_EQ(statement["predicateType"], "urn:assay:certificate:3");
+  EXPECT_EQ(statement["predicateType"], "urn:assay:certificate:4");
   EXPECT_EQ(statement["subject"][0]["digest"]["sha256"].get<std::string>().size(), 64u);
   const Json& p = statement["predicate"];
   EXPECT_EQ(p["verdict"], "certified");
@@ -165,6 +173,15 @@ TEST_F(Certify, ACertificateVerifiesAndNoFieldOrFileCanBeChanged) {
   ASSERT_EQ(run_assay("certify --campaign " + plan + " --out '" + elsewhere + "'").exit_code, 0);
   const Json other = Json::parse(read_text(elsewhere + "/certificate.json"));
   EXPECT_EQ(other["predicate"]["digests"], statement["predicate"]["digests"]);
+
+  // Its folder stands for it. Alone, as it is sent by mail, it is no defect, and says what it
+  // lacks.
+  EXPECT_EQ(run_assay("verify " + out).exit_code, 0);
+  const auto alone = scratch.write("certificate.json", read_text(certificate));
+  for (const auto& command : {"verify " + alone, "verify " + (scratch / ""),
+                              "report " + (scratch / "") + " --out " + (scratch / "p.html"),
+                              "report " + alone + " --out " + (scratch / "p.html")})
+    expect_refused(run_assay(command), "are not beside it: ask its issuer for the whole folder");
 }
 
 TEST_F(Certify, ADefectIsNamedWithAMeshThatReplays) {
@@ -253,7 +270,7 @@ TEST_F(Certify, ACertificateOfAnOlderSchemaIsRefusedByName) {
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_TRUE(contains(refused.out,
                        "of schema assay-certificate/1, this assay verifies "
-                       "assay-certificate/3: verify it with the assay that issued it"))
+                       "assay-certificate/4: verify it with the assay that issued it"))
       << refused.out;
 }
 

@@ -37,6 +37,12 @@ class ExportedCase : public testing::Test {
 
 TEST_F(ExportedCase, CompilesAndPasses) {
   expect_passes("tiny:1:unclosed-generic:3");
+  // In floats, which claim no answer at all, so that a miss is none by its own test.
+  std::string text = read_text(curated("B1_one_vertex_own_nearest"));
+  const std::string options = "\"options\": {";
+  text.insert(text.find(options) + options.size(), "\"arithmetic\": \"float\", ");
+  expect_passes(scratch.write("float.json", text));
+  EXPECT_FALSE(contains(read_text(scratch / "case/case_test.cpp"), "EXPECT_EQ(r.answer"));
   // With a line as its view, given, and several steps.
   expect_passes(std::string(ASSAY_SOURCE_DIR) + "/corpus/curated/B1_one_vertex_own_nearest.json");
 }
@@ -46,7 +52,8 @@ TEST_F(ExportedCase, FailsWhereTheDetectorDiffers) {
   expect_passes(file);
   // The same test asked of another answer.
   std::string text = read_text(scratch / "case/case_test.cpp");
-  const std::string free = "Answer::free", collision = "Answer::collision";
+  const std::string asked = "EXPECT_EQ(r.answer, Answer::";
+  const std::string free = asked + "free", collision = asked + "collision";
   const bool is_free = text.find(free) != std::string::npos;
   const std::string& stated = is_free ? free : collision;
   ASSERT_NE(text.find(stated), std::string::npos);
@@ -58,39 +65,113 @@ TEST_F(ExportedCase, FailsWhereTheDetectorDiffers) {
 
 // Of a plug-in: arrays that compile with nothing beside them, a function to fill in, and the same
 // arrays through the library.
-TEST_F(ExportedCase, OfAPlugInIsPlainArrays) {
-  const std::string library = plugin("by_contract");
-  const auto exported = run_assay(
-      "replay slow:1:closed-generic:19 --detector " + library + " --export " + (scratch / "case"),
-      "ASSAY_BY_CONTRACT=miss-inside ");
-  ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
-  EXPECT_FALSE(std::filesystem::exists(scratch / "case/case_test.cpp"));
-  const std::string compiler = std::string(ASSAY_COMPILER) + " -std=c++17 -Wall -Wextra -Werror ";
-  const auto compiles = [&](const std::string& file, const std::string& more) {
-    EXPECT_EQ(status_of(compiler + (scratch / ("case/" + file)) + more + " -o " +
-                        (scratch / "program") + " >" + (scratch / "compiler") + " 2>&1"),
+class ExportedPlugIn : public testing::Test {
+ protected:
+  // Exports what is wrong with the plug-in of this name under these words in its environment.
+  Outcome export_case(const std::string& file, const std::string& name,
+                      const std::string& words) const {
+    return run_assay(
+        "replay " + file + " --detector " + plugin(name) + " --export " + (scratch / "case"),
+        words + " ");
+  }
+  void compile(const std::string& file, const std::string& more = "") const {
+    EXPECT_EQ(status_of(std::string(ASSAY_COMPILER) + " -std=c++17 -Wall -Wextra -Werror " +
+                        (scratch / ("case/" + file)) + more + " -o " + (scratch / "program") +
+                        " >" + (scratch / "compiler") + " 2>&1"),
               0)
         << read_text(scratch / "compiler");
-  };
-  compiles("case.cpp", "");
+  }
+  void compile_plugin() const { compile("case_plugin.cpp", " -I " ASSAY_SOURCE_DIR " -ldl"); }
+  int judged(const std::string& name, const std::string& words) const {
+    return status_of(words + " " + (scratch / "program ") + plugin(name) + " >" +
+                     (scratch / "printed"));
+  }
+  // Fills in the function of the exported source and runs it.
+  int filled_in(const std::string& lines) const {
+    std::string text = read_text(scratch / "case/case.cpp");
+    const std::string unfilled = "  return found;";
+    EXPECT_NE(text.find(unfilled), std::string::npos);
+    text.replace(text.find(unfilled), unfilled.size(),
+                 "  found.filled_in = true;\n" + lines + "\n  return found;");
+    scratch.write("case/filled.cpp", text);
+    compile("filled.cpp");
+    return status_of((scratch / "program >") + (scratch / "printed"));
+  }
+  std::string printed() const { return read_text(scratch / "printed"); }
+  const Scratch scratch;
+};
+
+TEST_F(ExportedPlugIn, IsPlainArrays) {
+  const auto exported =
+      export_case("slow:1:closed-generic:19", "by_contract", "ASSAY_BY_CONTRACT=miss-inside");
+  ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "case/case_test.cpp"));
+  EXPECT_FALSE(contains(read_text(scratch / "case/case.json"), "\"answer\""))
+      << "nobody stated what is expected";
+  compile("case.cpp");
   EXPECT_EQ(status_of(scratch / "program >/dev/null"), 2);
-  std::string text = read_text(scratch / "case/case.cpp");
-  const std::string unfilled = "return {false, false, 0};";
-  ASSERT_NE(text.find(unfilled), std::string::npos);
-  text.replace(text.find(unfilled), unfilled.size(), "return {true, false, 0};");
-  scratch.write("case/filled.cpp", text);
-  compiles("filled.cpp", "");
-  EXPECT_EQ(status_of((scratch / "program >") + (scratch / "printed")), 1);
-  EXPECT_TRUE(contains(read_text(scratch / "printed"), "answered free at 0, exact collision at "));
-  compiles("case_plugin.cpp", " -I " ASSAY_SOURCE_DIR " -ldl");
-  const auto judged = [&](const std::string& words) {
-    return status_of("ASSAY_BY_CONTRACT=" + words + " " + (scratch / "program ") + library +
-                     " >/dev/null");
-  };
-  EXPECT_EQ(judged("claims=255"), 0);
-  EXPECT_EQ(judged("miss-inside"), 1);
-  EXPECT_EQ(judged("late=0.1"), 1);
+  EXPECT_EQ(filled_in(""), 1);
+  EXPECT_TRUE(contains(printed(), "breaks free-sound\n")) << printed();
+  EXPECT_TRUE(contains(printed(), "answered free, exact collision at ")) << printed();
+  compile_plugin();
+  EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=claims=255"), 0) << printed();
+  EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=miss-inside"), 1);
+  EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT=late=0.1"), 1);
   EXPECT_EQ(status_of(scratch / "program ./none.so >/dev/null"), 2);
+}
+
+// For each claim alone: a plug-in that breaks it, and one that keeps it.
+TEST_F(ExportedPlugIn, AsksForEachClaim) {
+  struct Wrong {
+    const char *claim, *plugin, *wrong, *right_plugin, *right;
+  };
+  const char *contract = "by_contract", *candidates = "candidates_alone";
+  for (const auto& [claim, name, wrong, right_name, right] :
+       std::vector<Wrong>{{"free-sound", contract, "claims=1 miss-inside", contract, "claims=1"},
+                          {"not-late", contract, "claims=2 late=0.1", contract, "claims=2"},
+                          {"first-time", contract, "claims=4 early=0.1", contract, "claims=4"},
+                          {"first-pairs", contract, "claims=8 miss-inside", contract, "claims=8"},
+                          {"all-pairs", contract, "claims=16 drop-last", contract, "claims=16"},
+                          {"no-spurious", contract, "claims=32 early=0.1", contract, "claims=32"},
+                          {"deterministic", contract, "claims=64 changing", contract, "claims=64"},
+                          {"total", contract, "claims=128 no-interval", contract, "claims=128"},
+                          {"total", contract, "claims=128 abort", contract, "claims=128"},
+                          {"total", "exit", "none", "wrapped_builtin", "none"},
+                          {"candidates", candidates, "every-second", candidates, "none"}}) {
+    SCOPED_TRACE(std::string(claim) + " " + name);
+    const auto words = [](const std::string& given) {
+      return "ASSAY_BY_CONTRACT='" + given +
+             "' ASSAY_CANDIDATES=" + given.substr(0, given.find(' '));
+    };
+    const auto exported = export_case(curated("D6_fast_passage"), name, words(wrong));
+    ASSERT_EQ(exported.exit_code, 1) << exported.out << exported.err;
+    EXPECT_TRUE(contains(exported.out, std::string("DEFECT ") + claim)) << exported.out;
+    compile_plugin();
+    EXPECT_EQ(judged(name, words(wrong)), 1) << printed();
+    EXPECT_TRUE(contains(printed(), std::string("breaks ") + claim)) << printed();
+    EXPECT_EQ(judged(right_name, words(right)), 0) << printed();
+  }
+}
+
+TEST_F(ExportedPlugIn, WhoClaimsLittleDoesNotFailByItsOwnTest) {
+  const std::string words = "ASSAY_BY_CONTRACT='claims=1 whenever'";
+  const auto exported = export_case(curated("A4_endpoints_only"), "by_contract", words);
+  ASSERT_EQ(exported.exit_code, 0) << exported.out << exported.err;
+  EXPECT_EQ(filled_in("  found.collision = true;"), 0) << printed();
+  compile_plugin();
+  EXPECT_EQ(judged("by_contract", words), 0) << printed();
+}
+
+TEST_F(ExportedPlugIn, LeavesOutWhatTheContractDoes) {
+  const std::string words = "ASSAY_BY_CONTRACT=strangers";
+  const auto exported = export_case(curated("A1_winding2_allpositive"), "by_contract", words);
+  ASSERT_EQ(exported.exit_code, 0) << exported.out << exported.err;
+  EXPECT_TRUE(contains(exported.out, " left out by the contract, the first at t = "))
+      << exported.out;
+  compile_plugin();
+  EXPECT_EQ(judged("by_contract", words), 0) << printed();
+  EXPECT_EQ(judged("wrapped_builtin", ""), 0) << "who reports them is not wrong\n" << printed();
+  EXPECT_EQ(judged("by_contract", "ASSAY_BY_CONTRACT='strangers drop-last'"), 1) << printed();
 }
 
 }  // namespace

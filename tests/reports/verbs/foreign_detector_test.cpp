@@ -112,6 +112,54 @@ TEST_F(ForeignDetector, WhatItPrintsStandsWithItsFailuresAndNowhereElse) {
   EXPECT_TRUE(contains(replayed.out, "  it printed:\n    line 1 of ?[31m")) << replayed.out;
 }
 
+TEST_F(ForeignDetector, ItsStoredFailuresAccuseNobodyElse) {
+  ASSERT_EQ(judge("run", std::string(modest) + "miss-inside", plan_text(4)).exit_code, 1);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(out + "/failures")) {
+    if (entry.path().extension() != ".json") continue;
+    const auto checked = run_assay("check " + entry.path().string());
+    EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+    ++files;
+  }
+  EXPECT_GE(files, 2u);
+}
+
+TEST_F(ForeignDetector, CheckTellsTheExactTimeBesideItsOwn) {
+  const auto check = [&](const std::string& words) {
+    return run_assay("check " + curated("D6_fast_passage") + " --detector " + library + " --json " +
+                         (scratch / "check.json"),
+                     "ASSAY_BY_CONTRACT='claims=1 " + words + "' ")
+        .out;
+  };
+  const auto wide = check("whenever");
+  const auto step = Json::parse(read_text(scratch / "check.json"))["steps"][0];
+  const auto exact = step["oracle"]["first_time"][0].get<double>();
+  EXPECT_GT(exact, 0);
+  EXPECT_EQ(step["diff"]["first"]["early_by"].get<double>(), exact) << "by the lower end";
+  EXPECT_TRUE(contains(wide, "  first time [0, 1], exact ")) << wide;
+  EXPECT_TRUE(contains(wide, ": early by ")) << wide;
+  EXPECT_TRUE(contains(wide, "early in 1 step, by ")) << wide;
+  const auto right = check("");
+  EXPECT_TRUE(contains(right, "  first time 0.") && contains(right, ", exact 0.")) << right;
+  EXPECT_FALSE(contains(right, "early") || contains(right, "late")) << right;
+  EXPECT_TRUE(contains(check("late=0.125"), ": late by 0.125\n"));
+  EXPECT_TRUE(contains(check("miss-inside"), "  exact first time 0."));
+}
+
+// What is in contact by the oracle is told as the contract has it, with what it leaves out.
+TEST_F(ForeignDetector, CheckObeysTheContract) {
+  const auto checked = run_assay("check " + curated("A1_winding2_allpositive") + " --detector " +
+                                     library + " --json " + (scratch / "check.json"),
+                                 "ASSAY_BY_CONTRACT=strangers ");
+  EXPECT_EQ(checked.exit_code, 0) << checked.out;
+  const auto step = Json::parse(read_text(scratch / "check.json"))["steps"][0];
+  const auto left_out = step["diff"]["left_out"].get<int>();
+  EXPECT_GT(left_out, 0);
+  EXPECT_EQ(step["oracle"]["pairs"].get<int>() + left_out, 10);
+  EXPECT_TRUE(contains(checked.out, std::to_string(left_out) + " pairs left out by the contract"))
+      << checked.out;
+}
+
 TEST_F(ForeignDetector, NoCertificateNamesWhatNobodyJudged) {
   // It always answers collision at [0, 1], under the widest contract that loads.
   const auto made =
@@ -132,6 +180,29 @@ TEST_F(ForeignDetector, NoCertificateNamesWhatNobodyJudged) {
   }
 }
 
+TEST_F(ForeignDetector, NoContractSavesOneThatAlwaysAnswersFree) {
+  // The mesh is scaled, so that the contract takes it; and where a range of coordinates forbids
+  // that, nothing is left to be judged.
+  const std::string free = " miss-at-start miss-inside adjacency=2 start=apart:1e4";
+  for (const std::string& words : {free, free + " claims=1", free + " claims=129 no-pairs"}) {
+    std::filesystem::remove_all(out);
+    const auto made = judge("run", words, plan_text(12));
+    EXPECT_EQ(made.exit_code, 1) << words << made.out << made.err;
+    EXPECT_TRUE(contains(made.out, "\nDEFECT: ")) << words << made.out;
+  }
+  std::filesystem::remove_all(out);
+  const auto made = judge("run", free + " range=1e-6:1", plan_text(12));
+  EXPECT_EQ(made.exit_code, 3) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "\nincomplete: ")) << made.out;
+  EXPECT_TRUE(contains(made.out, "closed-generic: 0 of 12 planned cases have a contact inside"))
+      << made.out;
+  // An honest one under a narrow contract holds.
+  std::filesystem::remove_all(out);
+  const auto honest =
+      judge("run", "start=apart:0.05 adjacency=2 features=vertex-face float32", plan_text(12));
+  EXPECT_EQ(honest.exit_code, 0) << honest.out << honest.err;
+}
+
 TEST_F(ForeignDetector, ItsSlowCasesAreListedAndShrunk) {
   const std::string plan =
       R"({"schema": "assay-campaign/1", "name": "tiny", "seconds": 20, "shrink_share": 0.2,)"
@@ -139,7 +210,7 @@ TEST_F(ForeignDetector, ItsSlowCasesAreListedAndShrunk) {
   const auto made =
       judge("run", "claims=131 start=free no-pairs burn=30", plan, "--case-seconds 0.1 --jobs 2");
   EXPECT_EQ(made.exit_code, 3) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "slow cases: assay list slow ")) << made.out;
+  EXPECT_TRUE(contains(made.out, "/assay list slow ")) << made.out;
   const auto listed = run_assay("list slow " + out);
   EXPECT_EQ(listed.exit_code, 0) << listed.err;
   EXPECT_TRUE(contains(listed.out, " without a verdict, at most 0.1 s")) << listed.out;
@@ -153,16 +224,20 @@ TEST_F(ForeignDetector, ItsSlowCasesAreListedAndShrunk) {
   EXPECT_LE(smallest.value().triangles.rows(), 4);
 }
 
-TEST_F(ForeignDetector, AStratumWithoutItsNumberOfCasesIsIncomplete) {
+TEST_F(ForeignDetector, AContractThatTakesNoCaseIsIncomplete) {
   const auto made = judge("run", std::string(modest) + "start=apart:1e300", plan_text(4));
   EXPECT_EQ(made.exit_code, 3) << made.out << made.err;
-  EXPECT_TRUE(contains(made.out, "for 4 of 4 trials no case was drawn that the contract takes"))
+  EXPECT_TRUE(
+      contains(made.out, "0 of 3 families have a contact inside the contract, 3 are wanted"))
       << made.out;
 }
 
 TEST_F(ForeignDetector, WhatClaimsNothingThatIsLeftIsRefused) {
   const auto made = judge("run", "claims=32 margin=1", plan_text(4));
   expect_refused(made, "it claims nothing that its contract leaves to be judged");
+  expect_refused(run_assay("check " + curated("A4_endpoints_only") + " --detector " + library,
+                           "ASSAY_BY_CONTRACT=\"claims=32 margin=1\" "),
+                 "it claims nothing that its contract leaves to be judged");
 }
 
 }  // namespace

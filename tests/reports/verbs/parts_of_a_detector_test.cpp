@@ -111,6 +111,53 @@ TEST_F(Parts, ABroadPhaseIsCertifiedAndItsMissesAreShrunk) {
   EXPECT_TRUE(contains(text, R"("over_least":)"));
 }
 
+// A library with whole steps and a query that is wrong in its query alone.
+TEST_F(Parts, AQueryIsJudgedBesideTheSteps) {
+  const std::string both = " --detector " + plugin("steps_and_query");
+  const auto right = with("ASSAY_QUERY", "", campaign("certify", "both") + both);
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  for (const std::string word : {"\nclosed-generic ", "\nquery-ulp ", "\ncurated cases ",
+                                 "\nnamed queries ", "; of its elementary query free-sound, "})
+    EXPECT_TRUE(contains(right.out, word)) << word << "\n" << right.out;
+  expect_valid_certificate(out("both") + "/certificate.json");
+  const auto stated = Json::parse(read_text(out("both") + "/certificate.json"))["predicate"];
+  EXPECT_EQ(stated["detector"]["configurations"][0]["claims"].size(), 8u);
+  EXPECT_EQ(stated["detector"]["query_claims"].size(), 6u);
+  EXPECT_EQ(stated["detector"]["unjudged_parts"], Json::array());
+  EXPECT_EQ(stated["confidence"]["bounds"], 3 * 8 + 10 * 6);
+  const auto again =
+      with("ASSAY_QUERY", "", "verify --again 0.2 " + out("both") + "/certificate.json");
+  EXPECT_EQ(again.exit_code, 0) << again.out << again.err;
+
+  const auto wrong = with("ASSAY_QUERY", "miss-coplanar", campaign("certify", "wrong") + both);
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
+  EXPECT_TRUE(contains(wrong.out, "verdict: defect")) << wrong.out;
+  const auto found = Json::parse(read_text(out("wrong") + "/certificate.json"))["predicate"];
+  ASSERT_FALSE(found["failures"].empty());
+  // Of the trials of its query, or of the corpus' named queries: none is of its steps.
+  for (const auto& failure : found["failures"])
+    EXPECT_TRUE(contains(failure["case"], "query-") || contains(failure["case"], "corpus/example-"))
+        << failure["case"];
+  const auto lines = replay_lines(wrong.out);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(run_assay(lines[0]).exit_code, 1) << lines[0];
+  EXPECT_EQ(run_assay("verify " + out("wrong") + "/certificate.json").exit_code, 1);
+  // Two shards make the same trials, and merge into the same run.
+  for (const std::string shard : {"1/2", "2/2"})
+    EXPECT_EQ(run_assay(campaign("run", "shards") + both + " --shard " + shard).exit_code, 1);
+  EXPECT_EQ(run_assay("merge " + out("shards") + " --out " + out("merged")).exit_code, 0);
+  EXPECT_EQ(trials_of(out("merged"), "merged"), trials_of(out("wrong")));
+  // The steps by themselves hold, and the query is named as not judged; so is what is not asked.
+  const auto steps = run_assay(campaign("run", "steps") + both + " --part steps");
+  EXPECT_EQ(steps.exit_code, 0) << steps.out << steps.err;
+  EXPECT_TRUE(contains(steps.out, "\nnot judged: the elementary query of this library\n"));
+  const auto query_alone =
+      with("ASSAY_QUERY", "", campaign("run", "query") + both + " --part query");
+  EXPECT_EQ(query_alone.exit_code, 0) << query_alone.out << query_alone.err;
+  EXPECT_TRUE(contains(query_alone.out, "\nnot judged: the whole steps of this library\n"));
+  EXPECT_FALSE(contains(query_alone.out, "\nclosed-generic "));
+}
+
 TEST_F(Parts, LabelledQueriesAreScoredAndJudged) {
   const std::string check = "check-queries " + queries + " --json " + (scratch / "report.json");
   const auto right = asked("", check);
@@ -207,20 +254,21 @@ TEST_F(Parts, AFailingQueryIsExportedAsPlainArrays) {
   compiles("case.cpp", "");
   EXPECT_EQ(ends(out("program") + " >/dev/null"), 2) << "not filled in";
   auto text = read_text(out("case/case.cpp"));
-  const std::string unfilled = "return {false, false, 0};";
+  const std::string unfilled = "return found;";
   ASSERT_TRUE(contains(text, unfilled));
   EXPECT_TRUE(contains(text, "\"1/2\"")) << text;
   const auto filled = [&](const std::string& answer) {
     auto changed = text;
-    changed.replace(changed.find(unfilled), unfilled.size(), "return {true, " + answer + "};");
+    changed.replace(changed.find(unfilled), unfilled.size(),
+                    "found.filled_in = true; " + answer + " return found;");
     scratch.write("case/filled.cpp", changed);
     compiles("filled.cpp", "");
     return ends(out("program") + " >" + out("printed"));
   };
-  EXPECT_EQ(filled("true, 0.5"), 0);
-  EXPECT_EQ(filled("true, 0.75"), 1) << "late";
-  EXPECT_EQ(filled("false, 0"), 1);
-  EXPECT_TRUE(contains(read_text(out("printed")), "answered free at 0, exact collision at [0.5, "))
+  EXPECT_EQ(filled("found.collision = true; found.lo = found.hi = 0.5;"), 0);
+  EXPECT_EQ(filled("found.collision = true; found.lo = 0.75;"), 1) << "late";
+  EXPECT_EQ(filled(""), 1);
+  EXPECT_TRUE(contains(read_text(out("printed")), "answered free, exact collision at 0.5 (1/2)"))
       << read_text(out("printed"));
   compiles("case_plugin.cpp", " -I " ASSAY_SOURCE_DIR " -ldl");
   const auto judged = [&](const std::string& words) {

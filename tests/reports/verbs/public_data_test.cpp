@@ -1,5 +1,7 @@
 // The public data sets through the program: real meshes and every labelled query. Skipped where
 // ASSAY_DATA names no folder.
+#include "tests/public_data.h"
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -18,11 +20,8 @@ using nlohmann::json;
 class PublicMeshes : public testing::Test {
  protected:
   void SetUp() override {
-    const char* folder = std::getenv("ASSAY_DATA");
-    if (!folder || !std::filesystem::is_directory(folder)) {
-      GTEST_SKIP() << "no public data: ASSAY_DATA is " << (folder ? folder : "not set");
-    }
-    data = folder;
+    if (!public_data()) GTEST_SKIP() << "no public data";
+    data = public_data();
   }
   json check(const std::string& arguments) {
     const auto outcome =

@@ -1,10 +1,11 @@
-// The claim `deterministic` on larger meshes: a plug-in whose answer depends on the number of
-// threads there, and nowhere else, is found; and lines that replay say how many threads it had.
+// Larger meshes: a plug-in that is wrong there alone is found by the oracle, one whose answer
+// depends there on the number of threads by running again; lines that replay tell that number.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "corpus/scenes/scenes.h"
+#include "tests/public_data.h"
 #include "tests/reports/json_schema.h"
 #include "tests/reports/tiny_campaign.h"
 
@@ -63,6 +64,52 @@ TEST_F(Repetitions, AnAnswerThatDependsOnThreadsOnLargeMeshesIsFound) {
   EXPECT_TRUE(contains(read_text(page), "\"broken\":true"));
 }
 
+TEST_F(Repetitions, ADetectorThatIsWrongOnLargeMeshesAloneIsFound) {
+  // Free above 600 triangles, whatever it claims; every mesh of the trials is smaller.
+  for (const std::string claims : {"", " claims=129"}) {
+    std::filesystem::remove_all(out);
+    const auto made = judge("run", "steps_and_query", 1500, "--part steps",
+                            "ASSAY_QUERY='free-above=600" + claims + "' ");
+    EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+    EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
+    EXPECT_TRUE(contains(made.out, ", large mesh (query alone), met once")) << made.out;
+    const auto lines = replay_lines(made.out);
+    ASSERT_FALSE(lines.empty());
+    const auto again = run_assay(lines[0], "ASSAY_QUERY=free-above=600 ");
+    EXPECT_EQ(again.exit_code, 1) << again.out << again.err;
+    EXPECT_TRUE(contains(again.out, "DEFECT free-sound: answered free")) << again.out;
+  }
+}
+
+TEST_F(Repetitions, TheCertificateSaysUpToWhichSizeEachClaimWasTried) {
+  const auto made = judge("certify", "steps_and_query", 700, "--part steps");
+  EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "\nnot judged: the elementary query of this library\n"))
+      << made.out;
+  const auto stated = predicate();
+  EXPECT_EQ(stated["detector"]["unjudged_parts"], Json::array({"elementary query"}));
+  EXPECT_EQ(stated["detector"]["query_claims"], Json::array());
+  std::uint64_t most = 0;
+  for (const auto& row : stated["repeated"]) {
+    most = std::max(most, row["triangles"].get<std::uint64_t>());
+    ASSERT_FALSE(row["judged"].empty()) << row;
+    for (const auto& step : row["judged"]) EXPECT_TRUE(step["holds"]) << row;
+  }
+  ASSERT_EQ(stated["judged_up_to"].size(), 8u);
+  // Not every scene collides, and so a claim of contacts may be tried on smaller ones alone.
+  for (const auto& one : stated["judged_up_to"]) {
+    EXPECT_GT(one["triangles"], 600) << one;
+    if (one["claim"] == "deterministic" || one["claim"] == "total") {
+      EXPECT_EQ(one["triangles"], most) << one;
+    }
+  }
+  const std::string words = "meshes of up to 722 triangles (free-sound, not-late, ";
+  EXPECT_TRUE(contains(made.out, "\nclaims were tried on " + words)) << made.out;
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"), words));
+  EXPECT_TRUE(contains(read_text(out + "/summary.md"), "not judged: its elementary query;"));
+  EXPECT_EQ(run_assay("verify " + out + "/certificate.json").exit_code, 0);
+}
+
 TEST_F(Repetitions, OnSmallMeshesItIsNotAndWithoutTheFaultItHolds) {
   const auto small = judge("run", "threads_matter", 400);
   EXPECT_EQ(small.exit_code, 0) << small.out << small.err;
@@ -96,15 +143,19 @@ TEST_F(Repetitions, TheSameCommandRepeatsNothingTwice) {
 TEST_F(Repetitions, WhoAsksForNoThreadsIsRunTwice) {
   const auto made = judge("certify", "wrapped_builtin", 400);
   EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
-  for (const auto& row : predicate()["repeated"]) EXPECT_EQ(row["threads"], Json::parse("[1, 1]"));
+  for (const auto& row : predicate()["repeated"])
+    EXPECT_EQ(row["threads"], Json::parse("[1, 1, 1]"));
 }
 
-TEST_F(Repetitions, PublicSequencesAreRepeatedWhereTheyAreNamed) {
+TEST_F(Repetitions, AFolderWithoutThePublicSequencesIsRefused) {
   const auto refused = judge("run", "threads_matter", 400, "--data /nowhere");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.err, "assay: /nowhere: none of the public sequences is there\n");
-  const char* data = std::getenv("ASSAY_DATA");
-  if (!data) GTEST_SKIP() << "ASSAY_DATA is not set";
+}
+
+TEST_F(Repetitions, PublicSequencesAreRepeatedWhereTheyAreNamed) {
+  const char* data = public_data();
+  if (!data) GTEST_SKIP() << "no public data";
   const auto made = judge("certify", "threads_matter", 400, std::string("--data ") + data);
   EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
   const auto stated = predicate();

@@ -79,6 +79,11 @@ TEST(Replay, OfAPlugInShowsItsDefect) {
   const auto hang = run_assay("replay tiny:1:broken:1 --detector " + plugin("exit"));
   EXPECT_EQ(hang.exit_code, 1) << hang.out << hang.err;
   EXPECT_TRUE(contains(hang.out, "exited with code 0")) << hang.out;
+
+  const auto wrong =
+      run_assay("replay " + curated("A4_endpoints_only") + " --detector " + plugin("no_interval"));
+  EXPECT_TRUE(contains(wrong.out, "DEFECT total: error in step 1: its first time, [1, 0], is no"))
+      << wrong.out;
 }
 
 TEST(Replay, WhatIsNeitherIdNorFileIsRefused) {
@@ -90,6 +95,8 @@ TEST(Replay, WhatIsNeitherIdNorFileIsRefused) {
     expect_refused(run_assay("replay " + id), id);
   }
   expect_refused(run_assay("replay tiny:1:closed:5"), "CAMPAIGN:SEED:FAMILY:INDEX");
+  expect_refused(run_assay("replay smok:1:closed-generic:5"),
+                 "there is no campaign smok; did you mean smoke?");
   expect_refused(run_assay("replay"), "case");
   expect_refused(run_assay("replay /tmp"), "directory");
   expect_refused(run_assay("replay " + curated("A4_endpoints_only") + " --detector /nowhere.so"),

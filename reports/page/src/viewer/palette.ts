@@ -4,6 +4,9 @@ import type { SetName } from "../report";
 
 export const setNames: SetName[] = ["V+", "V-", "V0", "dirty", "violated", "none"];
 
+// The sets whose colours the two triangles of the pair have where a detector shows no view sets.
+export const pairSets: [SetName, SetName] = ["V+", "V-"];
+
 const variables: Record<SetName, string> = {
   "V+": "--set-positive",
   "V-": "--set-negative",

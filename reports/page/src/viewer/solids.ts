@@ -14,9 +14,9 @@ import {
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
-import type { Point, SetName } from "../report";
+import type { Point } from "../report";
 import type { Motion } from "./motion";
-import type { Palette } from "./palette";
+import { pairSets, type Palette } from "./palette";
 
 type Triangle = [number, number, number];
 
@@ -83,7 +83,8 @@ export class Solids {
     const triangles = this.motion.scene.triangles;
     set(this.faces.geometry, triangles.flatMap((f) => f.flatMap((v) => places[v]!)));
     const colours = triangles.flatMap((_, i) => {
-      const colour = this.palette.set(step.views?.sets[i] ?? ("none" as SetName));
+      const ofPair = pairSets[pair?.indexOf(i) ?? -1] ?? "none";
+      const colour = this.palette.set(step.views ? (step.views.sets[i] ?? "none") : ofPair);
       return [...colour.toArray(), ...colour.toArray(), ...colour.toArray()];
     });
     this.faces.geometry.setAttribute("color", new BufferAttribute(new Float32Array(colours), 3));

@@ -1,6 +1,6 @@
 // One failing mesh in 3D: time slider and play, the pair, contact points, ghosts, view primitive.
 import { html } from "../dom";
-import type { Failure, Scene } from "../report";
+import type { Contact, Failure, Scene } from "../report";
 import { shortTime } from "../words";
 import { Marks, timeOf, type MarkedContacts } from "./marks";
 import { Motion } from "./motion";
@@ -52,11 +52,11 @@ export class Viewer {
   // Marks a pair of a step and goes to where it meets.
   showPair(step: number, pair: [number, number] | null): void {
     this.pair = pair;
-    const of = (pairs: { triangles: [number, number] }[] | undefined) =>
-      pairs?.findIndex((c) => c.triangles[0] === pair?.[0] && c.triangles[1] === pair?.[1]) ?? -1;
+    const of = (pairs: Contact[] | undefined): Contact | null =>
+      pairs?.find((c) => c.triangles[0] === pair?.[0] && c.triangles[1] === pair?.[1]) ?? null;
     const at = this.scene.steps[step]!;
-    const exact = at.oracle.pairs[of(at.oracle.pairs)] ?? null;
-    const detector = at.detector?.pairs[of(at.detector.pairs)] ?? null;
+    const exact = of(at.oracle.pairs) ?? of(at.left_out);
+    const detector = of(at.detector?.pairs);
     this.contacts = { step, exact, detector };
     // A time that a detector does not state is the whole step: nothing to mark.
     const stated = detector && detector.time[1] - detector.time[0] < 1 ? detector : null;
@@ -136,13 +136,17 @@ export class Viewer {
   }
 }
 
-// The picture that is left where no 3D can be drawn.
-export function staticPicture(failure: Failure): HTMLElement {
+// The picture of the contact, for paper and for where no 3D can be drawn.
+export function picture(failure: Failure): HTMLElement | null {
   const source = `data:image/svg+xml,${encodeURIComponent(failure.svg ?? "")}`;
+  return failure.svg ? html("img", { src: source, alt: `The mesh of ${failure.signature} at its contact` }) : null;
+}
+
+export function staticPicture(failure: Failure): HTMLElement {
   return html(
     "div",
     { class: "static" },
     html("p", { class: "note" }, "This browser draws no WebGL: a picture at the time of the contact instead."),
-    failure.svg ? html("img", { src: source, alt: `The mesh of ${failure.signature} at its contact` }) : null,
+    picture(failure),
   );
 }

@@ -1,0 +1,78 @@
+// What a campaign does with a limit of time: trials first.
+#include "properties/campaign/phases/phases.h"
+
+#include <gtest/gtest.h>
+
+#include "properties/campaign/stored/binding.h"
+#include "tests/properties/campaign/campaign_request.h"
+#include "tests/properties/small_case.h"
+#include "tests/reports/program.h"
+
+namespace assay::properties {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class Noted : public CampaignObserver {
+ public:
+  void on_phase(const char* phase) override { phases.emplace_back(phase); }
+  void on_trials(const TrialsEnd& end) override {
+    trials = end;
+    until_trials_ended = std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+  void on_failures_shrunk(const KeptFailures& kept) override { failures = kept.list; }
+
+  const Clock::time_point begin = Clock::now();
+  double until_trials_ended = 0;
+  std::vector<std::string> phases;
+  TrialsEnd trials;
+  std::vector<StoredFailure> failures;
+};
+
+class Phases : public testing::Test {
+ protected:
+  Noted run(const CampaignRequest& request) const {
+    Noted noted;
+    auto store = Store::open(scratch / "store.sqlite", binding_of(request));
+    EXPECT_TRUE(store);
+    const auto ran = run_campaign(request, "", store.value(), noted);
+    EXPECT_TRUE(ran);
+    return noted;
+  }
+  static CampaignRequest always_free(std::uint64_t cases, double seconds) {
+    auto request = test::request_of(cases);
+    request.plan.seconds = seconds;
+    request.plan.laws_every = 0;
+    request.plan.fault_cases = 4;
+    request.plan.tetrahedron_seconds = 0.1;
+    request.plan.policy.repeated_triangles = 100;
+    request.plugin = test::plugin("always_free");
+    WorkerProcess worker(request.worker, request.plugin);
+    const auto told = worker.describe().value();
+    request.detector = {told.name, false, told.claims, told.contract, {{told.name, {}}}};
+    return request;
+  }
+  const tests::Scratch scratch;
+};
+
+TEST_F(Phases, TrialsHaveTheTimeWhileSomeAreMissing) {
+  constexpr double seconds = 4;
+  const auto noted = run(always_free(10'000'000, seconds));
+  EXPECT_FALSE(noted.trials.complete);
+  EXPECT_GE(noted.until_trials_ended, 0.85 * seconds);
+  EXPECT_EQ(noted.phases, (std::vector<std::string>{"trials", "shrinking", "slow cases"}));
+  // There is time to shrink what they showed, a little, where the machine does not stand still.
+  const bool stalled = noted.failures.empty() || noted.until_trials_ended > 1.1 * seconds;
+  EXPECT_TRUE(stalled || std::any_of(noted.failures.begin(), noted.failures.end(),
+                                     [](const StoredFailure& f) { return !f.smallest.empty(); }));
+}
+
+TEST_F(Phases, OnceTheTrialsAreDoneEverythingElseIs) {
+  const auto noted = run(always_free(2, 60));
+  EXPECT_TRUE(noted.trials.complete);
+  EXPECT_EQ(noted.phases, (std::vector<std::string>{"trials", "repetitions", "shrinking",
+                                                    "slow cases", "faults", "tetrahedron"}));
+}
+
+}  // namespace
+}  // namespace assay::properties
