@@ -9,11 +9,14 @@ namespace assay::properties {
 
 LawTable::LawTable() : tallies_(laws().size()) {}
 
+bool is_checked_on(const Law& law, std::string_view case_id) {
+  return Random(Random::hash(case_id), Random::hash(law.name)).one_in(law.one_in);
+}
+
 void LawTable::add(CaseFacts& facts) {
-  const auto id = Random::hash(facts.source().id);
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
     const Law& law = laws()[i];
-    if (Random(id, Random::hash(law.name)).one_in(law.one_in)) law.check(facts, tallies_[i]);
+    if (is_checked_on(law, facts.source().id)) law.check(facts, tallies_[i]);
   }
 }
 

@@ -9,6 +9,9 @@
 
 namespace assay::properties {
 
+// Whether the case is in the share of cases on which the law is checked (Law::one_in).
+bool is_checked_on(const Law& law, std::string_view case_id);
+
 // The order in which cases are added and tables are merged does not matter, so shards and threads
 // may have one each.
 class LawTable {

@@ -43,6 +43,13 @@ State state_of(pid_t id) {
 
 }  // namespace
 
+ChildEnd end_of_child(pid_t id) {
+  int status = 0;
+  while (::waitpid(id, &status, 0) < 0 && errno == EINTR) {
+  }
+  return end_of(status);
+}
+
 bool was_killed_from_outside(const ChildEnd& end) {
   if (end.by_host) return false;
   switch (end.signal) {
@@ -101,15 +108,13 @@ ChildEnd ChildProcess::finish(std::chrono::milliseconds patience) {
     in_time = std::chrono::steady_clock::now() < until;
     if (in_time) std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
-  int status = 0;
+  ChildEnd end = end_of(0);
   if (id_ >= 0) {
     // The number of the group is not used again as long as nobody has waited for its leader.
     if (state_of(id_) != State::not_ours) ::kill(-id_, SIGKILL);
-    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
-    }
+    end = end_of_child(id_);
     id_ = -1;
   }
-  ChildEnd end = end_of(status);
   end.by_host = !in_time && end.signal == SIGKILL;
   if (end.by_host) end.text.clear();
   return end;

@@ -25,6 +25,9 @@ struct ChildEnd {
   std::string text;
 };
 
+// Waits for the end of a child of this process. REQUIRES that nobody has waited for it.
+ChildEnd end_of_child(pid_t id);
+
 // Whether the child was killed by a signal that no error in a process brings about, and that the
 // host did not send. These are SIGKILL and SIGTERM, which an administrator, a job queue or a
 // machine short of memory sends, and SIGINT, SIGHUP and SIGQUIT, which come from a terminal that

@@ -1,11 +1,13 @@
 #include "reports/bench/peak_memory.h"
 
 #include <malloc.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include <cmath>
+#include <exception>
 #include <fstream>
 #include <string>
+
+#include "properties/worker/process_copy.h"
 
 namespace assay::reports {
 namespace {
@@ -52,27 +54,16 @@ double measured_in_child(const std::function<void()>& work, const std::function<
 
 std::optional<double> peak_memory_of(const std::function<void()>& work,
                                      const std::function<void()>& prepare) {
-  int ends[2];
-  if (pipe(ends) != 0) return std::nullopt;
   malloc_trim(0);
-  const pid_t child = fork();
-  if (child == 0) {
-    double bytes = -1;
-    try {
-      bytes = measured_in_child(work, prepare);
-    } catch (...) {  // the parent learns of it from the exit code
-      _exit(1);
-    }
-    const bool told = write(ends[1], &bytes, sizeof bytes) == sizeof bytes;
-    _exit(told ? 0 : 1);
+  try {
+    const auto run = properties::in_a_copy([&](const properties::Say& say) {
+      say(std::to_string(std::llround(measured_in_child(work, prepare))));
+    });
+    const double bytes = std::stod(run.said);
+    return bytes >= 0 ? std::optional(bytes) : std::nullopt;
+  } catch (const std::exception&) {  // the work threw, or ended its process without a word
+    return std::nullopt;
   }
-  close(ends[1]);
-  double bytes = -1;
-  const bool heard = child > 0 && read(ends[0], &bytes, sizeof bytes) == sizeof bytes;
-  close(ends[0]);
-  int status = 0;
-  if (child > 0) waitpid(child, &status, 0);
-  return heard && bytes >= 0 ? std::optional(bytes) : std::nullopt;
 }
 
 }  // namespace assay::reports

@@ -46,7 +46,13 @@ std::shared_ptr<const JudgedLibrary> JudgedLibrary::of(const fs::path& named,
 
 JudgedLibrary::JudgedLibrary(const fs::path& named, const fs::path& worker)
     : files_{{named, {}, {}}}, digest_(no_file("")) {
+  std::error_code error;
   if (!names_python(named.string())) {
+    // Reading a pipe would wait for its writer.
+    if (!fs::is_regular_file(named, error)) {
+      digest_ = no_file(fs::exists(named, error) ? "not a file" : "no such file");
+      return;
+    }
     std::vector<fs::path> files = {named};
     const auto needed = needed_files(named);
     files.insert(files.end(), needed.begin(), needed.end());
