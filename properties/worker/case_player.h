@@ -10,6 +10,11 @@
 
 namespace assay::properties {
 
+// The primitive that the case states for the step (corpus::view_of_step), as the detector takes
+// it; none if the case states none, or if the culling uses no views.
+std::vector<detector::ViewPrimitive> given_view(std::optional<detector::ViewPrimitive> stated,
+                                                detector::Culling culling);
+
 class CasePlayer {
  public:
   // Makes a new detector from the first frame, with these stages or the standard ones. The case

@@ -6,7 +6,7 @@
 #include "detector/detector.h"
 #include "detector/search/stopwatch.h"
 #include "properties/judging/case_options.h"
-#include "properties/worker/given_view.h"
+#include "properties/worker/case_player.h"
 #include "reports/check/subject.h"
 
 namespace assay::reports {

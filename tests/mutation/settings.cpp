@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "properties/worker/given_view.h"
+#include "properties/worker/case_player.h"
 
 namespace assay::mutation {
 namespace {

@@ -11,7 +11,6 @@
 #include "properties/laws/metamorphic/result_equality.h"
 #include "properties/laws/step_law.h"
 #include "properties/worker/case_player.h"
-#include "properties/worker/given_view.h"
 
 namespace assay::properties {
 namespace {

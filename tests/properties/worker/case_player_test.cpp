@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "properties/judging/fault_run.h"
-#include "properties/worker/given_view.h"
 
 namespace assay::properties {
 namespace {
