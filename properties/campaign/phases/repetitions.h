@@ -24,8 +24,8 @@ bool is_repeated(const CampaignPlan& plan, bool built_in);
 // A scene as it is put to a plug-in. The seed draws its size, which is the wanted number of
 // triangles or, for about half of the scenes, between it and the largest of the trials. The seed
 // also draws the number of frames, the order of vertices, triangles and corners, and one linear map
-// near the identity, through which all frames go. So these meshes are known to nobody before the seed is. The map keeps contacts and
-// their times, but for what rounding decides.
+// near the identity, through which all frames go. So these meshes are known to nobody before the
+// seed is. The map keeps contacts and their times, but for what rounding decides.
 corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
                             std::uint64_t seed);
 
