@@ -14,7 +14,6 @@
 #include "oracle/out_of_memory.h"
 #include "properties/words.h"
 #include "reports/terminal/complaint.h"
-#include "reports/terminal/exit_code.h"
 #include "reports/terminal/version.h"
 #include "reports/verbs/verbs.h"
 

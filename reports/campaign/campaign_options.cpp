@@ -10,7 +10,7 @@
 #include "reports/bench/real_sequences.h"
 #include "reports/campaign/own_cases.h"
 #include "reports/check/detector_choice.h"
-#include "reports/terminal/interruption.h"
+#include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {

@@ -10,8 +10,8 @@
 #include "reports/campaign/slow_text.h"
 #include "reports/check/detector_choice.h"
 #include "reports/check/plugin_text.h"
-#include "reports/terminal/exit_code.h"
-#include "reports/terminal/plain_progress.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/progress.h"
 
 namespace assay::reports {
 

@@ -8,7 +8,7 @@
 #include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/stored/count_names.h"
 #include "reports/steps/measures_text.h"
-#include "reports/terminal/exit_code.h"
+#include "reports/terminal/complaint.h"
 
 namespace assay::reports {
 namespace {

@@ -13,7 +13,7 @@
 #include "reports/check/detector_choice.h"
 #include "reports/check/plugin_text.h"
 #include "reports/pictures/scene_maker.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 

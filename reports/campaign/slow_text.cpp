@@ -8,7 +8,7 @@
 #include "properties/reducer/mesh_size.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/pictures/scene_maker.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "properties/campaign/plan.h"
 #include "reports/steps/measures_text.h"
-#include "reports/terminal/joined.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reports/certificate/summary.h"
-#include "reports/terminal/replaced.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

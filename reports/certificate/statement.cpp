@@ -8,7 +8,7 @@
 #include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/sections.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

@@ -9,7 +9,7 @@
 #include "reports/certificate/judged_text.h"
 #include "reports/certificate/junit.h"
 #include "reports/steps/measures_text.h"
-#include "reports/terminal/replaced.h"
+#include "reports/terminal/words.h"
 #include "reports/terminal/text_file.h"
 
 namespace assay::reports {

@@ -5,8 +5,8 @@
 #include "properties/judging/agreement.h"
 #include "reports/steps/measures_text.h"
 #include "reports/steps/step_text.h"
-#include "reports/terminal/exit_code.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/complaint.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 

@@ -16,7 +16,7 @@
 #include "reports/steps/step_json.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/progress.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 

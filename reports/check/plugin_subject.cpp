@@ -7,7 +7,7 @@
 #include "properties/printable.h"
 #include "reports/check/plugin_text.h"
 #include "reports/check/subject.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

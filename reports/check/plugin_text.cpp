@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/terminal/joined.h"
-#include "reports/terminal/replaced.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 

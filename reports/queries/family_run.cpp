@@ -9,7 +9,7 @@
 #include "properties/queries/self_test_run.h"
 #include "reports/queries/query_detector.h"
 #include "reports/steps/step_text.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

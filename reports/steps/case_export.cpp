@@ -10,7 +10,7 @@
 #include "properties/worker/case_player.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/steps/owner_export.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {
@@ -81,7 +81,6 @@ std::string asked_text(const properties::Claims& claims, bool exact,
 
 constexpr const char* test_head = R"(#include <gtest/gtest.h>
 
-#include <algorithm>
 
 #include "detector/detector.h"
 #include "detector/step_result.h"

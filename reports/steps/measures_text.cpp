@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "properties/campaign/gates/measure_rates.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

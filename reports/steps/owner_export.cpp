@@ -9,7 +9,7 @@
 
 #include "properties/judging/contact_parts.h"
 #include "properties/worker/plugin/query_case.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {
@@ -279,7 +279,6 @@ constexpr const char* reading =
 #include <dlfcn.h>
 
 #include <csignal>
-#include <cstdint>
 #include <cstdlib>
 
 #include "detector/plugin/assay_detector.h"

@@ -1,4 +1,4 @@
-// Why a verb cannot go on, and the one line on stderr that says so.
+// How a verb ends: its exit code, and the one line on stderr that says why it cannot go on.
 #pragma once
 
 #include <boost/outcome/basic_result.hpp>
@@ -7,9 +7,18 @@
 #include <string>
 
 #include "properties/problem.h"
-#include "reports/terminal/exit_code.h"
 
 namespace assay::reports {
+
+// The exit codes of every verb. If several apply, the first of 2, 4, 1, 3, 5, 0 is used.
+enum ExitCode : int {
+  exit_holds = 0,      // all claims hold
+  exit_defect = 1,     // detector and oracle (or truth, or expected facts) differ
+  exit_usage = 2,      // usage or input error: one line on stderr, nothing else
+  exit_undecided = 3,  // a step ended at a limit
+  exit_unsound = 4,    // the harness failed a check of itself
+  exit_collision = 5,  // with --fail-on-collision: agreement, and a collision
+};
 
 // The line that the user reads, and the exit code. The other rooms (detector, corpus, properties)
 // fail with problems that have a kind and a message. A problem is made into a refusal here, and
@@ -48,5 +57,11 @@ inline int refuse(const Refusal& refusal) noexcept {
 
 // Whether all that was printed reached stdout; if not, says so on stderr.
 bool output_was_written() noexcept;
+
+// For work that keeps what it has and can go on later: from now on SIGINT and SIGTERM end the
+// program with `code`, once `line` is printed. REQUIRES that no thread has started yet; threads started later leave the two signals to the program.
+// Workers are not affected: a ctrl-C in a terminal does not reach them, and they block nothing
+// (properties/worker/child_process.h). A signal that is ignored stays ignored.
+void end_when_interrupted(const std::string& line, int code);
 
 }  // namespace assay::reports

@@ -9,8 +9,8 @@
 #include "reports/check/query_score.h"
 #include "reports/queries/query_detector.h"
 #include "reports/terminal/complaint.h"
-#include "reports/terminal/joined.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/words.h"
 #include "reports/terminal/text_file.h"
 #include "reports/verbs/verbs.h"
 

@@ -24,8 +24,8 @@
 #include "reports/steps/pair_story.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/complaint.h"
-#include "reports/terminal/joined.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

@@ -9,7 +9,7 @@
 #include "reports/page/data/run_json.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/plain_progress.h"
+#include "reports/terminal/progress.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/version.h"
 #include "reports/verbs/verbs.h"

@@ -14,7 +14,7 @@
 #include "reports/certificate/summary.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

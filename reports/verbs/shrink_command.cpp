@@ -9,10 +9,9 @@
 #include "reports/check/detector_choice.h"
 #include "reports/pictures/scene_maker.h"
 #include "reports/terminal/complaint.h"
-#include "reports/terminal/interruption.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/plain_progress.h"
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/progress.h"
+#include "reports/terminal/words.h"
 #include "reports/terminal/text_file.h"
 #include "reports/verbs/verbs.h"
 

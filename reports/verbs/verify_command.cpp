@@ -12,7 +12,7 @@
 #include "reports/certificate/verify.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/plain_progress.h"
+#include "reports/terminal/progress.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

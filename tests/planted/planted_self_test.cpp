@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "properties/queries/self_test_run.h"
-#include "reports/terminal/exit_code.h"
+#include "reports/terminal/complaint.h"
 
 int main(int argc, char** argv) {
   using namespace assay;

@@ -7,7 +7,7 @@
 
 #include "properties/campaign/stored/contract_json.h"
 #include "reports/bench/speed_error/error_output.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

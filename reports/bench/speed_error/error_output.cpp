@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/judging/case_check.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

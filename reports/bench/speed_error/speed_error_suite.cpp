@@ -7,7 +7,7 @@
 #include "properties/judging/case_check.h"
 #include "reports/bench/speed_error/error_output.h"
 #include "reports/bench/speed_error/error_runs.h"
-#include "reports/terminal/joined.h"
+#include "reports/terminal/words.h"
 
 namespace assay::reports {
 namespace {

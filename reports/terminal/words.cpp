@@ -1,4 +1,4 @@
-#include "reports/terminal/shell_word.h"
+#include "reports/terminal/words.h"
 
 #include <unistd.h>
 
@@ -56,6 +56,20 @@ std::string detector_words(const std::string& library, std::uint64_t threads) {
   if (library.empty()) return "";
   const std::string words = " --detector " + shell_word(library);
   return threads == 1 ? words : words + " --threads " + std::to_string(threads);
+}
+
+std::string replaced(std::string_view text, const std::map<char, std::string_view>& characters) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    const auto found = characters.find(c);
+    if (found == characters.end()) {
+      out += c;
+    } else {
+      out += found->second;
+    }
+  }
+  return out;
 }
 
 }  // namespace assay::reports

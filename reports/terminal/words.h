@@ -1,11 +1,27 @@
-// Words of a command that can be pasted into a shell.
+// Words as text: with characters replaced, joined to one line, or as a command that can be pasted.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <string_view>
 
 namespace assay::reports {
+
+// Writes characters that have a meaning in a format in the way in which that format wants them: the
+// text in which each character that is a key of `characters` is replaced by its value.
+std::string replaced(std::string_view text, const std::map<char, std::string_view>& characters);
+
+// The items of a list as one line of text, with `between` between them.
+template <class List>
+std::string joined(const List& list, const char* between) {
+  std::string text;
+  for (const auto& item : list) text += fmt::format("{}{}", text.empty() ? "" : between, item);
+  return text;
+}
 
 // The word itself, or the word in quotes if a shell would read it as something else.
 std::string shell_word(const std::string& word);
