@@ -1,6 +1,8 @@
 #include "properties/judging/agreement.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "detector/detector.h"
 #include "properties/judging/first_contact_graph.h"
@@ -52,6 +54,10 @@ class Comparison {
         times_{unique_times, contract.time_tolerance} {}
 
   StepDiff run(StepTruth truth) {
+    diff_.answer = result_.answer;
+    diff_.oracle_complete = judgement_.complete;
+    diff_.nothing_in_contact = judgement_.complete && judgement_.pairs.empty();
+    diff_.claims_pairs = claims_.all_pairs || claims_.first_pairs;
     if (result_.answer == Answer::error) {
       broken(Claim::total, true);
       diff_.outcome = diff_.broken.empty() ? Outcome::error : Outcome::defect;
@@ -109,7 +115,7 @@ class Comparison {
   void compare_answers() {
     const bool collision = result_.answer == Answer::collision;
     diff_.answered_free = result_.answer == Answer::free && !truth_.pairs.empty();
-    diff_.answered_collision = collision && judgement_.complete && judgement_.pairs.empty();
+    diff_.answered_collision = collision && diff_.nothing_in_contact;
     if (collision && !truth_.pairs.empty()) compare_first_times();
     if (diff_.answered_free || diff_.late_first) return;
     for (const auto& contact : diff_.left_out) {
@@ -183,11 +189,18 @@ class Comparison {
   StepDiff diff_;
 };
 
+// The place of a finite double among all of them. -0 and 0 have the same place.
+std::int64_t ordinal(double x) {
+  const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
+  return x < 0 ? -bits : bits;
+}
+
 }  // namespace
 
 TimeOff time_off(const TimeEnclosure& stated, const TimeEnclosure& exact, double tolerance) {
-  if (stated.lo > exact.lo + tolerance) return {stated.lo - exact.lo, 0};
-  if (stated.lo < exact.lo - tolerance) return {0, exact.lo - stated.lo};
+  const double ulps = std::abs(static_cast<double>(ordinal(stated.lo) - ordinal(exact.lo)));
+  if (stated.lo > exact.lo + tolerance) return {stated.lo - exact.lo, 0, ulps};
+  if (stated.lo < exact.lo - tolerance) return {0, exact.lo - stated.lo, ulps};
   return {};
 }
 

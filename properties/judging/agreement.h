@@ -29,9 +29,10 @@ struct WrongTime {
 // its interval, because that is how far the caller goes: it is late if this end is after t*, and
 // early if it is before t*, each by more than the tolerance. So [0.25, 1] states a time, and where
 // t* is 0.75 it is early by 0.5, although it holds t*. At most one of the two is not 0. Every count
-// of late and early first times is one of these.
+// of late and early first times is one of these (step_errors.h).
 struct TimeOff {
   double late = 0, early = 0;
+  double ulps = 0;  // how many doubles lie between the two lower ends; 0 if neither late nor early
 };
 TimeOff time_off(const detector::TimeEnclosure& stated, const detector::TimeEnclosure& exact,
                  double tolerance);
@@ -51,6 +52,10 @@ struct CandidateCount {
 struct StepDiff {
   Outcome outcome = Outcome::holds;
   std::vector<Claim> broken;  // claims of the detector that this step refutes
+  detector::Answer answer = detector::Answer::undecided;  // the detector's
+  bool oracle_complete = false;                           // false: the oracle was stopped
+  bool nothing_in_contact = false;  // by a complete oracle, whatever the contract leaves out
+  bool claims_pairs = false;        // all-pairs or first-pairs is claimed
   // The detector or the oracle was stopped: only what both reached is compared.
   bool partial = false;
   bool answered_free = false;       // `free`, although there is a contact that counts

@@ -62,6 +62,7 @@ StepDiff compare_step(const CaseRun& run, std::size_t s, const oracle::StepJudge
                       const detector::TrianglesView& triangles) {
   StepDiff diff = run.has_answers ? compare(run.steps[s], judgement, claims, contract, triangles)
                                   : diff_without_answer(run.steps[s], claims);
+  diff.oracle_complete = judgement.complete;
   const CandidatePairs none;
   const auto& candidates = s < run.candidates.size() ? run.candidates[s] : none;
   judge_candidates(candidates, judgement, claims, contract, triangles, diff);
