@@ -9,7 +9,7 @@
 #include "properties/campaign/trials/clean_starts.h"
 #include "properties/generators/families.h"
 #include "properties/laws/facts/carried_state.h"
-#include "properties/queries/query_generators.h"
+#include "properties/queries/query_families.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/mutation/settings.h"
 

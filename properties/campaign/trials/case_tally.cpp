@@ -6,10 +6,10 @@
 #include "properties/campaign/stored/store.h"
 #include "properties/campaign/trials/law_checks.h"
 #include "properties/campaign/trials/trial.h"
-#include "properties/generators/tag_table.h"
+#include "properties/generators/pair_blocks.h"
 #include "properties/judging/case_options.h"
 #include "properties/laws/facts/case_facts.h"
-#include "properties/laws/law_table.h"
+#include "properties/laws/law.h"
 
 namespace assay::properties {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "properties/campaign/stored/record.h"
-#include "properties/generators/generated_case.h"
+#include "properties/generators/draft.h"
 #include "properties/laws/law.h"
 #include "properties/reducer/reducer.h"
 #include "properties/worker/case_run.h"

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "properties/as_printed/toll.h"
+#include "properties/as_printed.h"
 #include "reports/bench/claims/claims_parts.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/same_answers.h"

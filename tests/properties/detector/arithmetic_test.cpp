@@ -10,7 +10,7 @@
 #include "detector/contact/elementary.h"
 #include "detector/detector.h"
 #include "properties/judging/case_check.h"
-#include "properties/queries/query_generators.h"
+#include "properties/queries/query_families.h"
 #include "properties/worlds/small_steps.h"
 #include "tests/public_data.h"
 

@@ -4,8 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "properties/as_printed/deviations.h"
-#include "properties/as_printed/toll.h"
+#include "properties/as_printed.h"
 #include "properties/judging/fault_run.h"
 
 namespace assay::properties {

@@ -8,7 +8,7 @@
 
 #include "oracle/mesh/step.h"
 #include "properties/generators/families.h"
-#include "properties/generators/tag_table.h"
+#include "tests/properties/generators/tag_table.h"
 #include "properties/judging/case_check.h"
 
 namespace assay::properties {

@@ -5,9 +5,13 @@
 // are kept.
 #pragma once
 
+#include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <limits>
+#include <span>
 
 #include "detector/mesh/step_types.h"
+#include "detector/mesh/topology.h"
 
 namespace assay::properties {
 
@@ -46,5 +50,37 @@ class ExactView {
   ExactPoint q0_, q1_, d_, normal_;
   ExactInteger length2_;  // |d|^2, or 1 for a point
 };
+
+// The smallest and the largest magnitude of the values that a law rests on in one step, such as the
+// determinants whose signs it compares. A value near 0 beside large ones means that the law was
+// tried close to where rounding could break it.
+
+// The range of magnitudes, none of them negative. At first it holds no value.
+struct ValueRange {
+  double smallest = std::numeric_limits<double>::infinity();
+  double largest = 0;
+
+  void widen(double size) { widen({size, size}); }
+  void widen(const ValueRange& other) {
+    smallest = std::min(smallest, other.smallest);
+    largest = std::max(largest, other.largest);
+  }
+};
+
+inline constexpr double close_share = 0.01;
+// Whether the smallest is at most 1 % of the largest.
+inline bool is_close(const ValueRange& range) {
+  return range.smallest <= close_share * range.largest;
+}
+
+// The values are |(x - n(x)).N| at the vertices of the triangles, at 17 times of the step. A sign
+// change of a triangle counts as 0. They are in units of the step's own, so that nothing
+// overflows.
+//
+// Looks at the triangles given (indices into `surface`), all seen from one primitive. The rows of
+// x are the vertices of the surface. About 0.5 us a triangle.
+ValueRange view_range(const detector::Topology& surface, std::span<const std::int32_t> triangles,
+                      const detector::SteppedMesh& motion,
+                      const detector::ViewPrimitive& primitive);
 
 }  // namespace assay::properties

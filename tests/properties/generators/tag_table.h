@@ -1,36 +1,58 @@
-#include "properties/generators/tag_table.h"
+// Counts how often each tag and each block of set pairs occurs in a run, which shows what the
+// generators reached.
+#pragma once
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <iterator>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "detector/mesh/step_types.h"
+#include "oracle/mesh/step.h"
 #include "properties/claims/claims.h"
+#include "properties/generators/pair_blocks.h"
 #include "properties/numbering.h"
 
-namespace assay::properties {
+namespace assay::properties::test {
 
-using detector::ViewSign;
+class TagTable {
+ public:
+  // Adds one case, and how many of its steps collide.
+  void add(const std::vector<std::string>& tags, std::uint64_t steps, std::uint64_t collisions);
+  // Adds the contacts of one step. Both spans are by triangle: the signs of all, and Vv as 0 or 1,
+  // or empty if no triangle is in Vv.
+  void add_contacts(const detector::TrianglesView& triangles,
+                    const oracle::StepJudgement& judgement,
+                    std::span<const detector::ViewSign> signs,
+                    std::span<const std::uint8_t> violated);
+  void merge(const TagTable& other);
 
-const char* name_of(PairBlock block) {
-  constexpr const char* names[pair_blocks] = {"V+ V-",  "V+ V0", "V- V0", "V0 V0",
-                                              "Vv any", "V+ V+", "V- V-"};
-  return names[static_cast<std::size_t>(block)];
-}
+  struct TagCount {
+    std::uint64_t cases = 0, steps = 0, collisions = 0;
+  };
+  // Each array is by the number of vertices that a pair shares: 0, 1, 2.
+  struct BlockCount {
+    std::array<std::uint64_t, 3> contacts = {}, first_contacts = {};
+  };
+  const std::map<std::string, TagCount>& tags() const { return tags_; }
+  const BlockCount& block(PairBlock b) const { return blocks_[static_cast<std::size_t>(b)]; }
 
-PairBlock block_of(ViewSign a, ViewSign b, bool either_violated) {
-  if (either_violated) return PairBlock::violated;
-  if (a == ViewSign::zero && b == ViewSign::zero) return PairBlock::zero_zero;
-  if (a == ViewSign::zero || b == ViewSign::zero) {
-    const ViewSign other = a == ViewSign::zero ? b : a;
-    return other == ViewSign::positive ? PairBlock::positive_zero : PairBlock::negative_zero;
-  }
-  if (a != b) return PairBlock::positive_negative;
-  return a == ViewSign::positive ? PairBlock::positive_positive : PairBlock::negative_negative;
-}
+  // Two tables of plain text, tags ascending; one line a row.
+  std::string text() const;
 
-void TagTable::add(const std::vector<std::string>& tags, std::uint64_t steps,
-                   std::uint64_t collisions) {
+ private:
+  std::map<std::string, TagCount> tags_;
+  std::array<BlockCount, pair_blocks> blocks_;
+};
+
+inline void TagTable::add(const std::vector<std::string>& tags, std::uint64_t steps,
+                          std::uint64_t collisions) {
   for (const auto& tag : tags) {
     TagCount& count = tags_[tag];
     ++count.cases;
@@ -39,9 +61,10 @@ void TagTable::add(const std::vector<std::string>& tags, std::uint64_t steps,
   }
 }
 
-void TagTable::add_contacts(const detector::TrianglesView& triangles,
-                            const oracle::StepJudgement& judgement, std::span<const ViewSign> signs,
-                            std::span<const std::uint8_t> violated) {
+inline void TagTable::add_contacts(const detector::TrianglesView& triangles,
+                                   const oracle::StepJudgement& judgement,
+                                   std::span<const detector::ViewSign> signs,
+                                   std::span<const std::uint8_t> violated) {
   const auto in_vv = [&](std::int32_t t) { return !violated.empty() && violated[at(t)] != 0; };
   for (const auto& contact : judgement.pairs) {
     const auto [a, b] = contact.pair;
@@ -54,7 +77,7 @@ void TagTable::add_contacts(const detector::TrianglesView& triangles,
   }
 }
 
-void TagTable::merge(const TagTable& other) {
+inline void TagTable::merge(const TagTable& other) {
   for (const auto& [tag, count] : other.tags_) {
     TagCount& own = tags_[tag];
     own.cases += count.cases;
@@ -69,7 +92,7 @@ void TagTable::merge(const TagTable& other) {
   }
 }
 
-std::string TagTable::text() const {
+inline std::string TagTable::text() const {
   std::string out;
   const auto to = std::back_inserter(out);
   fmt::format_to(to, "{:<28} {:>9} {:>9} {:>10}\n", "tag", "cases", "steps", "collisions");
@@ -90,4 +113,4 @@ std::string TagTable::text() const {
   return out;
 }
 
-}  // namespace assay::properties
+}  // namespace assay::properties::test
