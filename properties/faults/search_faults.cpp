@@ -1,5 +1,5 @@
 // A wrong tree: marks that do not reach the root or are taken back too early, nodes that are
-// skipped for the wrong partial tree, boxes of another step, and a search that detectors share. Then
+// skipped for the wrong partial tree, boxes of another step, a search that detectors share, and
 // wrong normal cones.
 
 #include <algorithm>

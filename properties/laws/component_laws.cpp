@@ -142,8 +142,8 @@ PinnedRun taken_out(const CaseFacts& facts, const PinnedRun& run, std::size_t co
   return alone;
 }
 
-std::string compare(const CaseFacts& facts, const detector::StepResult& among,
-                    const detector::StepResult& alone, std::size_t component) {
+std::string difference_alone(const CaseFacts& facts, const detector::StepResult& among,
+                             const detector::StepResult& alone, std::size_t component) {
   const auto& own = facts.surface().mesh.components[component].triangles;
   if (alone.doubts.size() != own.size()) return "no answer alone";
   for (std::size_t i = 0; i < own.size(); ++i) {
@@ -182,7 +182,7 @@ void check_component_alone(CaseFacts& facts, LawTally& tally) {
   if (!player) return;
   const auto results = player->play();
   for (std::size_t s = 0; s < facts.steps(); ++s) {
-    note(facts, s, compare(facts, facts.result(s), results[s], component), tally);
+    note(facts, s, difference_alone(facts, facts.result(s), results[s], component), tally);
   }
 }
 

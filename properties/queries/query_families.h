@@ -33,8 +33,8 @@ inline constexpr std::size_t query_generator_count = 9;
 // All generators; small-int comes first.
 std::span<const QueryGenerator> query_generators();
 
-// One family for each generator, "query-small-int" and so on, and
-// "query-extreme". make_case (families.h) makes their cases, each from its id alone.
+// One family for each generator, "query-small-int" and so on, and "query-extreme". make_case
+// (families.h) makes their cases, each from its id alone.
 std::span<const Family> query_families();
 
 // The family of this name, be it of meshes or of queries; null if there is none.

@@ -1,7 +1,7 @@
 #include "reports/certificate/other_checks.h"
 
 #include "properties/campaign/plan.h"
-#include "properties/queries/self_test.h"
+#include "properties/queries/self_check.h"
 #include "reports/bench/contact_step.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/timed_step.h"

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "properties/queries/self_test.h"
+#include "properties/queries/self_check.h"
 #include "reports/queries/query_detector.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/words.h"

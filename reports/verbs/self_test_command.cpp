@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "properties/queries/self_test.h"
+#include "properties/queries/self_check.h"
 #include "reports/queries/family_run.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "properties/queries/self_test.h"
+#include "properties/queries/self_check.h"
 #include "reports/terminal/complaint.h"
 
 int main(int argc, char** argv) {

@@ -19,7 +19,7 @@
 #include "properties/generators/pair_blocks.h"
 #include "properties/numbering.h"
 
-namespace assay::properties::test {
+namespace assay::properties {
 
 class TagTable {
  public:
@@ -113,4 +113,4 @@ inline std::string TagTable::text() const {
   return out;
 }
 
-}  // namespace assay::properties::test
+}  // namespace assay::properties

@@ -1,4 +1,4 @@
-#include "properties/queries/self_test.h"
+#include "properties/queries/self_check.h"
 
 #include <fmt/format.h>
 
