@@ -1,7 +1,7 @@
 // Wrong view tests.
 //
-// From a point: here f = (p0 - q).N is a cubic in t, and every short cut looks at
-// less than all of it (L2).
+// From a point: here f = (p0 - q).N is a cubic in t, and every short cut looks at less than all of
+// it (L2).
 
 #include "detector/bernstein/bernstein.h"
 #include "detector/geometry/winding.h"
@@ -170,8 +170,8 @@ std::vector<Fault> view_point_faults() {
   };
 }
 
-// From a line: every corner needs its own nearest point at every time (L1), and
-// all triangles of a component need one field of view rays (L10).
+// From a line: every corner needs its own nearest point at every time (L1), and all triangles of a
+// component need one field of view rays (L10).
 
 namespace {
 

@@ -1,5 +1,5 @@
-// L3, L6 and L7: what K holds of the contacts of a step, what it may leave out, and what the closure
-// adds; and the claims of the detector.
+// L3, L6 and L7: what K holds of the contacts of a step, what it may leave out, and what the
+// closure adds; and the claims of the detector.
 
 #include <fmt/format.h>
 
