@@ -6,14 +6,6 @@ namespace assay::properties {
 
 using detector::Detector;
 
-std::vector<detector::ViewPrimitive> given_view(std::optional<detector::ViewPrimitive> stated,
-                                                detector::Culling culling) {
-  if (!stated || !uses_views(culling)) return {};
-  // A segment serves as a point by its first end.
-  if (culling == detector::Culling::view_point) stated->q1 = stated->q0;
-  return {*stated};
-}
-
 CasePlayer::CasePlayer(const corpus::Case& c, const detector::Options& options, Detector detector)
     : case_(&c), script_(corpus::steps_of(c)), detector_(std::move(detector)) {
   for (std::size_t s = 0; s < script_.size(); ++s) {

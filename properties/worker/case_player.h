@@ -11,9 +11,15 @@
 namespace assay::properties {
 
 // The primitive that the case states for the step (corpus::view_of_step), as the detector takes
-// it; none if the case states none, or if the culling uses no views.
-std::vector<detector::ViewPrimitive> given_view(std::optional<detector::ViewPrimitive> stated,
-                                                detector::Culling culling);
+// it; none if the case states none, or if the culling uses no views. It is inline because
+// tests/mutation links the detector alone.
+inline std::vector<detector::ViewPrimitive> given_view(
+    std::optional<detector::ViewPrimitive> stated, detector::Culling culling) {
+  if (!stated || !uses_views(culling)) return {};
+  // A segment serves as a point by its first end.
+  if (culling == detector::Culling::view_point) stated->q1 = stated->q0;
+  return {*stated};
+}
 
 class CasePlayer {
  public:
