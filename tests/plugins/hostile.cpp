@@ -616,6 +616,7 @@ const assay_detector_api* assay_detector() {
   if (mode == "forge-refusal-kind") forge_refusal(ProblemKind::busy, "it is busy");
   if (mode == "forge-name") forge_hello("a\nb", 0);
   if (mode == "forge-built-in") forge_hello("Built-in", 0);
+  if (mode == "forge-built-in-1") forge_hello("built in 1", 0);
   if (mode == "forge-turned-name") forge_hello("fine \u202e", 0);
   if (mode == "forge-space") forge_hello(" ", 0);
   if (mode == "forge-long-name") forge_hello(std::string(101, 'x'), 0);

@@ -46,10 +46,12 @@ std::string fault_of_name(std::string_view name) {
     return "a name or version with characters that nobody sees";
   if (name.starts_with(' ') || name.ends_with(' '))
     return "a name or version that begins or ends with a space";
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (lower == "built-in") return "the name of the built-in detector";
+  // However it is written: "Built in", "built-in 1".
+  std::string letters;
+  for (const unsigned char c : name) {
+    if (std::isalpha(c) != 0) letters += static_cast<char>(std::tolower(c));
+  }
+  if (letters == "builtin") return "the name of the built-in detector";
   return "";
 }
 

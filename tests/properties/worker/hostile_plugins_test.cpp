@@ -166,6 +166,7 @@ TEST_F(Hostile, ForgedDescriptionsAreNamed) {
            {"forge-long-refusal", "a refusal that is no line"},
            {"forge-refusal-kind", "a refusal that loading a plug-in does not end with"},
            {"forge-built-in", "the name of the built-in detector"},
+           {"forge-built-in-1", "the name of the built-in detector"},
            {"forge-turned-name", "a name or version with characters that nobody sees"},
            {"forge-space", "a name or version that begins or ends with a space"},
            {"forge-long-name", "a name or version of 101 characters, and 100 are the most"},
