@@ -219,15 +219,18 @@ int run_replay(const ReplayRequest& request) {
                               request.id_or_file, properties::why_left_out(c, contract)));
   }
   const auto truth = properties::judge_case(*seen, contract);
-  properties::WorkerProcess worker(subject.worker, subject.plugin,
-                                   {.isolation = subject.isolation, .threads = subject.threads});
+  properties::WorkerLimits limits{.isolation = subject.isolation, .threads = subject.threads};
+  properties::WorkerProcess worker(subject.worker, subject.plugin, limits);
   const auto runs = worker.run(*seen, subject.detector.configurations);
   for (const auto& run : runs) {
     if (run.end == properties::RunEnd::not_run) return refuse(run.explanation);
   }
-  // A plug-in that claims to be deterministic is asked twice, as in a campaign.
+  // A plug-in that claims to be deterministic is asked again, in another process, as in a campaign.
   const bool asks_twice = !subject.detector.built_in && subject.detector.claims.deterministic;
-  const auto again = asks_twice ? worker.run(*seen, subject.detector.configurations)
+  limits.variation = 1;
+  limits.least = worker.isolation();
+  properties::WorkerProcess second(subject.worker, subject.plugin, limits);
+  const auto again = asks_twice ? second.run(*seen, subject.detector.configurations)
                                 : std::vector<properties::CaseRun>{};
   if (!request.export_folder.empty()) {
     const auto written = export_case(request.export_folder, *seen, subject.detector, truth);

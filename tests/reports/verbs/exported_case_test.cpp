@@ -134,13 +134,14 @@ TEST_F(ExportedPlugIn, AsksForEachClaim) {
                           {"all-pairs", contract, "claims=16 drop-last", contract, "claims=16"},
                           {"no-spurious", contract, "claims=32 early=0.1", contract, "claims=32"},
                           {"deterministic", contract, "claims=64 changing", contract, "claims=64"},
+                          {"deterministic", "wrong_wrapper", "10", "wrapped_builtin", "none"},
                           {"total", contract, "claims=128 no-interval", contract, "claims=128"},
                           {"total", contract, "claims=128 abort", contract, "claims=128"},
                           {"total", "exit", "none", "wrapped_builtin", "none"},
                           {"candidates", candidates, "every-second", candidates, "none"}}) {
     SCOPED_TRACE(std::string(claim) + " " + name);
     const auto words = [](const std::string& given) {
-      return "ASSAY_BY_CONTRACT='" + given +
+      return "ASSAY_BY_CONTRACT='" + given + "' ASSAY_TEST_WRONG='" + given +
              "' ASSAY_CANDIDATES=" + given.substr(0, given.find(' '));
     };
     const auto exported = export_case(curated("D6_fast_passage"), name, words(wrong));
