@@ -90,8 +90,8 @@ void add_part(Verb& verb, DetectorPart& part) {
                              : std::nullopt;
   };
   add_choice(verb, "--part", part, "steps, query", parse,
-             "What of the plug-in is judged: whole steps with their candidates (default where it "
-             "has them), or its elementary query");
+             "What of the plug-in is judged: whole steps with their candidates, or its elementary "
+             "query (default: all that it holds)");
 }
 
 VerbOption add_detector_alone(Verb& verb, DetectorWords& detector, const std::string& about) {
