@@ -14,7 +14,7 @@
 //   abort-at-start                           aborts where the first contact is at 0
 //   no-interval, no-answer, nan              what is no result
 //   abort-outside                            aborts when a query out of the contract is put to it
-//   free-above=N                             the steps of larger meshes are answered free
+//   free-above=N, undecided-above=N          how the steps of larger meshes are answered
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -160,8 +160,11 @@ std::int32_t create(const std::int32_t* triangles, std::uint64_t m, const double
 }
 
 std::int32_t result(assay_handle* handle, assay_result* out) {
-  if (has("free-above") && static_cast<double>(triangle_count) > number_of("free-above")) {
-    out->answer = ASSAY_FREE;
+  const auto is_above = [](const char* word) {
+    return has(word) && static_cast<double>(triangle_count) > number_of(word);
+  };
+  if (is_above("free-above") || is_above("undecided-above")) {
+    out->answer = is_above("free-above") ? ASSAY_FREE : ASSAY_UNDECIDED;
     return ASSAY_OK;
   }
   return assay_builtin_detector()->result(handle, out);

@@ -2,33 +2,87 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
-#include "corpus/scenes/scenes.h"
 #include "properties/campaign/database/store_problem.h"
 #include "properties/campaign/query_plan.h"
 #include "properties/campaign/stored/evidence.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/judged_run.h"
+#include "properties/random.h"
 
 namespace assay::properties {
 namespace {
 
 constexpr int most_hung_repetitions = 3;
 
-corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles) {
+// Draws another order of the list, each as likely as the other.
+template <class List>
+void shuffle(List& list, Random& random) {
+  for (int i = static_cast<int>(list.size()) - 1; i > 0; --i)
+    std::swap(list[static_cast<std::size_t>(i)],
+              list[static_cast<std::size_t>(random.below(i + 1))]);
+}
+
+std::vector<int> shuffled_numbers(Eigen::Index count, Random& random) {
+  std::vector<int> numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  shuffle(numbers, random);
+  return numbers;
+}
+
+// Gives the vertices other numbers, the triangles another order, and each of them another first
+// corner.
+void renumber(corpus::Case& c, Random& random) {
+  const auto old_vertices = shuffled_numbers(c.frames.front().rows(), random);
+  const auto old_triangles = shuffled_numbers(c.triangles.rows(), random);
+  std::vector<int> new_vertices(old_vertices.size());
+  for (std::size_t v = 0; v < old_vertices.size(); ++v)
+    new_vertices[static_cast<std::size_t>(old_vertices[v])] = static_cast<int>(v);
+  for (auto& frame : c.frames) frame = frame(old_vertices, Eigen::all).eval();
+  c.triangles = c.triangles(old_triangles, Eigen::all).eval();
+  for (Eigen::Index t = 0; t < c.triangles.rows(); ++t) {
+    const int first = random.below(3);
+    const Eigen::RowVector3i corners = c.triangles.row(t);
+    for (int k = 0; k < 3; ++k)
+      c.triangles(t, k) = new_vertices[static_cast<std::size_t>(corners((first + k) % 3))];
+  }
+}
+
+// A map of space that keeps what is outside outside. It bends nothing, so what meets still does,
+// but for what rounding decides.
+Eigen::Matrix3d drawn_map(Random& random) {
+  constexpr double most = 0.25;
+  Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
+  for (double& entry : map.reshaped()) entry += most * random.signed_unit();
+  return map;
+}
+
+}  // namespace
+
+corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
+                            std::uint64_t seed) {
   constexpr int few_frames = 6;
+  Random random(fmt::format("{}{}:{}", repeated_in_id, seed, scene.name));
+  const int all = static_cast<int>(triangles);
   corpus::SceneOptions options;
-  options.size = static_cast<int>(triangles);
+  options.size = random.one_in(2) ? all : random.between((all + 3) / 4, all);
   options.frames = std::max(few_frames, scene.least_frames);
   auto made = corpus::make_scene(scene.name, options).value();
   corpus::Case c;
   c.id = scene.name;
   c.triangles = std::move(made.triangles);
   c.frames = std::move(made.frames);
+  renumber(c, random);
+  const auto map = drawn_map(random);
+  for (auto& frame : c.frames) frame = (frame * map).eval();
   return c;
 }
+
+namespace {
 
 std::string answer_of(const CaseRun& run, std::size_t s) {
   const auto& result = run.steps[s];
@@ -116,8 +170,9 @@ class Repetitions {
  private:
   const Configuration& configuration() const { return request_.detector.configurations.front(); }
 
-  // Each run has a process of its own, which it keeps from mesh to mesh. The last one is a second
-  // run in the process of the run before it.
+  // Each run, by its place in threads_, has a process of its own, which it keeps from mesh to mesh.
+  // The last one is a second run in the process of the run before it. REQUIRES that the runs before
+  // it took place.
   CaseRun run_once(const corpus::Case& c, std::size_t place) {
     const std::size_t process = place > 1 && place + 1 == threads_.size() ? place - 1 : place;
     if (process == workers_.size()) {
@@ -164,7 +219,8 @@ class Repetitions {
       const auto truth = judge_case(alone, contract, request_.jobs);
       const auto judged =
           judge_trial(alone, truth, step_alone(run, s), configuration(), request_.detector);
-      if (judged.steps.empty()) continue;
+      // Without a verdict nothing is known of this size.
+      if (judged.outcome != Outcome::holds && judged.outcome != Outcome::defect) continue;
       row.judged.push_back(
           {s + 1, counted_contacts(truth[0], alone), judged.outcome == Outcome::holds});
       if (judged.failure) keep(c, s, run, *judged.failure);
@@ -187,7 +243,7 @@ class Repetitions {
     failure.explanation = fmt::format("{}, {} triangles, step {}: {}", c.id, c.triangles.rows(),
                                       s + 1, failure.explanation);
     auto shown = with_steps(c, {s});
-    if (!same_answers(step_alone(run, s), run_once(shown, threads_.front()))) {
+    if (!same_answers(step_alone(run, s), run_once(shown, 0))) {
       std::vector<std::size_t> places(s + 1);
       std::iota(places.begin(), places.end(), std::size_t{0});
       shown = with_steps(c, places);
@@ -252,8 +308,9 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
     repetitions.put(make(), is_judged);
   };
   for (const auto& scene : corpus::scenes())
-    put(std::string(scene.name), true,
-        [&] { return repeated_scene(scene, request.plan.policy.repeated_triangles); });
+    put(std::string(scene.name), true, [&] {
+      return repeated_scene(scene, request.plan.policy.repeated_triangles, request.seed);
+    });
   for (const auto& c : request.repeated) put(c.id, false, [&] { return c; });
 }
 

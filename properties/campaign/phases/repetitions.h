@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/scenes/scenes.h"
 #include "properties/campaign/request.h"
 #include "properties/campaign/stored/store.h"
 
@@ -20,7 +21,15 @@ inline constexpr std::uint64_t repeated_threads[] = {1, 2, 4, 4};
 // phase.
 bool is_repeated(const CampaignPlan& plan, bool built_in);
 
-// Puts every scene of the corpus, at the plan's size, and the request's other sequences to the
+// A scene as it is put to a plug-in. The seed draws its size, which is the wanted number of
+// triangles or, for about half of the scenes, down to a quarter of it. The seed also draws the
+// order of vertices, triangles and corners, and one linear map near the identity, through which all
+// frames go. So these meshes are known to nobody before the seed is. The map keeps contacts and
+// their times, but for what rounding decides.
+corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
+                            std::uint64_t seed);
+
+// Puts every scene of the corpus, as the seed draws it, and the request's other sequences to the
 // plug-in: with each of repeated_threads if it asks how many it may use, else three times; once if
 // it does not claim to be deterministic. Each run has a process of its own but for the last, which
 // is a second run in the process of the run before it. Stores a Repetition for each mesh that this

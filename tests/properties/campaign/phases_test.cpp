@@ -1,8 +1,14 @@
-// What a campaign does with a limit of time: trials first.
+// What a campaign does with a limit of time: trials first. And its large meshes are drawn by the
+// seed.
 #include "properties/campaign/phases/phases.h"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <set>
+
+#include "corpus/cases/case_file.h"
+#include "properties/campaign/phases/repetitions.h"
 #include "properties/campaign/stored/binding.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/properties/small_case.h"
@@ -72,6 +78,46 @@ TEST_F(Phases, OnceTheTrialsAreDoneEverythingElseIs) {
   EXPECT_TRUE(noted.trials.complete);
   EXPECT_EQ(noted.phases, (std::vector<std::string>{"trials", "repetitions", "shrinking",
                                                     "slow cases", "faults", "tetrahedron"}));
+}
+
+// The six-fold volume that the mesh encloses; positive if its triangles are seen from outside.
+double volume_of(const corpus::Case& c) {
+  double volume = 0;
+  const auto& x = c.frames.front();
+  for (const auto& t : c.triangles.rowwise()) {
+    const Eigen::RowVector3d a = x.row(t(0)), b = x.row(t(1)), d = x.row(t(2));
+    volume += a.dot(b.cross(d));
+  }
+  return volume;
+}
+
+// Else a detector could keep a table of them, be right on these meshes and wrong on all others of
+// their size.
+TEST(LargeMeshes, AreKnownToNobodyBeforeTheSeed) {
+  constexpr std::uint64_t most = 200;
+  for (const auto& scene : corpus::scenes()) {
+    SCOPED_TRACE(scene.name);
+    const auto one = repeated_scene(scene, most, 1), same = repeated_scene(scene, most, 1);
+    EXPECT_EQ(one.triangles, same.triangles);
+    EXPECT_EQ(one.frames, same.frames);
+    std::set<Eigen::Index> sizes;
+    std::set<std::string> meshes;
+    constexpr std::uint64_t seeds = 40;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      auto c = repeated_scene(scene, most, seed);
+      sizes.insert(c.triangles.rows());
+      if (scene.closed) {
+        EXPECT_GT(volume_of(c), 0) << seed;
+      }
+      c.frames.resize(1);
+      meshes.insert(corpus::case_text(c));
+      c.frames.front().setZero();
+      meshes.insert(corpus::case_text(c));  // its triangles alone
+    }
+    EXPECT_EQ(meshes.size(), 2 * seeds);
+    EXPECT_GT(sizes.size(), 2u);
+    EXPECT_LE(*sizes.begin(), 100);
+  }
 }
 
 }  // namespace

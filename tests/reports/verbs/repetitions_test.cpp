@@ -2,6 +2,7 @@
 // depends there on the number of threads by running again; lines that replay tell that number.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "corpus/scenes/scenes.h"
@@ -68,7 +69,7 @@ TEST_F(Repetitions, ADetectorThatIsWrongOnLargeMeshesAloneIsFound) {
   // Free above 600 triangles, whatever it claims; every mesh of the trials is smaller.
   for (const std::string claims : {"", " claims=129"}) {
     std::filesystem::remove_all(out);
-    const auto made = judge("run", "steps_and_query", 1500, "--part steps",
+    const auto made = judge("run", "steps_and_query", 1500, "--part steps --threads 3",
                             "ASSAY_QUERY='free-above=600" + claims + "' ");
     EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
     EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
@@ -108,6 +109,23 @@ TEST_F(Repetitions, TheCertificateSaysUpToWhichSizeEachClaimWasTried) {
   EXPECT_TRUE(contains(read_text(out + "/summary.md"), words));
   EXPECT_TRUE(contains(read_text(out + "/summary.md"), "not judged: its elementary query;"));
   EXPECT_EQ(run_assay("verify " + out + "/certificate.json").exit_code, 0);
+}
+
+// Who does not answer there is not wrong, and nothing is said of that size.
+TEST_F(Repetitions, WhatWasLeftUndecidedWasNotJudged) {
+  const auto made = judge("certify", "steps_and_query", 1500, "--part steps",
+                          "ASSAY_QUERY='undecided-above=1000 claims=129' ");
+  EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, " judged, 0 wrong\n")) << made.out;
+  const auto stated = predicate();
+  std::uint64_t most = 0;
+  for (const auto& row : stated["repeated"]) {
+    most = std::max(most, row["triangles"].get<std::uint64_t>());
+    EXPECT_TRUE(row["triangles"] <= 1000 || row["judged"].empty()) << row;
+  }
+  EXPECT_GT(most, 1000u);
+  ASSERT_EQ(stated["judged_up_to"].size(), 2u);
+  for (const auto& one : stated["judged_up_to"]) EXPECT_LE(one["triangles"], 1000) << one;
 }
 
 TEST_F(Repetitions, OnSmallMeshesItIsNotAndWithoutTheFaultItHolds) {
