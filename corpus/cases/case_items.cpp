@@ -85,7 +85,7 @@ Expected<std::vector<detector::ViewSign>> read_signs(const JsonField& field, std
 
 Expected<detector::Answer> read_answer(const JsonField& field) {
   BOOST_OUTCOME_TRY(name, field.text());
-  const auto answer = answer_named(name);
+  const auto answer = from_name<detector::Answer>(name);
   if (!answer) return field.problem("free, collision, undecided or error expected");
   return *answer;
 }

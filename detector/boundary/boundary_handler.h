@@ -9,7 +9,6 @@ namespace assay::detector {
 
 class BoundaryHandler {
  public:
-  explicit BoundaryHandler(GhostTest test = GhostTest::exact) : test_(test) {}
   virtual ~BoundaryHandler() = default;
 
   // The mesh with its ghosts. If `pace` was stopped, it must not be used.
@@ -34,9 +33,6 @@ class BoundaryHandler {
   virtual bool sweep(const GhostSweep& sweep, std::span<const std::int32_t> ghosts,
                      const StopFunction& stop, std::vector<std::uint8_t>& touched,
                      GhostCounts& counts) const;
-
- private:
-  GhostTest test_;
 };
 
 }  // namespace assay::detector

@@ -103,8 +103,7 @@ class HoleSweep {
     if (counts_.pairs++ == 0) ask();
     if (sweep_.near) (*sweep_.near)[at(t)] = 1;
     if (stopped_ || touched_[at(t)]) return;
-    touched_[at(t)] = sweep_.test == GhostTest::boxes ||
-                      faces_.meet(all_.triangles[at(ghost)], all_.triangles[at(t)], counts_);
+    touched_[at(t)] = faces_.meet(all_.triangles[at(ghost)], all_.triangles[at(t)], counts_);
     if (touched_[at(t)] && sweep_.found) sweep_.found->push_back(t);
   }
 

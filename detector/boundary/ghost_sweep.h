@@ -4,7 +4,6 @@
 #include "detector/boundary/face_pair.h"
 #include "detector/boundary/hole_tree.h"
 #include "detector/mesh/paced_stop.h"
-#include "detector/options.h"
 #include "detector/search/pair_search.h"
 
 namespace assay::detector {
@@ -23,7 +22,6 @@ struct GhostSweep {
   const ElementaryTest& elementary;
   // Whether edges that pierce at t=0 count too; needed if no state is known at t=0.
   bool piercing_at_start = false;
-  GhostTest test = GhostTest::exact;
   // If given, set to 1 for each triangle whose moving box is not apart from that of a ghost.
   std::vector<std::uint8_t>* near = nullptr;
   // If given, gets the triangles that the sweep has set as touched, each once.

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "detector/mesh/enum_names.h"
+
 namespace assay::detector {
 
 enum class Arithmetic : std::uint8_t {
@@ -11,5 +13,12 @@ enum class Arithmetic : std::uint8_t {
   double_precision,  // doubles with bounds 0: promises nothing, made to be measured
   single_precision,  // floats with bounds 0, coordinates rounded to float first: promises nothing
 };
+constexpr auto names_of(Arithmetic) {
+  using enum Arithmetic;
+  return std::to_array<Named<Arithmetic>>({{exact, "exact"},
+                                           {bounded, "bounded"},
+                                           {double_precision, "double"},
+                                           {single_precision, "float"}});
+}
 
 }  // namespace assay::detector

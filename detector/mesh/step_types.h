@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "detector/mesh/enum_names.h"
 #include "detector/mesh/types.h"
 
 namespace assay::detector {
@@ -41,6 +42,13 @@ struct TrianglePair {
 };
 
 enum class FeatureKind : std::uint8_t { vertex_face, edge_edge, piercing, same_vertices };
+constexpr auto names_of(FeatureKind) {
+  using enum FeatureKind;
+  return std::to_array<Named<FeatureKind>>({{vertex_face, "vertex-face"},
+                                            {edge_edge, "edge-edge"},
+                                            {piercing, "piercing"},
+                                            {same_vertices, "same-vertices"}});
+}
 
 // Two features that meet, by their mesh vertices:
 //   vertex_face    v, f0 f1 f2
@@ -62,6 +70,12 @@ struct PairContact {
 };
 
 enum class Answer : std::uint8_t { free, collision, undecided, error };
+constexpr auto names_of(Answer) {
+  return std::to_array<Named<Answer>>({{Answer::free, "free"},
+                                       {Answer::collision, "collision"},
+                                       {Answer::undecided, "undecided"},
+                                       {Answer::error, "error"}});
+}
 
 // What a method says of a question that it may be unable to decide. `no` and `yes` are proved.
 // `open` says that this method cannot tell; another one may.

@@ -1,4 +1,4 @@
-// Turns numbers, flags, values of enums (kinds) and lists into bytes and back. Writer and Reader
+// Turns numbers, flags, values of enums and lists into bytes and back. Writer and Reader
 // take the same calls, so one description of a form serves both, and what is written is what is
 // read.
 #pragma once
@@ -9,6 +9,8 @@
 #include <optional>
 #include <span>
 #include <vector>
+
+#include "detector/mesh/enum_names.h"
 
 namespace assay::detector {
 
@@ -83,16 +85,16 @@ inline void field(Reader& in, bool& value) {
   value = read != 0;
 }
 
-// A value of an enum whose values are numbered from 0 to `last`.
-template <class Enum>
-void kind(Writer& out, Enum value, Enum) {
+// A value of an enum that lists its values.
+template <Listed Enum>
+void field(Writer& out, Enum value) {
   out.byte(static_cast<std::uint8_t>(value));
 }
-template <class Enum>
-void kind(Reader& in, Enum& value, Enum last) {
-  const auto read = in.byte();
-  if (read > static_cast<std::uint8_t>(last)) in.refuse();
-  value = static_cast<Enum>(std::min(read, static_cast<std::uint8_t>(last)));
+template <Listed Enum>
+void field(Reader& in, Enum& value) {
+  const auto read = from_number<Enum>(in.byte());
+  if (!read) in.refuse();
+  value = read.value_or(first_value<Enum>);
 }
 
 // The length of a list whose members take at least `least` bytes each. A reader refuses a length

@@ -53,7 +53,7 @@ void anchor_list(Archive& archive, Anchors& anchors) {
   constexpr std::size_t least = 1 + 4 * word;
   length(archive, anchors, least);
   for (auto& anchor : anchors) {
-    kind(archive, anchor.kind, ViewKind::line);
+    field(archive, anchor.kind);
     for (auto& end : anchor.ends) {
       length(archive, end.vertices, word);
       for (auto& vertex : end.vertices) field(archive, vertex);
@@ -86,19 +86,6 @@ void policy_fields(Archive& archive, Policy& policy) {
   field(archive, policy.overhead);
 }
 
-// A flag for each component, written as 0 and skipped when read. It is in the form because the
-// first build of version 1 had it: it said that nothing was known of the component. Such a
-// component has no clean triangles, which says the same by L15.
-void component_flags(Writer& out, const StepState& state) {
-  const std::vector<std::uint8_t> flags(state.inside.size(), 0);
-  plain_list(out, flags);
-}
-void component_flags(Reader& in, StepState& state) {
-  std::vector<std::uint8_t> flags;
-  plain_list(in, flags);
-  if (flags.size() != state.inside.size()) in.refuse();
-}
-
 template <class Archive, class Committed>
 void committed_fields(Archive& archive, Committed& state) {
   rows(archive, state.positions);
@@ -116,14 +103,13 @@ void committed_fields(Archive& archive, Committed& state) {
       for (auto& coordinate : end) field(archive, coordinate);
     }
   }
-  component_flags(archive, state);
   policy_fields(archive, state.policy);
 }
 
 template <class Archive, class State>
 void state_fields(Archive& archive, State& state) {
   field(archive, state.mesh);
-  kind(archive, state.culling, Culling::automatic);
+  field(archive, state.culling);
   if (there_is(archive, state.committed)) committed_fields(archive, *state.committed);
   length(archive, state.apex_rules, word);
   for (auto& rule : state.apex_rules) field(archive, rule.height);

@@ -104,8 +104,7 @@ bool ReleaseRule::verify_start(const GivenStep& step, StepMarks& marks, StepCost
   return !cost.pace.stopped();
 }
 
-// Releases each component by L5 if that applies. The others are looked at by layers, unless
-// Release::view allows L5 alone.
+// Releases each component by L5 if that applies. The others are looked at by layers.
 bool ReleaseRule::release_without_history(const GivenStep& step, StepMarks& marks, StepCost& cost,
                                           const std::vector<std::int32_t>& components) const {
   std::vector<std::int32_t> to_verify;
@@ -118,8 +117,7 @@ bool ReleaseRule::release_without_history(const GivenStep& step, StepMarks& mark
     }
     for (const auto t : step.own_triangles(at(c))) marks.clean[at(t)] = 1;
   }
-  return release_ == Release::view || to_verify.empty() ||
-         verify_start(step, marks, cost, to_verify);
+  return to_verify.empty() || verify_start(step, marks, cost, to_verify);
 }
 
 bool ReleaseRule::release(const GivenStep& step, StepMarks& marks, StepCost& cost,
@@ -131,7 +129,7 @@ bool ReleaseRule::release(const GivenStep& step, StepMarks& marks, StepCost& cos
     }
     cost.counts.release.in_doubt += in_doubt[i].size();
   }
-  if (release_ == Release::view || !step.known->met_is_complete) {
+  if (!step.known->met_is_complete) {
     if (!release_without_history(step, marks, cost, components)) return false;
   } else {
     std::vector<std::uint8_t> touched(step.surface.mesh.triangles.size(), 0), seen(touched);
@@ -151,10 +149,6 @@ bool ReleaseRule::release(const GivenStep& step, StepMarks& marks, StepCost& cos
   for (const auto& triangles : in_doubt) {
     const auto released = std::count_if(triangles.begin(), triangles.end(),
                                         [&](std::int32_t t) { return marks.clean[at(t)] != 0; });
-    if (release_ == Release::model && at(static_cast<std::int32_t>(released)) < triangles.size()) {
-      for (const auto t : triangles) marks.clean[at(t)] = 0;
-      continue;
-    }
     cost.counts.release.released += static_cast<std::uint64_t>(released);
   }
   return true;

@@ -22,8 +22,7 @@ namespace assay::detector {
 class ReleaseRule {
  public:
   // In bounded arithmetic a triangle of which doubles cannot tell is not released.
-  explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact, Release release = Release::pieces)
-      : arithmetic_(arithmetic), release_(release) {}
+  explicit ReleaseRule(Arithmetic arithmetic = Arithmetic::exact) : arithmetic_(arithmetic) {}
   virtual ~ReleaseRule() = default;
 
   // L8: whether the state of the last commit is valid for a step that starts at vertices_t0.
@@ -84,7 +83,6 @@ class ReleaseRule {
                                const std::vector<std::int32_t>& components) const;
 
   Arithmetic arithmetic_;
-  Release release_;
 };
 
 }  // namespace assay::detector

@@ -7,7 +7,6 @@
 #include "detector/detector.h"
 #include "properties/judging/first_contact_graph.h"
 #include "properties/judging/step_truth.h"
-#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -18,10 +17,6 @@ using detector::TrianglePair;
 
 const char* name_of(Outcome outcome) {
   return word_of({"holds", "defect", "undecided", "error"}, outcome);
-}
-
-const char* name_of(detector::FeatureKind kind) {
-  return word_of({"vertex-face", "edge-edge", "piercing", "same-vertices"}, kind);
 }
 
 namespace {

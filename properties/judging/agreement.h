@@ -5,19 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "corpus/cases/case_names.h"
 #include "detector/options.h"
 #include "detector/step_result.h"
 #include "oracle/mesh/step.h"
 #include "properties/claims/claims.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
 enum class Outcome : std::uint8_t { holds, defect, undecided, error };
 
 const char* name_of(Outcome outcome);
-using corpus::name_of;  // the words of detector::Answer
-const char* name_of(detector::FeatureKind kind);
 
 // A pair whose first time the detector has wrong.
 struct WrongTime {

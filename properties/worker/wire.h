@@ -13,6 +13,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "detector/mesh/enum_names.h"
+
 namespace assay::properties {
 
 // Types whose values travel as their bytes. They are listed by name, so that a type that gains a
@@ -21,9 +23,10 @@ template <class T>
 struct TravelsAsBytes : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
 
 // The greatest value of an enum, whose values count from 0; a message with another value is
-// invalid. It is stated for each enum that travels by itself (wire_fields.h).
+// invalid. An enum that lists its values needs no more; for another one that travels by itself it
+// is stated in wire_fields.h.
 template <class T>
-inline constexpr auto last_of = nullptr;
+inline constexpr T last_of = last_value<T>;
 
 class WireWriter {
  public:

@@ -37,40 +37,22 @@ struct TravelsAsBytes<detector::StepTimes> : std::true_type {};
 template <>
 struct TravelsAsBytes<corpus::CaseStep> : std::true_type {};
 template <>
-inline constexpr auto last_of<detector::Culling> = detector::Culling::automatic;
+inline constexpr RunEnd last_of<RunEnd> = RunEnd::not_run;
 template <>
-inline constexpr auto last_of<detector::Start> = detector::Start::unknown;
+inline constexpr Adjacency last_of<Adjacency> = Adjacency::no_shared_vertex;
 template <>
-inline constexpr auto last_of<detector::Pairs> = detector::Pairs::first;
+inline constexpr Coordinates last_of<Coordinates> = Coordinates::float32;
 template <>
-inline constexpr auto last_of<detector::Arithmetic> = detector::Arithmetic::single_precision;
+inline constexpr StartRule last_of<StartRule> = StartRule::apart;
 template <>
-inline constexpr auto last_of<detector::Release> = detector::Release::view;
+inline constexpr TestedFeatures last_of<TestedFeatures> = TestedFeatures::edge_edge;
 template <>
-inline constexpr auto last_of<detector::GhostTest> = detector::GhostTest::boxes;
-template <>
-inline constexpr auto last_of<detector::InputError> = detector::InputError::stopped;
-template <>
-inline constexpr auto last_of<detector::Answer> = detector::Answer::error;
-template <>
-inline constexpr auto last_of<RunEnd> = RunEnd::not_run;
-template <>
-inline constexpr auto last_of<Adjacency> = Adjacency::no_shared_vertex;
-template <>
-inline constexpr auto last_of<Coordinates> = Coordinates::float32;
-template <>
-inline constexpr auto last_of<StartRule> = StartRule::apart;
-template <>
-inline constexpr auto last_of<TestedFeatures> = TestedFeatures::edge_edge;
-template <>
-inline constexpr auto last_of<detector::ViewUse> = detector::ViewUse::among_dirty;
-template <>
-inline constexpr auto last_of<ProblemKind> = last_problem_kind;
+inline constexpr ProblemKind last_of<ProblemKind> = last_problem_kind;
 
 template <class Wire>
 void fields(Wire& wire, detector::Options& options) {
-  auto& [culling, start, pairs, arithmetic, release, ghost_test, threads] = options;
-  wire(culling, start, pairs, arithmetic, release, ghost_test, threads);
+  auto& [culling, start, pairs, arithmetic, threads] = options;
+  wire(culling, start, pairs, arithmetic, threads);
 }
 
 template <class Wire>
@@ -174,7 +156,7 @@ void fields(Wire& wire, Hello& hello) {
 // What a request asks for.
 enum class RequestKind : std::uint8_t { run, queries };
 template <>
-inline constexpr auto last_of<RequestKind> = RequestKind::queries;
+inline constexpr RequestKind last_of<RequestKind> = RequestKind::queries;
 
 // One case and how to run it; a RunReply comes back for each configuration, in order.
 struct RunRequest {

@@ -14,11 +14,9 @@ using detector::Pairs;
 std::vector<Variant> all_variants(bool with_none) {
   std::vector<Variant> variants = {reference_variant};
   for (const auto arithmetic : every_arithmetic) {
-    for (const auto culling :
-         {Culling::automatic, Culling::view_auto, Culling::view_point, Culling::view_line,
-          Culling::normal_cone, Culling::bvh, Culling::none}) {
+    for (const auto culling : all_values<Culling>) {
       if (culling == Culling::none && !with_none) continue;
-      for (const auto pairs : {Pairs::all, Pairs::first}) {
+      for (const auto pairs : all_values<Pairs>) {
         const Variant variant{arithmetic, culling, pairs};
         if (variant != reference_variant) variants.push_back(variant);
       }

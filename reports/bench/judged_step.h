@@ -11,9 +11,7 @@
 
 namespace assay::reports {
 
-inline constexpr detector::Arithmetic every_arithmetic[] = {
-    detector::Arithmetic::exact, detector::Arithmetic::bounded,
-    detector::Arithmetic::double_precision, detector::Arithmetic::single_precision};
+inline constexpr auto every_arithmetic = all_values<detector::Arithmetic>;
 
 // An assembly that a user may choose by options.
 struct Variant {

@@ -200,9 +200,9 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
   if (!cases) return Refusal(cases.error());
   int hung = 0;
   if (request.detector.built_in) {
-    for (const auto culling : {Culling::automatic, Culling::view_auto, Culling::view_point,
-                               Culling::view_line, Culling::normal_cone, Culling::bvh})
-      on_row(check_facts(cases.value(), culling, request.jobs));
+    for (const auto culling : all_values<Culling>) {
+      if (culling != Culling::none) on_row(check_facts(cases.value(), culling, request.jobs));
+    }
   } else {
     JudgedRows judged(request, "curated cases", on_failure, hung);
     for (const auto& c : cases.value()) {

@@ -24,16 +24,15 @@ constexpr ArithmeticLook arithmetic_looks[] = {{Arithmetic::exact, colour::blue}
                                                {Arithmetic::double_precision, colour::orange},
                                                {Arithmetic::single_precision, colour::vermilion}};
 
-struct Mark {
-  Culling culling;
-  int point_type;  // a number of gnuplot; all these points are filled
-};
-constexpr Mark marks[] = {{Culling::automatic, 15},   {Culling::view_auto, 7},
-                          {Culling::view_point, 9},   {Culling::view_line, 11},
-                          {Culling::normal_cone, 13}, {Culling::bvh, 5}};
+// The points of the cullings in the order of their list: numbers of gnuplot, each a filled point
+// whose hollow form has the number before it.
+constexpr int point_types[] = {15, 7, 9, 11, 13, 5};
+int point_type(std::size_t culling) { return point_types[culling % std::size(point_types)]; }
+
+bool is_drawn(Culling culling) { return culling != Culling::none; }
 
 bool is_drawn(const VariantSummary& v) {
-  return v.variant.pairs == Pairs::all && v.variant.culling != Culling::none;
+  return v.variant.pairs == Pairs::all && is_drawn(v.variant.culling);
 }
 
 // A line holds x and its interval, then y in % and its interval.
@@ -51,11 +50,12 @@ std::string block_name(const char* panel, std::size_t look, std::size_t mark) {
 std::string data(const BenchReport& report, const char* panel, Error error) {
   std::string text;
   for (std::size_t l = 0; l < std::size(arithmetic_looks); ++l) {
-    for (std::size_t m = 0; m < std::size(marks); ++m) {
+    for (std::size_t m = 0; m < all_values<Culling>.size(); ++m) {
+      if (!is_drawn(all_values<Culling>[m])) continue;
       text += block_name(panel, l, m) + " << EOD\n";
       for (const auto& v : report.variants) {
         if (is_drawn(v) && v.variant.arithmetic == arithmetic_looks[l].arithmetic &&
-            v.variant.culling == marks[m].culling) {
+            v.variant.culling == all_values<Culling>[m]) {
           text += point(v, error);
         }
       }
@@ -77,11 +77,12 @@ std::string plots(const char* panel) {
       panel);
   for (std::size_t l = 0; l < std::size(arithmetic_looks); ++l) {
     const bool hollow = is_hollow(arithmetic_looks[l]);
-    for (std::size_t m = 0; m < std::size(marks); ++m) {
+    for (std::size_t m = 0; m < all_values<Culling>.size(); ++m) {
+      if (!is_drawn(all_values<Culling>[m])) continue;
       text += fmt::format(
           ", \\\n {} using 1:4:2:3:5:6 with xyerrorbars pointtype {} pointsize {} linecolor '{}' "
           "linewidth {} notitle",
-          block_name(panel, l, m), marks[m].point_type - (hollow ? 1 : 0), hollow ? 1.3 : 0.9,
+          block_name(panel, l, m), point_type(m) - (hollow ? 1 : 0), hollow ? 1.3 : 0.9,
           arithmetic_looks[l].colour, hollow ? 1.2 : 0.7);
     }
   }
@@ -98,10 +99,11 @@ std::string legend() {
   }
   text +=
       ", \\\n keyentry with lines linecolor '#000000' linewidth 1.5 dashtype 2 title 'Pareto line'";
-  for (const auto& mark : marks) {
+  for (std::size_t m = 0; m < all_values<Culling>.size(); ++m) {
+    if (!is_drawn(all_values<Culling>[m])) continue;
     text += fmt::format(
         ", \\\n keyentry with points pointtype {} pointsize 1.1 linecolor '#333333' title '{}'",
-        mark.point_type, properties::name_of(mark.culling));
+        point_type(m), name_of(all_values<Culling>[m]));
   }
   return text;
 }

@@ -32,10 +32,10 @@ void take(const py::dict& given, const char* name, Target& target) {
 
 CheckQuestion question_of(const py::dict& given) {
   CheckQuestion question;
-  choose(given, "culling", properties::culling_named, question.built_in.culling);
-  choose(given, "start", properties::start_named, question.built_in.start);
-  choose(given, "pairs", properties::pairs_named, question.built_in.pairs);
-  choose(given, "arithmetic", properties::arithmetic_named, question.built_in.arithmetic);
+  choose(given, "culling", from_name<detector::Culling>, question.built_in.culling);
+  choose(given, "start", from_name<detector::Start>, question.built_in.start);
+  choose(given, "pairs", from_name<detector::Pairs>, question.built_in.pairs);
+  choose(given, "arithmetic", from_name<detector::Arithmetic>, question.built_in.arithmetic);
   choose(given, "isolation", properties::isolation_mode_of, question.detector.isolation);
   choose(given, "memory", reports::memory_size, question.memory_limit);
   take(given, "detector", question.detector.library);

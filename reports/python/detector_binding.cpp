@@ -144,9 +144,22 @@ SavedState state_of(const py::bytes& bytes) {
   return std::move(state.value());
 }
 
+// The words of each option, as a dict of tuples.
+py::dict words_of_options() {
+  py::dict words;
+  const detector::Options standard;
+  for_each_choice(standard, [&](const char* option, auto value) {
+    py::list list;
+    for (const auto each : all_values<decltype(value)>) list.append(name_of(each));
+    words[option] = py::tuple(list);
+  });
+  return words;
+}
+
 }  // namespace
 
 void bind_detector(py::module_& module) {
+  module.attr("OPTIONS") = words_of_options();
   py::class_<SavedState>(module, "State")
       .def("__bytes__", bytes_of)
       .def_static("from_bytes", state_of);

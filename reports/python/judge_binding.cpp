@@ -1,6 +1,5 @@
 #include "reports/python/judge_binding.h"
 
-#include "corpus/cases/case_names.h"
 #include "detector/mesh/mesh_checks.h"
 #include "oracle/mesh/step.h"
 #include "reports/python/array_arguments.h"
@@ -34,7 +33,7 @@ py::dict judge(const py::object& triangles, const py::object& x_t0, const py::ob
   }();
   interruption.raise();
   py::dict fields = arrays_of(judgement.pairs);
-  fields["answer"] = corpus::name_of(judgement.answer);
+  fields["answer"] = name_of(judgement.answer);
   fields["first"] = judgement.answer == detector::Answer::collision
                         ? py::object(py::make_tuple(judgement.first.lo, judgement.first.hi))
                         : py::none();

@@ -1,8 +1,5 @@
 #include "reports/python/step_arrays.h"
 
-#include "corpus/cases/case_names.h"
-#include "reports/steps/view_use_words.h"
-
 namespace assay::python {
 
 namespace py = pybind11;
@@ -57,7 +54,7 @@ py::dict arrays_of(const std::vector<detector::PairContact>& contacts) {
 
 py::dict arrays_of(detector::StepResult result) {
   py::dict fields = arrays_of(result.pairs);
-  fields["answer"] = corpus::name_of(result.answer);
+  fields["answer"] = name_of(result.answer);
   fields["first"] = result.answer == Answer::collision
                         ? py::object(py::make_tuple(result.first.lo, result.first.hi))
                         : py::none();
@@ -67,7 +64,7 @@ py::dict arrays_of(detector::StepResult result) {
   fields["against_all"] = result.against_all;
   fields["violated"] = result.violated;
   fields["dirty"] = result.dirty;
-  fields["views"] = reports::words_of(result.views);
+  fields["views"] = name_of(result.views);
   fields["counts"] = dict_of(result.counts);
   const auto& times = result.times;
   fields["milliseconds"] =

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "detector/step_result.h"
-#include "reports/steps/view_use_words.h"
 
 namespace assay::reports {
 
@@ -82,7 +81,7 @@ std::string times_text(const properties::StepDiff& diff, bool is_built_in) {
 // Tells the view sets. A step without views has none, so the reason why takes their place.
 std::string sets_text(const detector::StepResult& result) {
   if (result.views != detector::ViewUse::used)
-    return fmt::format("no views, {}", words_of(result.views));
+    return fmt::format("no views, {}", name_of(result.views));
   return fmt::format("V+ {}  V- {}  V0 {}  violated {}  dirty {}", result.view_positive,
                      result.view_negative, result.view_zero, result.violated, result.dirty);
 }

@@ -16,18 +16,17 @@ std::string premise_under(std::string_view law, std::string_view culling) {
   return fmt::format("law:{}/premise/{}", law, culling);
 }
 
-// The cullings with view sets, by which alone laws are met.
-std::vector<detector::Culling> cullings_of(MetUnder met_under) {
-  using detector::Culling;
+// Whether a law is to be met under this culling by itself. Laws are met by view sets alone.
+bool is_met_under(detector::Culling culling, MetUnder met_under) {
   switch (met_under) {
     case MetUnder::any_culling:
-      return {};
+      return false;
     case MetUnder::each_culling:
-      return {Culling::automatic, Culling::view_auto, Culling::view_point, Culling::view_line};
+      return uses_views(culling);
     case MetUnder::each_that_chooses_views:
-      return {Culling::automatic, Culling::view_auto};
+      return chooses_views(culling);
   }
-  return {};
+  return false;
 }
 
 // So much of what is wanted of all cullings together is wanted of each.
@@ -77,7 +76,8 @@ void add_law(Counts& counts, const Law& law, const LawTally& tally, std::string_
 std::vector<std::pair<std::string, std::uint64_t>> premises_by_culling(const Counts& counts,
                                                                        const Law& law) {
   std::vector<std::pair<std::string, std::uint64_t>> list;
-  for (const auto culling : cullings_of(law.met_under)) {
+  for (const auto culling : all_values<detector::Culling>) {
+    if (!is_met_under(culling, law.met_under)) continue;
     const std::string name = name_of(culling);
     list.emplace_back(name, count_of(counts, premise_under(law.name, name)));
   }

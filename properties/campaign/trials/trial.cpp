@@ -26,9 +26,7 @@ Claims DetectorUnderTest::claims_on(const corpus::Case& c,
 DetectorUnderTest built_in_detector() {
   DetectorUnderTest detector;
   detector.name = "built-in";
-  for (const auto culling :
-       {Culling::automatic, Culling::view_auto, Culling::view_point, Culling::view_line,
-        Culling::normal_cone, Culling::bvh, Culling::none}) {
+  for (const auto culling : all_values<Culling>) {
     detector.configurations.push_back({name_of(culling), {culling, Start::verified, Pairs::all}});
   }
   // There is no configuration of first pairs for view lines, because a step with first pairs ends
