@@ -119,8 +119,7 @@ TEST(ArithmeticSteps, BoundedKeepsItsClaimsOnSmallSteps) {
     const SmallStep step = make_small_step(seed, i);
     const auto judgement = oracle::judge_step({step.x_t0, step.x_t1}, step.triangles, {1, {}});
     pairs += judgement.pairs.size();
-    for (const auto culling : {Culling::view_auto, Culling::view_point, Culling::view_line,
-                               Culling::normal_cone, Culling::bvh, Culling::none}) {
+    for (const auto culling : all_values<Culling>) {
       for (const auto wanted : {detector::Pairs::all, detector::Pairs::first}) {
         const detector::Options options{culling, detector::Start::verified, wanted,
                                         Arithmetic::bounded};
