@@ -1,7 +1,7 @@
 #include "properties/worker/process_copy.h"
 
-#include <fcntl.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -21,7 +21,7 @@ void write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const auto written = ::write(descriptor, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) ::_exit(1);  // nobody listens any longer
+    if (written <= 0) ::_exit(1);  // no memory is left for it
     text.remove_prefix(static_cast<std::size_t>(written));
   }
 }
@@ -48,30 +48,36 @@ void live_with_the_host() {
   ::_exit(0);
 }
 
+// All that the copy has said.
+std::string said_in(int file) {
+  std::string text;
+  std::array<char, 4096> buffer;
+  for (ssize_t got = 1; got > 0; text.append(buffer.data(), static_cast<std::size_t>(got))) {
+    got = ::pread(file, buffer.data(), buffer.size(), static_cast<off_t>(text.size()));
+    if (got < 0) got = 0;
+  }
+  return text;
+}
+
 }  // namespace
 
 CopyRun in_a_copy(const std::function<void(const Say&)>& work) {
   const auto fail = [](const char* what) {
     throw std::runtime_error(std::string(what) + ": " + std::strerror(errno));
   };
-  std::array<int, 2> ends;
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("no pipe");
+  // The copy speaks into a file in memory: a pipe would wake this process for every line.
+  const int file = ::memfd_create("said", MFD_CLOEXEC);
+  if (file < 0) fail("no file in memory");
   const pid_t copy = ::fork();
-  if (copy == 0) run_in_the_copy(ends[1], work);
-  ::close(ends[1]);
+  if (copy == 0) run_in_the_copy(file, work);
   if (copy < 0) {
-    ::close(ends[0]);
+    ::close(file);
     fail("no process");
   }
   CopyRun run;
-  std::array<char, 4096> buffer;
-  for (ssize_t got = 1; got != 0;) {
-    got = ::read(ends[0], buffer.data(), buffer.size());
-    if (got > 0) run.said.append(buffer.data(), static_cast<std::size_t>(got));
-    if (got < 0 && errno != EINTR) break;
-  }
-  ::close(ends[0]);
   run.end = end_of_child(copy);
+  run.said = said_in(file);
+  ::close(file);
   if (run.said.ends_with(ran_out_of_memory)) throw std::bad_alloc();
   if (const auto at = run.said.find(threw); at != std::string::npos)
     throw std::runtime_error(run.said.substr(at + 1));

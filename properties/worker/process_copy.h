@@ -14,7 +14,8 @@ struct CopyRun {
   ChildEnd end;      // exited with code 0, if the work returned
 };
 
-// Tells the text to the process that the copy was made of, before it returns.
+// Tells the text to the process that the copy was made of. What was said is kept if the copy
+// crashes; it is read when the copy has ended.
 using Say = std::function<void(std::string_view)>;
 
 // Makes a copy of this process, runs the work in it and waits for its end, however long that takes.

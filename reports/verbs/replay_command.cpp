@@ -156,7 +156,9 @@ void print_run(const properties::Configuration& configuration, const properties:
 bool print_broken_laws(const corpus::Case& c, const properties::DetectorUnderTest& detector,
                        const std::vector<properties::CaseRun>& runs,
                        const std::vector<oracle::StepJudgement>& truth) {
-  const auto tally = properties::tally_case({c, {}}, detector.configurations, runs, truth, true);
+  const properties::GeneratedCase made{c, {}};
+  const properties::RunCase one{made, detector.configurations, runs, truth};
+  const auto tally = properties::tally_cases({&one, 1}).front();
   for (const auto& broken : tally.broken) {
     fmt::print("BROKEN LAW {} ({}): {}\n", broken.law, broken.configuration, broken.explanation);
   }

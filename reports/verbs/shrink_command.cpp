@@ -11,8 +11,8 @@
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/progress.h"
-#include "reports/terminal/words.h"
 #include "reports/terminal/text_file.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {
@@ -42,8 +42,10 @@ std::optional<Failing> find_failure(const corpus::Case& c,
   }
   if (!detector.built_in) return std::nullopt;
   const auto runs = worker.run(c, detector.configurations);
-  const auto tally = properties::tally_case({c, {}}, detector.configurations, runs,
-                                            properties::judge_case(c), true);
+  const auto truth = properties::judge_case(c);
+  const properties::GeneratedCase made{c, {}};
+  const properties::RunCase one{made, detector.configurations, runs, truth};
+  const auto tally = properties::tally_cases({&one, 1}).front();
   if (tally.broken.empty()) return std::nullopt;
   const auto& broken = tally.broken.front();
   for (const auto& configuration : detector.configurations) {

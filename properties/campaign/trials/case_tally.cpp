@@ -56,58 +56,63 @@ class ConfigurationLaws {
   CaseFacts facts_;
 };
 
-// A law that is checked in one of the configurations, by its place in a list.
+// A law that is checked on one of the cases, in one of its configurations: places in lists.
 struct LawCheck {
   const Law* law;
-  std::size_t configuration;
+  std::size_t of_case, configuration;
 };
 
-void count_laws(std::span<const LawCheck> checks, const corpus::Case& c,
-                std::span<const Configuration> configurations, std::span<const CaseRun> runs,
-                std::span<const oracle::StepJudgement> truth, CaseTally& tally) {
+void count_laws(std::span<const LawCheck> checks, std::span<const RunCase> cases,
+                std::span<CaseTally> tallies) {
   std::optional<ConfigurationLaws> asked;
-  std::size_t of = 0;
-  const auto tallies = check_in_copies(c.id, checks.size(), [&](std::size_t i) {
-    if (!asked || of != checks[i].configuration) {
-      of = checks[i].configuration;
-      asked.emplace(c, configurations[of], runs[of].steps, truth);
-    }
-    return asked->check(*checks[i].law);
-  });
+  const LawCheck* last = nullptr;
+  const auto found = check_in_copies(
+      checks.size(), [&](std::size_t i) { return cases[checks[i].of_case].made.c.id; },
+      [&](std::size_t i) {
+        const LawCheck& check = checks[i];
+        if (!last || last->of_case != check.of_case || last->configuration != check.configuration) {
+          const RunCase& one = cases[check.of_case];
+          asked.emplace(one.made.c, one.configurations[check.configuration],
+                        one.runs[check.configuration].steps, one.truth);
+        }
+        last = &check;
+        return asked->check(*check.law);
+      });
   for (std::size_t i = 0; i < checks.size(); ++i) {
-    const auto& [law, at] = checks[i];
-    if (tallies[i].premise == 0) continue;
-    add_law(tally.counts, *law, tallies[i], name_of(configurations[at].options.culling));
-    if (tallies[i].broken > 0) {
-      tally.broken.push_back(
-          {std::string(law->name), configurations[at].name, tallies[i].first_broken});
-    }
+    const auto& [law, of_case, at] = checks[i];
+    if (found[i].premise == 0) continue;
+    const auto& configuration = cases[of_case].configurations[at];
+    auto& tally = tallies[of_case];
+    add_law(tally.counts, *law, found[i], name_of(configuration.options.culling));
+    if (found[i].broken > 0)
+      tally.broken.push_back({std::string(law->name), configuration.name, found[i].first_broken});
   }
 }
 
 }  // namespace
 
-CaseTally tally_case(const GeneratedCase& made, std::span<const Configuration> configurations,
-                     std::span<const CaseRun> runs, std::span<const oracle::StepJudgement> truth,
-                     bool with_laws) {
-  CaseTally tally;
-  for (const auto& tag : made.tags) ++tally.counts[tag_count(tag)];
-  bool counted_blocks = false;
+std::vector<CaseTally> tally_cases(std::span<const RunCase> cases) {
+  std::vector<CaseTally> tallies(cases.size());
   std::vector<LawCheck> checks;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].end != RunEnd::completed || !has_view_sets(configurations[i]) ||
-        configurations[i].options.pairs != detector::Pairs::all ||
-        configurations[i].options.arithmetic != detector::Arithmetic::exact) {
-      continue;
-    }
-    if (!counted_blocks) count_blocks(runs[i], truth, tally.counts);
-    counted_blocks = true;
-    for (const Law& law : laws()) {
-      if (with_laws && is_checked_on(law, made.c.id)) checks.push_back({&law, i});
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const auto& [made, configurations, runs, truth, with_laws] = cases[k];
+    for (const auto& tag : made.tags) ++tallies[k].counts[tag_count(tag)];
+    bool counted_blocks = false;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (runs[i].end != RunEnd::completed || !has_view_sets(configurations[i]) ||
+          configurations[i].options.pairs != detector::Pairs::all ||
+          configurations[i].options.arithmetic != detector::Arithmetic::exact) {
+        continue;
+      }
+      if (!counted_blocks) count_blocks(runs[i], truth, tallies[k].counts);
+      counted_blocks = true;
+      for (const Law& law : laws()) {
+        if (with_laws && is_checked_on(law, made.c.id)) checks.push_back({&law, k, i});
+      }
     }
   }
-  count_laws(checks, made.c, configurations, runs, truth, tally);
-  return tally;
+  count_laws(checks, cases, tallies);
+  return tallies;
 }
 
 Judge judge_of_law(const Law& law, const Configuration& configuration) {
@@ -118,7 +123,9 @@ Judge judge_of_law(const Law& law, const Configuration& configuration) {
       const auto truth = judge_case(c);
       return ConfigurationLaws(c, configuration, run.steps, truth).check(law);
     };
-    const LawTally tally = check_in_copies(c.id, 1, check).front();
+    const LawTally tally = check_in_copies(
+                               1, [&](std::size_t) { return c.id; }, check)
+                               .front();
     if (tally.broken == 0) return std::nullopt;
     return Finding{fmt::format("{}{}", law_in_signature, law.name), {}, 0};
   };

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "properties/campaign/stored/record.h"
 #include "properties/generators/draft.h"
@@ -23,11 +25,19 @@ struct CaseTally {
   std::vector<BrokenLaw> broken;
 };
 
-// Counts one case. If `with_laws` is set, the laws are checked in each configuration that has view
-// sets and asks for all pairs.
-CaseTally tally_case(const GeneratedCase& made, std::span<const Configuration> configurations,
-                     std::span<const CaseRun> runs, std::span<const oracle::StepJudgement> truth,
-                     bool with_laws);
+// A case that was run in some configurations and judged.
+struct RunCase {
+  const GeneratedCase& made;
+  std::span<const Configuration> configurations;
+  std::span<const CaseRun> runs;
+  std::span<const oracle::StepJudgement> truth;
+  bool with_laws = true;
+};
+
+// Counts each of the cases. If `with_laws` is set, the laws are checked in each configuration that
+// has view sets and asks for all pairs; those of all cases together, in one copy of this process
+// (law_checks.h).
+std::vector<CaseTally> tally_cases(std::span<const RunCase> cases);
 
 // The reducer's judge for a law, in a configuration of the built-in detector.
 Judge judge_of_law(const Law& law, const Configuration& configuration);

@@ -29,7 +29,8 @@ void add_tallies(const std::string& said, std::vector<LawTally>& tallies) {
 
 }  // namespace
 
-std::vector<LawTally> check_in_copies(std::string_view case_id, std::size_t count,
+std::vector<LawTally> check_in_copies(std::size_t count,
+                                      const std::function<std::string(std::size_t)>& case_of,
                                       const std::function<LawTally(std::size_t)>& check) {
   constexpr int most_kills = 5;
   int kills = 0;
@@ -40,6 +41,7 @@ std::vector<LawTally> check_in_copies(std::string_view case_id, std::size_t coun
     });
     add_tallies(run.said, tallies);
     if (tallies.size() == count) break;
+    const std::string case_id = case_of(tallies.size());
     if (was_killed_from_outside(run.end)) {
       if (++kills == most_kills)
         throw std::runtime_error(

@@ -106,23 +106,27 @@ class Trials {
   static constexpr std::size_t repeated_together = 4;
   static constexpr std::uint32_t variation = 1;
   static constexpr std::uint64_t meshes_kept = 3;  // this many meshes of each signature are stored
+  static constexpr std::size_t counted_together = 32;  // law_checks.h
 
   void work() {
     Workers workers{{request_.worker, request_.plugin, request_.worker_limits()},
                     {request_.worker, request_.plugin, request_.worker_limits(variation)}};
-    std::vector<Trial> waiting;
+    std::vector<Trial> waiting, judged;
     // If something goes wrong in one thread, all of them end.
     try {
       while (const PlannedTrial* planned = next_trial()) {
         Trial trial = run_first(*planned, workers.first);
         if (planned->index % repeat_every != 0 || !trial.is_within) {
           conclude(trial, nullptr, workers.first);
-          continue;
+          judged.push_back(std::move(trial));
+        } else {
+          waiting.push_back(std::move(trial));
+          if (waiting.size() == repeated_together) repeat(waiting, workers, judged);
         }
-        waiting.push_back(std::move(trial));
-        if (waiting.size() == repeated_together) repeat(waiting, workers);
+        if (judged.size() >= counted_together || !request_.detector.built_in) finish(judged);
       }
-      repeat(waiting, workers);
+      repeat(waiting, workers, judged);
+      finish(judged);
     } catch (const StoreProblem& failure) {
       const std::lock_guard lock(mutex_);
       end_.problem = failure.problem();
@@ -182,22 +186,30 @@ class Trials {
     return trial;
   }
 
-  void repeat(std::vector<Trial>& waiting, Workers& workers) {
+  // Moves the trials from `waiting` to `judged`.
+  void repeat(std::vector<Trial>& waiting, Workers& workers, std::vector<Trial>& judged) const {
     for (; !waiting.empty(); waiting.pop_back()) {
       auto& trial = waiting.back();
       const auto again = run(trial, trial.configurations, workers.second);
       conclude(trial, again.data(), workers.first);
+      judged.push_back(std::move(trial));
     }
   }
 
   // `again` is a second run for each configuration, or NULL.
-  void conclude(Trial& trial, const CaseRun* again, WorkerProcess& worker) {
-    if (!trial.is_within) return keep(trial);
+  void conclude(Trial& trial, const CaseRun* again, WorkerProcess& worker) const {
+    if (!trial.is_within) return;
     for (std::size_t i = 0; i < trial.runs.size(); ++i)
       judge_configuration(trial, i, again ? again + i : nullptr, worker);
     count_trial(trial.has_contact, again != nullptr, trial.record.counts);
-    count(trial);
-    keep(trial);
+    count_steps(trial);
+  }
+
+  // Counts what the trials met, keeps them, and empties the list.
+  void finish(std::vector<Trial>& judged) {
+    if (request_.detector.built_in) count_cases(judged);
+    for (const auto& trial : judged) keep(trial);
+    judged.clear();
   }
 
   Trial make(const PlannedTrial& planned) const {
@@ -264,7 +276,7 @@ class Trials {
     return run.printed.empty() && again ? again->printed : run.printed;
   }
 
-  void count(Trial& trial) const {
+  static void count_steps(Trial& trial) {
     auto& record = trial.record;
     record.triangles = static_cast<std::uint64_t>(trial.seen.triangles.rows());
     for (const auto& step : trial.truth) {
@@ -272,14 +284,23 @@ class Trials {
       record.collisions += step.pairs.empty() ? 0 : 1;
       record.pairs += step.pairs.size();
     }
-    if (!request_.detector.built_in) return;
-    const bool with_laws =
-        request_.plan.laws_every > 0 && trial.planned->index % request_.plan.laws_every == 0;
-    const CaseTally tally =
-        tally_case(trial.made, trial.configurations, trial.runs, trial.truth, with_laws);
-    add(record.counts, tally.counts);
-    for (const auto& broken : tally.broken)
-      trial.failures.push_back(broken_law(trial.made.c, broken, trial.configurations));
+  }
+
+  // Counts tags, set pairs and laws. The contract of the built-in detector leaves no case out.
+  void count_cases(std::span<Trial> judged) const {
+    std::vector<RunCase> cases;
+    for (const auto& trial : judged) {
+      const auto every = request_.plan.laws_every;
+      const bool with_laws = every > 0 && trial.planned->index % every == 0;
+      cases.push_back({trial.made, trial.configurations, trial.runs, trial.truth, with_laws});
+    }
+    const auto tallies = tally_cases(cases);
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+      auto& trial = judged[i];
+      add(trial.record.counts, tallies[i].counts);
+      for (const auto& broken : tallies[i].broken)
+        trial.failures.push_back(broken_law(trial.made.c, broken, trial.configurations));
+    }
   }
 
   static StoredFailure broken_law(const corpus::Case& c, const BrokenLaw& broken,

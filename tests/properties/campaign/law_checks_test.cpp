@@ -19,10 +19,12 @@ const LawTally held{7, 2, 0, ""};
 
 std::vector<LawTally> checks_with(std::size_t count, std::size_t bad,
                                   const std::function<void()>& what_it_does) {
-  return check_in_copies("a:1:b:2", count, [&](std::size_t i) {
-    if (i == bad) what_it_does();
-    return held;
-  });
+  return check_in_copies(
+      count, [](std::size_t) { return "a:1:b:2"; },
+      [&](std::size_t i) {
+        if (i == bad) what_it_does();
+        return held;
+      });
 }
 
 TEST(LawChecks, ACrashBreaksTheLawAndNoOther) {
@@ -43,13 +45,14 @@ TEST(LawChecks, AnExitIsACrashToo) {
 
 TEST(LawChecks, NumbersAndWordsArrive) {
   const LawTally broken{1ull << 60, 3, 2, "case \"x\", step 1:\n\xff"};
-  const auto tallies =
-      check_in_copies("c", 1000, [&](std::size_t i) { return i == 998 ? broken : held; });
+  const auto tallies = check_in_copies(
+      1000, [](std::size_t) { return "c"; },
+      [&](std::size_t i) { return i == 998 ? broken : held; });
   ASSERT_EQ(tallies.size(), 1000u);
   EXPECT_EQ(tallies[998].premise, broken.premise);
   EXPECT_TRUE(tallies[998].first_broken.starts_with("case \"x\", step 1:\n"));
   EXPECT_EQ(tallies[999], held);
-  EXPECT_TRUE(check_in_copies("c", 0, [](std::size_t) -> LawTally { std::abort(); }).empty());
+  EXPECT_TRUE(check_in_copies(0, {}, [](std::size_t) -> LawTally { std::abort(); }).empty());
 }
 
 TEST(LawChecks, WhatIsThrownIsThrown) {
