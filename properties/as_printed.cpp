@@ -26,7 +26,7 @@ std::vector<Assembly> assemblies() {
 
 void count(const detector::StepResult& result, const oracle::StepJudgement& judgement,
            TollRow& row) {
-  const StepDiff diff = compare(result, judgement, as_printed_options);
+  const StepDiff diff = compare(result, judgement, claims_of(as_printed_options));
   const bool missed = !judgement.pairs.empty();
   if (missed && result.answer == detector::Answer::free) {
     ++row.silent;

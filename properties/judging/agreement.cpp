@@ -25,8 +25,8 @@ namespace {
 // arithmetic. Otherwise it is any interval that holds the time, or misses it by no more than the
 // tolerance.
 struct Times {
-  bool unique = false;
-  double tolerance = 0;
+  bool unique;
+  double tolerance;
 
   // The t* of the oracle is its lo if lo == hi; else it lies strictly between two adjacent
   // doubles. In that case an interval of doubles holds t* if it holds both.
@@ -41,20 +41,20 @@ struct Times {
 class Comparison {
  public:
   Comparison(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-             const Claims& claims, const Contract& contract, bool unique_times)
+             const Claims& claims, const Contract& contract)
       : result_(result),
         judgement_(judgement),
         claims_(claims),
         contract_(contract),
-        times_{unique_times, contract.time_tolerance} {}
+        times_{claims.has(Claim::times_unique), contract.time_tolerance} {}
 
   StepDiff run(StepTruth truth) {
     diff_.answer = result_.answer;
     diff_.oracle_complete = judgement_.complete;
     diff_.nothing_in_contact = judgement_.complete && judgement_.pairs.empty();
-    diff_.claims_pairs = claims_.all_pairs || claims_.first_pairs;
+    diff_.claims_pairs = claims_.has(Claim::all_pairs) || claims_.has(Claim::first_pairs);
     if (result_.answer == Answer::error) {
-      broken(Claim::total, true);
+      broken(Claim::total, !result_.problem);
       diff_.outcome = diff_.broken.empty() ? Outcome::error : Outcome::defect;
       return std::move(diff_);
     }
@@ -104,7 +104,7 @@ class Comparison {
     }
     // Without the claim all-pairs the detector claims only the least time of the step and of the
     // pairs that it reports.
-    if (!claims_.all_pairs) diff_.late.clear();
+    if (!claims_.has(Claim::all_pairs)) diff_.late.clear();
   }
 
   void compare_answers() {
@@ -144,8 +144,8 @@ class Comparison {
       excused.assign(later, unexcused_.end());
       unexcused_.erase(later, unexcused_.end());
     }
-    if (claims_.all_pairs) return;
-    const bool is_silent = result_.pairs.empty() && !claims_.first_pairs;
+    if (claims_.has(Claim::all_pairs)) return;
+    const bool is_silent = result_.pairs.empty() && !claims_.has(Claim::first_pairs);
     if (!contract_.reports_pairs || is_silent) {
       diff_.missing.clear();
       return;
@@ -202,7 +202,7 @@ TimeOff time_off(const TimeEnclosure& stated, const TimeEnclosure& exact, double
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
                  const Claims& claims, const Contract& contract,
                  const detector::TrianglesView& triangles) {
-  return Comparison(result, judgement, claims, contract, false)
+  return Comparison(result, judgement, claims, contract)
       .run(truth_of(judgement, contract, triangles));
 }
 
@@ -216,23 +216,6 @@ oracle::AskedFeatures asked_features(const Contract& contract) {
       return oracle::AskedFeatures::edge_edge;
   }
   return oracle::AskedFeatures::all;
-}
-
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 const detector::Options& options) {
-  Claims claims = claims_of(options);
-  // Bad input is refused by name. That is an answer nobody asked for, but no defect, so total is
-  // not claimed.
-  claims.total = false;
-  const bool unique_times = options.arithmetic == detector::Arithmetic::exact;
-  const Contract leaves_nothing_out;
-  return Comparison(result, judgement, claims, leaves_nothing_out, unique_times)
-      .run(truth_of(judgement, leaves_nothing_out, detector::Triangles(0, 3)));
-}
-
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 detector::Pairs claimed) {
-  return compare(result, judgement, detector::Options{.pairs = claimed});
 }
 
 std::string stage_that_lost(const detector::TrianglesView& triangles,

@@ -106,8 +106,10 @@ struct StepDiff {
 // in contact at t* as edges) holds a reported pair.
 //
 // If the contract has a margin, no-spurious is not judged. A step that was answered by an error
-// breaks `total`, or is Outcome::error if `total` is not claimed. `deterministic` is not judged
-// here, because it needs two runs: same_answers. O(n log n) in the number of pairs.
+// breaks `total`, or is Outcome::error if `total` is not claimed. It is Outcome::error too if the
+// built-in detector refuses the input by name (StepResult::problem), because `total` speaks of
+// valid input. `deterministic` is not judged here, because it needs two runs: same_answers.
+// O(n log n) in the number of pairs.
 //
 // What breaks a claim:
 // - free-sound: the answer `free`, although there is a contact.
@@ -118,22 +120,17 @@ struct StepDiff {
 // - no-spurious: `collision` although there is no contact, a spurious pair, or a pair whose time
 //   ends before its contact.
 //
-// REQUIRES a judgement of the oracle that was asked for asked_features(contract).
+// times-unique breaks nothing by itself. If it is claimed, an interval is wrong unless it is the
+// oracle's in every bit.
+//
+// REQUIRES a judgement of the oracle that was asked for asked_features(contract), and the triangles
+// if the contract leaves out neighbours.
 StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 const Claims& claims, const Contract& contract,
-                 const detector::TrianglesView& triangles);
+                 const Claims& claims, const Contract& contract = {},
+                 const detector::TrianglesView& triangles = detector::Triangles(0, 3));
 
 // The features that the oracle is to be asked for under this contract.
 oracle::AskedFeatures asked_features(const Contract& contract);
-
-// Judges a step of the built-in detector by claims_of(options). In exact arithmetic its times are
-// unique enclosures, so each must agree with the oracle's in every bit; in the other arithmetics
-// they are intervals. An input error is Outcome::error.
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 const detector::Options& options);
-// The same for the built-in detector in exact arithmetic.
-StepDiff compare(const detector::StepResult& result, const oracle::StepJudgement& judgement,
-                 detector::Pairs claimed);
 
 // The stage of the detector at which a missed pair was lost. It is found by running the step with
 // less culling: "view sets" if culling bvh finds the pair, "pair search" if only culling none

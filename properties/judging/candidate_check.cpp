@@ -9,7 +9,7 @@ namespace assay::properties {
 void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgement& judgement,
                       const Claims& claims, const Contract& contract,
                       const detector::TrianglesView& triangles, StepDiff& diff) {
-  if (!claims.candidates) return;
+  if (!claims.has(Claim::candidates)) return;
   if (candidates) {
     const StepTruth truth = truth_of(judgement, contract, triangles);
     auto ours = candidates->begin();
@@ -33,8 +33,8 @@ StepDiff diff_without_answer(const detector::StepResult& result, const Claims& c
   StepDiff diff;
   diff.has_answer = false;
   if (result.answer != detector::Answer::error) return diff;
-  if (claims.total) diff.broken.push_back(Claim::total);
-  diff.outcome = claims.total ? Outcome::defect : Outcome::error;
+  if (claims.has(Claim::total)) diff.broken.push_back(Claim::total);
+  diff.outcome = claims.has(Claim::total) ? Outcome::defect : Outcome::error;
   return diff;
 }
 

@@ -27,7 +27,7 @@ void add_broken(JudgedRun& judged, Claim claim) {
 }
 
 void not_answered(JudgedRun& judged, const Claims& claims) {
-  if (claims.total) {
+  if (claims.has(Claim::total)) {
     add_broken(judged, Claim::total);
   } else {
     judged.outcome = Outcome::error;
@@ -112,7 +112,7 @@ JudgedRun judge_run(const corpus::Case& c, const CaseRun& run,
   const auto ended_by_itself = [](const CaseRun& one) {
     return one.end == RunEnd::completed || one.end == RunEnd::crashed || one.end == RunEnd::refused;
   };
-  if (claims.deterministic && ended_by_itself(run) && ended_by_itself(*again) &&
+  if (claims.has(Claim::deterministic) && ended_by_itself(run) && ended_by_itself(*again) &&
       !same_answers(run, *again)) {
     add_broken(judged, Claim::deterministic);
   }

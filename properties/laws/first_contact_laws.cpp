@@ -128,7 +128,7 @@ Observation claim_holds(CaseFacts& facts, std::size_t s) {
   const bool about_contacts = claim != Claim::free_sound && claim != Claim::no_spurious;
   if (about_contacts && !contact) return not_met();
   if (claim == Claim::free_sound && result.answer != Answer::free && !contact) return not_met();
-  const auto diff = compare(result, judgement, facts.options());
+  const auto diff = compare(result, judgement, claims_of(facts.options()));
   const bool broken = std::count(diff.broken.begin(), diff.broken.end(), claim) != 0;
   return holds_if(!broken, "refuted");
 }

@@ -237,7 +237,7 @@ class StepFamily final : public SelfTestFamily {
       tally.contacts += judged.answer == detector::Answer::collision ? 1 : 0;
       tally.rungs += judged.rungs;
       const auto found = detect(step);
-      if (compare(found, judged, detector::Pairs::all).outcome == Outcome::holds) return {};
+      if (compare(found, judged, claims_of({})).outcome == Outcome::holds) return {};
     } catch (const std::exception& thrown) {
       ++tally.contradictions;
       return fmt::format("threw: {}", thrown.what());

@@ -178,7 +178,9 @@ std::string broken_rule(const PluginDescription& description) {
   }
   const auto& parts = description.parts;
   if (!parts.steps && !parts.query && !parts.candidates) return "no part that can be judged";
-  if (description.claims.candidates != parts.candidates)
+  if (!description.claims.without(claims_from_outside).empty())
+    return "claims that no plug-in can make";
+  if (description.claims.has(Claim::candidates) != parts.candidates)
     return "candidates without a claim, or a claim on none";
   return fault_of(description.contract);
 }

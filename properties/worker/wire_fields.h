@@ -102,10 +102,9 @@ void fields(Wire& wire, corpus::Case& c) {
 
 template <class Wire>
 void fields(Wire& wire, Claims& claims) {
-  auto& [free_sound, not_late, first_time, first_pairs, all_pairs, no_spurious, deterministic,
-         total, candidates] = claims;
-  wire(free_sound, not_late, first_time, first_pairs, all_pairs, no_spurious, deterministic, total,
-       candidates);
+  std::uint32_t bits = claims.bits();
+  wire(bits);
+  claims = Claims::of_bits(bits);
 }
 
 template <class Wire>

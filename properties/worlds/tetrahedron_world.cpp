@@ -182,7 +182,7 @@ class Check {
   // Returns true if the detector does not hold.
   bool check_detector(Detector& detector, Pairs pairs, const ViewPrimitive& q) const {
     const auto result = detector.evaluate(x_t0_, x_t1_, {&q, 1});
-    return compare(result, judgement_, pairs).outcome != Outcome::holds;
+    return compare(result, judgement_, claims_of({.pairs = pairs})).outcome != Outcome::holds;
   }
 
   // The law that does not hold, or null if all hold.

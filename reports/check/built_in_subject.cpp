@@ -71,7 +71,7 @@ class BuiltIn : public Subject {
 
   properties::StepDiff judge(std::size_t, const StepResult& result,
                              const oracle::StepJudgement& judgement) const override {
-    return properties::compare(result, judgement, options_);
+    return properties::compare(result, judgement, properties::claims_of(options_));
   }
 
   std::string stage_that_lost(const CheckedStep& step, detector::TrianglePair pair) const override {

@@ -14,7 +14,8 @@ std::vector<std::string> unjudged_parts(const properties::PluginDescription& plu
                                         const properties::DetectorUnderTest& detector) {
   std::vector<std::string> parts;
   if (plugin.parts.steps && detector.of_queries) parts.emplace_back("whole steps");
-  if (plugin.parts.candidates && (detector.of_queries || !detector.claims.candidates))
+  if (plugin.parts.candidates &&
+      (detector.of_queries || !detector.claims.has(properties::Claim::candidates)))
     parts.emplace_back("broad phase");
   if (plugin.parts.query && detector.query_claims == properties::Claims())
     parts.emplace_back("elementary query");

@@ -64,9 +64,11 @@ class Plugin : public Subject {
   properties::JudgedRun begin() override {
     const std::vector<properties::Configuration> alone = {{description_.name, {}}};
     runs_ = worker_.run(*case_, alone);
-    if (claims_.deterministic) runs_.push_back(std::move(second_.run(*case_, alone).front()));
-    return properties::judge_run(*case_, runs_[0], {}, claims_, description_.contract,
-                                 claims_.deterministic ? &runs_[1] : nullptr);
+    if (claims_.has(properties::Claim::deterministic))
+      runs_.push_back(std::move(second_.run(*case_, alone).front()));
+    return properties::judge_run(
+        *case_, runs_[0], {}, claims_, description_.contract,
+        claims_.has(properties::Claim::deterministic) ? &runs_[1] : nullptr);
   }
 
   const properties::PluginDescription* description() const override { return &description_; }

@@ -50,20 +50,23 @@ std::string SceneStep::difference(const detector::TrianglePair& pair,
   if (!exact && contact_of(truth.left_out, pair)) return "left out by the contract";
   if (!diff || !answered) return "not run";
   if (has_pair(diff->missing_candidates, pair)) return "no candidate";
+  using properties::Claim;
   const auto& claims = scene.claims;
   const auto* reported = contact_of(answered->pairs, pair);
-  if (!exact) return claims.no_spurious ? "spurious" : "no contact, not claimed";
+  if (!exact) return claims.has(Claim::no_spurious) ? "spurious" : "no contact, not claimed";
   if (!reported) {
-    const bool are_claimed = scene.reports_pairs && (claims.all_pairs || claims.first_pairs);
+    const bool are_claimed =
+        scene.reports_pairs && (claims.has(Claim::all_pairs) || claims.has(Claim::first_pairs));
     if (are_claimed && has_pair(diff->missing, pair)) return "missing";
-    return diff->answered_free && claims.free_sound ? "answered free" : "not claimed";
+    return diff->answered_free && claims.has(Claim::free_sound) ? "answered free" : "not claimed";
   }
-  if (has_pair(diff->early, pair)) return claims.no_spurious ? "early" : "earlier, not claimed";
+  if (has_pair(diff->early, pair))
+    return claims.has(Claim::no_spurious) ? "early" : "earlier, not claimed";
   const bool is_late =
       has_pair(diff->late, pair) ||
       properties::time_off(reported->time, exact->time, scene.time_tolerance).late > 0;
   if (!is_late) return "agrees";
-  return claims.all_pairs ? "late" : "later, not claimed";
+  return claims.has(Claim::all_pairs) ? "late" : "later, not claimed";
 }
 
 namespace {
@@ -95,7 +98,7 @@ std::optional<CaseScene> make_scene(const corpus::Case& c,
   scene.reports_pairs =
       run.has_answers && detector.contract.reports_pairs && !properties::says_query(scene.c);
   scene.claims = detector.claims_in(configuration);
-  scene.claims.no_spurious &= detector.contract.margin == 0;
+  if (detector.contract.margin > 0) scene.claims.set(properties::Claim::no_spurious, false);
   scene.time_tolerance = detector.contract.time_tolerance;
   const auto script = corpus::steps_of(scene.c);
   for (std::size_t s = 0; s < script.size(); ++s) {

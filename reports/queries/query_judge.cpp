@@ -37,7 +37,7 @@ std::vector<JudgedQuery> QueryJudge::judge(std::span<const detector::FourPoints>
   auto runs = worker_.ask(asked);
   const std::chrono::duration<double, std::micro> took = Clock::now() - begin;
   std::vector<properties::CaseRun> again;
-  if (detector_.claims.deterministic) {
+  if (detector_.claims.has(properties::Claim::deterministic)) {
     std::reverse(asked.begin(), asked.end());
     again = second_.ask(asked);
     std::reverse(again.begin(), again.end());

@@ -513,7 +513,7 @@ constexpr const char* plugin_main = R"cpp(
 // "free_sound | total", in the words of the exported file.
 std::string claims_text(const properties::DetectorUnderTest& detector) {
   std::vector<std::string> names;
-  for (const auto claim : properties::judged_claims(detector.claims, detector.contract)) {
+  for (const auto claim : list_of(properties::judged_claims(detector.claims, detector.contract))) {
     names.emplace_back(name_of(claim));
     std::replace(names.back().begin(), names.back().end(), '-', '_');
   }

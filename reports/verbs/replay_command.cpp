@@ -228,7 +228,8 @@ int run_replay(const ReplayRequest& request) {
     if (run.end == properties::RunEnd::not_run) return refuse(run.explanation);
   }
   // A plug-in that claims to be deterministic is asked again, in another process, as in a campaign.
-  const bool asks_twice = !subject.detector.built_in && subject.detector.claims.deterministic;
+  const bool asks_twice =
+      !subject.detector.built_in && subject.detector.claims.has(properties::Claim::deterministic);
   limits.variation = 1;
   limits.least = worker.isolation();
   properties::WorkerProcess second(subject.worker, subject.plugin, limits);

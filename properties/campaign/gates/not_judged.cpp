@@ -140,13 +140,8 @@ std::vector<std::string> claims_of_any_configuration(const BoundDetector& detect
 // Whether one of these claims speaks of contacts and is not void under the contract.
 bool wants_contacts(const std::vector<std::string>& words, const Contract& contract) {
   Claims claims;
-  claims.free_sound = has(words, Claim::free_sound);
-  claims.not_late = has(words, Claim::not_late);
-  claims.first_time = has(words, Claim::first_time);
-  claims.first_pairs = has(words, Claim::first_pairs);
-  claims.all_pairs = has(words, Claim::all_pairs);
-  claims.candidates = has(words, Claim::candidates);
-  const auto judged = judged_claims(claims, contract);
+  for (const Claim claim : all_claims()) claims.set(claim, has(words, claim));
+  const auto judged = list_of(judged_claims(claims, contract));
   return std::any_of(judged.begin(), judged.end(), speaks_of_contacts);
 }
 

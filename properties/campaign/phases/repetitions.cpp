@@ -139,7 +139,7 @@ std::optional<std::size_t> differing_step(const CaseRun& a, const CaseRun& b) {
 class Repetitions {
  public:
   Repetitions(const CampaignRequest& request, Store& store) : request_(request), store_(store) {
-    if (!request.detector.claims.deterministic) {
+    if (!request.detector.claims.has(Claim::deterministic)) {
       threads_ = {request.threads};
     } else if (request.takes_threads) {
       threads_.assign(std::begin(repeated_threads), std::end(repeated_threads));

@@ -82,15 +82,7 @@ JudgedTrial judge_trial(const corpus::Case& c, std::span<const oracle::StepJudge
                         const CaseRun& run, const Configuration& configuration,
                         const DetectorUnderTest& detector, const CaseRun* again) {
   const Claims claims = detector.claims_on(c, configuration);
-  // The steps of the built-in detector are left out here, because they are judged more strictly
-  // below.
-  const auto by_claims = detector.built_in ? std::span<const oracle::StepJudgement>{} : truth;
-  JudgedRun whole = judge_run(c, run, by_claims, claims, detector.contract, again);
-  if (detector.built_in) {
-    for (std::size_t s = 0; s < run.steps.size(); ++s) {
-      whole.steps.push_back(compare(run.steps[s], truth[s], configuration.options));
-    }
-  }
+  JudgedRun whole = judge_run(c, run, truth, claims, detector.contract, again);
   JudgedTrial judged{whole.outcome, {}, whole.left_out_misses, {}};
   const auto steps = corpus::steps_of(c);
   for (std::size_t s = 0; s < whole.steps.size() && !judged.failure; ++s) {

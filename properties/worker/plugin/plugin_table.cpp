@@ -124,18 +124,14 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   for (const auto& text : {description.name, description.version}) {
     if (const auto fault = fault_of_name(text); !fault.empty()) return broken("it has " + fault);
   }
-  const auto has = [&](std::uint32_t bit) { return (raw.claims & bit) != 0; };
-  description.claims = {
-      has(ASSAY_CLAIM_FREE_SOUND),    has(ASSAY_CLAIM_NOT_LATE),  has(ASSAY_CLAIM_FIRST_TIME),
-      has(ASSAY_CLAIM_FIRST_PAIRS),   has(ASSAY_CLAIM_ALL_PAIRS), has(ASSAY_CLAIM_NO_SPURIOUS),
-      has(ASSAY_CLAIM_DETERMINISTIC), has(ASSAY_CLAIM_TOTAL),     has(ASSAY_CLAIM_CANDIDATES)};
+  description.claims = Claims::of_bits(raw.claims);
   description.parts = {table.evaluate != nullptr, table.query != nullptr,
                        table.candidates != nullptr, table.use_threads != nullptr};
-  if (description.claims.candidates && !description.parts.candidates)
+  if (description.claims.has(Claim::candidates) && !description.parts.candidates)
     return broken("it claims candidates, and has no such function");
-  if (description.parts.candidates && !description.claims.candidates)
+  if (description.parts.candidates && !description.claims.has(Claim::candidates))
     return broken("it has a function for candidates, and does not claim candidates");
-  if (description.parts.query && list_of(description.claims).empty())
+  if (description.parts.query && description.claims.empty())
     return broken("it has a query function, and claims nothing");
   return description;
 }

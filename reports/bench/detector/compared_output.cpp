@@ -70,7 +70,7 @@ std::string text_of(const ComparedDetector& detector, std::span<const ComparedSe
   auto text = fmt::format(
       "beside the built-in detector, auto, exact, {} pairs; processor time in ms with all "
       "threads, medians\n",
-      detector.claims.all_pairs ? "all" : "first");
+      detector.claims.has(properties::Claim::all_pairs) ? "all" : "first");
   text += fmt::format(compared_row, "sequence", "triangles", "steps", "a step", "built-in",
                       "over built-in", "create", "built-in", "over built-in", "unsafe", "alarms",
                       "late", "early", "missing", "spurious", "undecided") +

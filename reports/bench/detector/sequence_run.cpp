@@ -83,7 +83,8 @@ ComparedSequence ComparedWorkers::compare(const SequenceToCompare& sequence,
   const auto start = vouches && sequence.starts_clean && out.left_out == 0
                          ? detector::Start::clean
                          : detector::Start::verified;
-  const auto pairs = claims.all_pairs ? detector::Pairs::all : detector::Pairs::first;
+  const auto pairs =
+      claims.has(properties::Claim::all_pairs) ? detector::Pairs::all : detector::Pairs::first;
   const properties::Configuration own = {name, {}, {}, true};
   const properties::Configuration built_in = {
       "built-in", {detector::Options{}.culling, start, pairs}, {}, true};
@@ -107,14 +108,17 @@ ComparedSequence ComparedWorkers::compare(const SequenceToCompare& sequence,
   tick();
   const auto truth = properties::judge_case(*seen, contract, plugin_.jobs);
   const auto judged = judge_run(*seen, *plugin_runs.first, truth, claims, contract);
-  out.errors = errors_of(judged, *plugin_runs.first, truth, claims.all_pairs || claims.first_pairs);
-  if (claims.deterministic && plugin_runs.has_differing_runs)
+  out.errors = errors_of(
+      judged, *plugin_runs.first, truth,
+      claims.has(properties::Claim::all_pairs) || claims.has(properties::Claim::first_pairs));
+  if (claims.has(properties::Claim::deterministic) && plugin_runs.has_differing_runs)
     out.errors.broken.emplace_back(name_of(properties::Claim::deterministic));
   for (const auto& claim : out.errors.broken)
     wrong.push_back(fmt::format("{}: {} breaks {}", out.name, name, claim));
   const auto& answers = built_in_runs.first->steps;
   for (std::size_t s = 0; s < answers.size(); ++s) {
-    const auto diff = properties::compare(answers[s], truth[s], built_in.options);
+    const auto diff =
+        properties::compare(answers[s], truth[s], properties::claims_of(built_in.options));
     if (diff.outcome == Outcome::holds) continue;
     wrong.push_back(fmt::format("{}, step {}: the built-in detector: {}", out.name, s + 1,
                                 name_of(diff.outcome)));

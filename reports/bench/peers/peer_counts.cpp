@@ -26,7 +26,8 @@ void count_step(const properties::StepDiff& diff, const detector::StepResult& re
 
 bool is_unsafe(const PeerSubject& subject, const properties::StepDiff& diff) {
   const auto asked = subject.asked();
-  const bool asked_for_pairs = asked.all_pairs || asked.first_pairs;
+  const bool asked_for_pairs =
+      asked.has(properties::Claim::all_pairs) || asked.has(properties::Claim::first_pairs);
   return diff.answered_free || diff.late_first || (asked_for_pairs && !diff.missing.empty());
 }
 

@@ -77,7 +77,7 @@ std::size_t place_of(const std::filesystem::path& file) {
 }  // namespace
 
 properties::Claims PeerSubject::asked() const {
-  return is_built_in() ? properties::claims_of({.pairs = detector::Pairs::all}) : claims;
+  return is_built_in() ? properties::claims_of({}).only(properties::claims_from_outside) : claims;
 }
 
 Peers find_peers(const std::string& folder) {

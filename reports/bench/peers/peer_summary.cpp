@@ -75,7 +75,7 @@ std::vector<PeerRow> peer_rows(std::span<const PeerFamily> families,
     row.detector = subject.name;
     row.version = subject.version;
     row.is_built_in = subject.is_built_in();
-    row.claims_soundness = subject.claims.free_sound;
+    row.claims_soundness = subject.claims.has(properties::Claim::free_sound);
     for (const auto claim : properties::list_of(subject.claims))
       row.claims.emplace_back(name_of(claim));
     row.contract = phrases_of(subject.contract);

@@ -107,7 +107,8 @@ class CaseRun {
     if (out.contact && result.answer == Answer::collision) {
       out.first = first_time_error(result.first, truth.first);
     }
-    const auto own = properties::compare(result, truth, options_of(out.variant));
+    const auto own =
+        properties::compare(result, truth, properties::claims_of(options_of(out.variant)));
     if (own.outcome != properties::Outcome::holds) {
       complain(out.step, out.variant, "refuted by the oracle");
     }

@@ -59,7 +59,7 @@ TEST(StepMeasures, AStepSizeIsEarly) {
   detector::StepResult result;
   result.answer = detector::Answer::collision;
   result.first = {0.25, 1};
-  const auto diff = compare(result, truth, {.not_late = true}, {}, triangles);
+  const auto diff = compare(result, truth, {Claim::not_late}, {}, triangles);
   EXPECT_EQ(diff.outcome, Outcome::holds);
   Counts counts;
   count_measures({&diff, 1}, {&result, 1}, {&truth, 1}, counts);

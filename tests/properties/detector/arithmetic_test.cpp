@@ -128,7 +128,7 @@ TEST(ArithmeticSteps, BoundedKeepsItsClaimsOnSmallSteps) {
         if (i % 2 && culling == Culling::view_point) given.push_back(step.point);
         if (i % 2 && culling == Culling::view_line) given.push_back(step.line);
         const auto result = made.value().step(step.x_t0, step.x_t1, given);
-        const auto diff = compare(result, judgement, options);
+        const auto diff = compare(result, judgement, claims_of(options));
         ASSERT_EQ(diff.outcome, Outcome::holds)
             << name_of(culling) << ", seed " << seed << ", step " << i << ": "
             << diff.missing.size() << " missing, " << diff.late.size() << " late, first time ["

@@ -89,7 +89,8 @@ class Player {
         }
         if (const auto truth = judged_.find(phase);
             (period * steps_a_period + phase) % judged_every == 0) {
-          EXPECT_EQ(compare(result, truth->second, options).outcome, Outcome::holds) << phase;
+          EXPECT_EQ(compare(result, truth->second, claims_of(options)).outcome, Outcome::holds)
+              << phase;
         }
       }
       if (period == 1) {

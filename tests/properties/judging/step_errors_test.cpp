@@ -57,7 +57,7 @@ TEST(StepErrors, EachWordIsMet) {
 TEST(StepErrors, AMissingPairIsUnsafeIfPairsAreClaimed) {
   const std::vector<PairContact> two = {contact(0, 1, 0.5), contact(2, 3, 0.5)};
   const auto claimed =
-      errors_of_step(Answer::collision, {0.5, 0.5}, at_half, two, {.first_pairs = true});
+      errors_of_step(Answer::collision, {0.5, 0.5}, at_half, two, {Claim::first_pairs});
   EXPECT_EQ(claimed.missing, 1u);
   EXPECT_EQ(claimed.unsafe, 1u);
   const auto not_claimed = errors_of_step(Answer::collision, {0.5, 0.5}, at_half, two);

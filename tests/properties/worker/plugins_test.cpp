@@ -101,14 +101,15 @@ TEST(Plugins, TheExampleHoldsAndItsContractLeavesMissesOut) {
   const auto tally = run_all("example");
   EXPECT_EQ(tally.outcomes.at(Outcome::holds), cases().size());
   EXPECT_EQ(tally.description.contract.adjacency, Adjacency::no_shared_vertex);
-  EXPECT_FALSE(tally.description.claims.no_spurious);
+  EXPECT_FALSE(tally.description.claims.has(Claim::no_spurious));
   EXPECT_GT(tally.left_out_misses, 100u);
 }
 
 TEST(Plugins, TheExampleInCppHolds) {
   const auto tally = run_all("example_in_cpp");
   EXPECT_EQ(tally.outcomes.at(Outcome::holds), cases().size());
-  EXPECT_TRUE(tally.description.claims.free_sound && tally.description.claims.all_pairs);
+  EXPECT_TRUE(tally.description.claims.has(Claim::free_sound) &&
+              tally.description.claims.has(Claim::all_pairs));
   EXPECT_TRUE(tally.description.contract.has_range());
 }
 
@@ -159,7 +160,7 @@ TEST(Plugins, ACrashIsNamed) {
   EXPECT_EQ(runs, 1000);
   EXPECT_EQ(crash.end, RunEnd::crashed);
   EXPECT_EQ(crash.explanation, "killed by signal 6 (Aborted)");
-  const auto verdict = judge_run(c, crash, judge_case(c), {.total = true}, {});
+  const auto verdict = judge_run(c, crash, judge_case(c), {Claim::total}, {});
   EXPECT_EQ(verdict.broken, std::vector<Claim>{Claim::total});
   EXPECT_EQ(verdict.explanation, crash.explanation);
 }
@@ -236,7 +237,7 @@ TEST(Plugins, WhatBreaksTheRulesOfTheHeaderIsAnError) {
     ASSERT_EQ(run.end, RunEnd::completed);
     EXPECT_EQ(run.steps[0].answer, Answer::error);
     EXPECT_EQ(run.explanation, why);
-    EXPECT_EQ(judge_run(c, run, judge_case(c), {.total = true}, {}).broken,
+    EXPECT_EQ(judge_run(c, run, judge_case(c), {Claim::total}, {}).broken,
               std::vector<Claim>{Claim::total});
     EXPECT_EQ(judge_run(c, run, judge_case(c), {}, {}).outcome, Outcome::error);
   }

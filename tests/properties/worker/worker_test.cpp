@@ -182,7 +182,7 @@ TEST(Worker, MemoryEndsInUndecided) {
   const auto runs = worker.run(c, std::vector<Configuration>(2, four[2]));
   for (const auto& run : runs) {
     EXPECT_EQ(run.end, RunEnd::out_of_memory) << run.explanation;
-    const auto verdict = judge_run(c, run, {}, {.total = true}, {});
+    const auto verdict = judge_run(c, run, {}, {Claim::total}, {});
     EXPECT_EQ(verdict.outcome, Outcome::undecided);
     EXPECT_EQ(verdict.explanation, "out of memory");
   }
@@ -192,7 +192,7 @@ TEST(Worker, MemoryEndsInUndecided) {
   const auto step =
       WorkerProcess(ASSAY_WORKER, plugin("no_memory")).run(small_case(31, 0), plugin_alone)[0];
   const auto truth = judge_case(small_case(31, 0));
-  const auto verdict = judge_run(small_case(31, 0), step, truth, {.total = true}, {});
+  const auto verdict = judge_run(small_case(31, 0), step, truth, {Claim::total}, {});
   EXPECT_EQ(verdict.outcome, Outcome::undecided);
   EXPECT_EQ(verdict.explanation, "step 1: out of memory");
 }
