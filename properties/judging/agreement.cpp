@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <set>
+#include <vector>
 
 #include "detector/detector.h"
-#include "properties/judging/first_contact_graph.h"
+#include "detector/mesh/step_types.h"
 #include "properties/judging/step_truth.h"
 
 namespace assay::properties {
@@ -233,6 +235,68 @@ std::string stage_that_lost(const detector::TrianglesView& triangles,
   if (finds(detector::Culling::bvh)) return "view sets";
   if (triangles.rows() > most_triangles_without_tree) return "pair search or elementary test";
   return finds(detector::Culling::none) ? "pair search" : "elementary test";
+}
+
+void judge_candidates(const CandidatePairs& candidates, const oracle::StepJudgement& judgement,
+                      const Claims& claims, const Contract& contract,
+                      const detector::TrianglesView& triangles, StepDiff& diff) {
+  if (!claims.has(Claim::candidates)) return;
+  if (candidates) {
+    const StepTruth truth = truth_of(judgement, contract, triangles);
+    auto ours = candidates->begin();
+    for (const auto& contact : truth.pairs) {
+      while (ours != candidates->end() && *ours < contact.pair) ++ours;
+      const bool is_there = ours != candidates->end() && *ours == contact.pair;
+      if (!is_there) diff.missing_candidates.push_back(contact);
+    }
+    diff.candidates = {candidates->size(), truth.pairs.size()};
+  }
+  if (!diff.missing_candidates.empty()) {
+    diff.broken.push_back(Claim::candidates);
+    diff.outcome = Outcome::defect;
+  } else if (diff.outcome == Outcome::holds && !(candidates && judgement.complete)) {
+    diff.partial = true;
+    diff.outcome = Outcome::undecided;
+  }
+}
+
+StepDiff diff_without_answer(const detector::StepResult& result, const Claims& claims) {
+  StepDiff diff;
+  diff.has_answer = false;
+  if (result.answer != detector::Answer::error) return diff;
+  if (claims.has(Claim::total)) diff.broken.push_back(Claim::total);
+  diff.outcome = claims.has(Claim::total) ? Outcome::defect : Outcome::error;
+  return diff;
+}
+
+// Decides which missing pairs the contact graph at the first contact time of a step excuses.
+
+// Moves from `missing` to `excused` the pairs that need not be found to have the first contact
+// right: pairs later than `first`, and pairs whose part of the graph holds a pair that is not
+// missing. The graph has the triangles as nodes. Its edges are those pairs of `pairs` (all pairs
+// of the oracle that count) whose time is `first`. Times that share an enclosure count as one
+// time. O(n log n).
+void excuse_beside_the_first(const std::vector<detector::PairContact>& pairs,
+                             const detector::TimeEnclosure& first,
+                             std::vector<detector::PairContact>& missing,
+                             std::vector<detector::PairContact>& excused);
+
+void excuse_beside_the_first(const std::vector<detector::PairContact>& pairs,
+                             const detector::TimeEnclosure& first,
+                             std::vector<detector::PairContact>& missing,
+                             std::vector<detector::PairContact>& excused) {
+  std::set<detector::TrianglePair> lost, of_lost_parts;
+  for (const auto& contact : missing) lost.insert(contact.pair);
+  const auto is_lost = [&](const auto& contact) { return lost.contains(contact.pair); };
+  for (const auto& part : contact_parts(pairs, first)) {
+    if (!std::all_of(part.begin(), part.end(), is_lost)) continue;
+    for (const auto& contact : part) of_lost_parts.insert(contact.pair);
+  }
+  const auto begin = std::stable_partition(
+      missing.begin(), missing.end(),
+      [&](const auto& contact) { return of_lost_parts.contains(contact.pair); });
+  excused.assign(begin, missing.end());
+  missing.erase(begin, missing.end());
 }
 
 }  // namespace assay::properties

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "properties/judging/candidate_check.h"
-#include "properties/judging/judged_query.h"
+#include "properties/judging/agreement.h"
+#include "properties/judging/contracted_case.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {

@@ -95,4 +95,25 @@ CaseRun out_of_memory();
 // Whether two runs of one case agree in everything but times and circumstances.
 bool same_answers(const CaseRun& a, const CaseRun& b);
 
+// Measures what a case takes in the process that runs it, part by part.
+
+// Counts the processor time of this process with all of its threads, and its memory. Counts
+// nothing if it is off.
+class RunClock {
+ public:
+  // Begins to time the making of the detector.
+  explicit RunClock(bool is_on);
+  void created();
+  void begin();     // a step begins
+  void answered();  // the step that began last has its answer
+  std::optional<RunTimes> take();
+
+ private:
+  double lap();
+
+  bool is_on_;
+  double last_ = 0;
+  RunTimes times_;
+};
+
 }  // namespace assay::properties

@@ -19,7 +19,7 @@
 
 #include "properties/worker/channel.h"
 #include "properties/worker/isolation/keeper.h"
-#include "properties/worker/isolation/memory_limit.h"
+#include "properties/worker/isolation/walls.h"
 #include "properties/worker/plugin/plugin_host.h"
 #include "properties/worker/plugin/python_word.h"
 #include "properties/worker/wire_fields.h"

@@ -6,7 +6,7 @@
 
 #include "corpus/atomic_file.h"
 #include "properties/judging/case_options.h"
-#include "properties/judging/contact_parts.h"
+#include "properties/judging/step_truth.h"
 #include "properties/worker/case_player.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/steps/owner_export.h"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <map>
 
-#include "properties/judging/contact_parts.h"
+#include "properties/judging/step_truth.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/terminal/words.h"
 

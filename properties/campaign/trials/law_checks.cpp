@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "properties/worker/process_copy.h"
+#include "properties/worker/child_process.h"
 
 namespace assay::properties {
 namespace {

@@ -9,9 +9,8 @@
 
 #include "detector/step_result.h"
 #include "properties/printable.h"
-#include "properties/worker/plugin/plugin_result.h"
-#include "properties/worker/plugin/plugin_table.h"
-#include "properties/worker/run_clock.h"
+#include "properties/worker/case_run.h"
+#include "properties/worker/plugin/plugin_reading.h"
 
 namespace assay::properties {
 

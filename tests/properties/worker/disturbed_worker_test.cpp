@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "properties/judging/judged_run.h"
-#include "properties/worker/process_tree.h"
+#include "properties/worker/processor_time.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/children.h"

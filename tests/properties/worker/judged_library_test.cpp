@@ -8,7 +8,6 @@
 #include <iterator>
 
 #include "corpus/digest.h"
-#include "properties/worker/plugin/needed_files.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/worker/worker_cases.h"
 

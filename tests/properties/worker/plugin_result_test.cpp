@@ -1,10 +1,10 @@
 // A plug-in's result: what it says, and what it says against the rules.
-#include "properties/worker/plugin/plugin_result.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <limits>
+
+#include "properties/worker/plugin/plugin_reading.h"
 
 namespace assay::properties {
 namespace {

@@ -1,4 +1,5 @@
-// Turns the results of a plug-in into those of this project.
+// The table of functions that a plug-in returns, in any version that this host takes, and what the
+// plug-in says of itself.
 #pragma once
 
 #include <vector>
@@ -7,9 +8,29 @@
 #include "detector/plugin/assay_detector.h"
 #include "detector/step_result.h"
 #include "properties/problem.h"
+#include "properties/worker/plugin/plugin_description.h"
 #include "properties/worker/plugin/query_case.h"
 
 namespace assay::properties {
+
+// The text as one printable line, no longer than a reply may hold; empty for none.
+std::string line_of(const char* text);
+
+// What the plug-in says about the call that failed last, in one line; empty for nothing.
+std::string text_of_error(const assay_detector_api& table);
+// "evaluate returned 3: TEXT".
+std::string text_of_code(const assay_detector_api& table, const char* function, std::int32_t code);
+
+// The table as one of this host's version; functions that an older version does not have are NULL.
+// The problems are not_a_plugin, other_abi_version, and broken_plugin if there is a gap. They do
+// not name the library.
+Expected<assay_detector_api> read_table(const assay_detector_api* api);
+
+// The plug-in's description; broken_plugin if it makes no sense. The problem does not name the
+// library.
+Expected<PluginDescription> read_description(const assay_detector_api& table);
+
+// Turns the results of a plug-in into those of this project.
 
 // The result of a step. Its pairs are a < b, ascending, each once with its least time ([0, 1] if
 // none is stated). broken_result if it breaks the header's rules; step_failed, with the plug-in's
