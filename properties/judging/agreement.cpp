@@ -40,6 +40,27 @@ struct Times {
   }
 };
 
+// Moves from `missing` to `excused` the pairs that need not be found to have the first contact
+// right: pairs later than `first`, and pairs whose part of the graph holds a pair that is not
+// missing. The graph has the triangles as nodes. Its edges are those pairs of `pairs` (all pairs
+// of the oracle that count) whose time is `first`. Times that share an enclosure count as one
+// time. O(n log n).
+void excuse_beside_the_first(const std::vector<PairContact>& pairs, const TimeEnclosure& first,
+                             std::vector<PairContact>& missing, std::vector<PairContact>& excused) {
+  std::set<TrianglePair> lost, of_lost_parts;
+  for (const auto& contact : missing) lost.insert(contact.pair);
+  const auto is_lost = [&](const auto& contact) { return lost.contains(contact.pair); };
+  for (const auto& part : contact_parts(pairs, first)) {
+    if (!std::all_of(part.begin(), part.end(), is_lost)) continue;
+    for (const auto& contact : part) of_lost_parts.insert(contact.pair);
+  }
+  const auto begin = std::stable_partition(
+      missing.begin(), missing.end(),
+      [&](const auto& contact) { return of_lost_parts.contains(contact.pair); });
+  excused.assign(begin, missing.end());
+  missing.erase(begin, missing.end());
+}
+
 class Comparison {
  public:
   Comparison(const detector::StepResult& result, const oracle::StepJudgement& judgement,
@@ -267,36 +288,6 @@ StepDiff diff_without_answer(const detector::StepResult& result, const Claims& c
   if (claims.has(Claim::total)) diff.broken.push_back(Claim::total);
   diff.outcome = claims.has(Claim::total) ? Outcome::defect : Outcome::error;
   return diff;
-}
-
-// Decides which missing pairs the contact graph at the first contact time of a step excuses.
-
-// Moves from `missing` to `excused` the pairs that need not be found to have the first contact
-// right: pairs later than `first`, and pairs whose part of the graph holds a pair that is not
-// missing. The graph has the triangles as nodes. Its edges are those pairs of `pairs` (all pairs
-// of the oracle that count) whose time is `first`. Times that share an enclosure count as one
-// time. O(n log n).
-void excuse_beside_the_first(const std::vector<detector::PairContact>& pairs,
-                             const detector::TimeEnclosure& first,
-                             std::vector<detector::PairContact>& missing,
-                             std::vector<detector::PairContact>& excused);
-
-void excuse_beside_the_first(const std::vector<detector::PairContact>& pairs,
-                             const detector::TimeEnclosure& first,
-                             std::vector<detector::PairContact>& missing,
-                             std::vector<detector::PairContact>& excused) {
-  std::set<detector::TrianglePair> lost, of_lost_parts;
-  for (const auto& contact : missing) lost.insert(contact.pair);
-  const auto is_lost = [&](const auto& contact) { return lost.contains(contact.pair); };
-  for (const auto& part : contact_parts(pairs, first)) {
-    if (!std::all_of(part.begin(), part.end(), is_lost)) continue;
-    for (const auto& contact : part) of_lost_parts.insert(contact.pair);
-  }
-  const auto begin = std::stable_partition(
-      missing.begin(), missing.end(),
-      [&](const auto& contact) { return of_lost_parts.contains(contact.pair); });
-  excused.assign(begin, missing.end());
-  missing.erase(begin, missing.end());
 }
 
 }  // namespace assay::properties

@@ -1,4 +1,5 @@
-// Compares one step of a detector with the oracle: the diff says how their answers differ.
+// Compares one step of a detector with the oracle: the diff says how their answers differ, and
+// what the candidate pairs of a broad phase lack.
 #pragma once
 
 #include <cstdint>
@@ -141,8 +142,6 @@ oracle::AskedFeatures asked_features(const Contract& contract);
 std::string stage_that_lost(const detector::TrianglesView& triangles,
                             const detector::PositionsView& x_t0,
                             const detector::PositionsView& x_t1, detector::TrianglePair pair);
-
-// Compares the candidate pairs of a broad phase with the contacts that there are.
 
 // Adds to the diff of a step what its candidates show: each pair in contact that counts under the
 // contract has to be among them. If there are none, or the oracle was stopped, a step that would

@@ -1,4 +1,5 @@
-// A case as a detector's contract has it. Both the detector and the oracle are given this case.
+// A case, and an elementary query, as a detector's contract has it. Both the detector and the
+// oracle are given this case.
 #pragma once
 
 #include <optional>
@@ -33,8 +34,6 @@ std::vector<Edge> edges_of(const corpus::Case& c);
 // expected of the whole case is no longer known, unless it is that the mesh is refused. REQUIRES at
 // least one place.
 corpus::Case with_steps(const corpus::Case& c, const std::vector<std::size_t>& places);
-
-// An elementary query as the oracle and a contract see it.
 
 // The exact answer to the query alone, in the form of a judgement of its case (query_case.h). A
 // contact is one of triangles 0 and 1, by the two features that are asked. Cost:

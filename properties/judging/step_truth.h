@@ -1,4 +1,5 @@
-// What the oracle found in a step, as a contract sees it. Whatever shows or judges a detector's
+// What the oracle found in a step, as a contract sees it, and the places of contact at one time.
+// Whatever shows or judges a detector's
 // step takes the oracle's facts from here, so that a contract is obeyed everywhere.
 #pragma once
 
@@ -30,8 +31,6 @@ struct StepTruth {
 // O(n) in the number of pairs.
 StepTruth truth_of(const oracle::StepJudgement& judgement, const Contract& contract,
                    const detector::TrianglesView& triangles);
-
-// The places of contact at one time, as parts of the contact graph.
 
 using ContactPart = std::vector<detector::PairContact>;
 

@@ -95,10 +95,8 @@ CaseRun out_of_memory();
 // Whether two runs of one case agree in everything but times and circumstances.
 bool same_answers(const CaseRun& a, const CaseRun& b);
 
-// Measures what a case takes in the process that runs it, part by part.
-
-// Counts the processor time of this process with all of its threads, and its memory. Counts
-// nothing if it is off.
+// Measures what a case takes in the process that runs it, part by part: the processor time of this
+// process with all of its threads, and its memory. Measures nothing if it is off.
 class RunClock {
  public:
   // Begins to time the making of the detector.

@@ -1,4 +1,5 @@
-// A started process, which is always waited for.
+// A started process, which is always waited for; and work in a copy of this process, in which a
+// crash stays.
 #pragma once
 
 #include <sys/types.h>
@@ -66,8 +67,6 @@ class ChildProcess {
   explicit ChildProcess(pid_t id) : id_(id) {}
   pid_t id_;  // -1: none, or waited for
 };
-
-// Runs work in a copy of this process, so that a crash in it ends the copy alone.
 
 struct CopyRun {
   std::string said;  // all that the work said, also if it crashed afterwards

@@ -10,7 +10,6 @@
 namespace assay::properties {
 
 // A process and what it started, as /proc shows them from outside.
-
 struct ProcessTree {
   // Processor time in seconds of the processes that the root started, that those started, and so
   // on: of those that live, and of those that ended and that their parents have waited for. The
@@ -37,7 +36,7 @@ ProcessTree look_at(pid_t root, pid_t apart = 0);
 //
 // The processes that it started are measured only when look() is called. What they used before the
 // first look() since the beginning is not counted, because it may be of work done before. So the
-// time is too short by what they use until then, and further by what process_tree.h says. It is
+// time is too short by what they use until then, and further by what ProcessTree says. It is
 // never too long.
 class ProcessorTime {
  public:

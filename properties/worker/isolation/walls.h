@@ -1,4 +1,6 @@
-// Puts a process into Linux namespaces, in which it is alone.
+// The walls around the process of a plug-in, each with what Linux offers for it: namespaces, in
+// which it is alone; a limit on its memory; Landlock, so that it writes to no file outside of some
+// folders; and seccomp, which keeps it from some system calls (call_filter.cpp).
 #pragma once
 
 #include <cstdint>
@@ -37,9 +39,6 @@ bool replace_files(const std::vector<ReplacedFile>& files);
 // Takes away all special rights of this process, even those over its own namespaces.
 bool drop_capabilities();
 
-// Limits the memory that a process that runs cases may take. REQUIRES Linux for more than the
-// limit itself.
-
 // Limits the bytes of address space of this process and of each process that it starts; 0: no
 // limit. A lower limit that the user has set stays. False if the system refuses.
 bool limit_memory(std::uint64_t bytes);
@@ -48,9 +47,6 @@ bool limit_memory(std::uint64_t bytes);
 // before any other. Many processes together may take more than the machine has, although each
 // keeps its limit.
 void end_first_without_memory();
-
-// Uses Landlock so that this process, and what it starts, writes to no file outside of some
-// folders.
 
 // Holds from now on and for ever, for the calling thread and all that it starts afterwards. Files
 // are opened for writing, made and removed below `folders` alone; /dev/null and its like may be
@@ -64,8 +60,6 @@ void end_first_without_memory();
 // first that guards truncate. REQUIRES that no_new_privs is set, that `unread` are
 // absolute paths without links, and that there is no other thread.
 bool fence_files(const std::vector<std::string>& folders, const std::vector<std::string>& unread);
-
-// Uses seccomp to keep this process, and what it starts, from some system calls.
 
 // Holds from now on and for ever. There are no sockets but connected pairs, no tracing of or
 // writing into other processes, no namespaces or mounts, no other user, no orders to the kernel,

@@ -1,5 +1,5 @@
-// The table of functions that a plug-in returns, in any version that this host takes, and what the
-// plug-in says of itself.
+// Reads what a plug-in gives, and believes none of it: its table of functions, in any version that
+// this host takes; what it says of itself; and its results.
 #pragma once
 
 #include <vector>
@@ -29,8 +29,6 @@ Expected<assay_detector_api> read_table(const assay_detector_api* api);
 // The plug-in's description; broken_plugin if it makes no sense. The problem does not name the
 // library.
 Expected<PluginDescription> read_description(const assay_detector_api& table);
-
-// Turns the results of a plug-in into those of this project.
 
 // The result of a step. Its pairs are a < b, ascending, each once with its least time ([0, 1] if
 // none is stated). broken_result if it breaks the header's rules; step_failed, with the plug-in's
