@@ -9,7 +9,6 @@
 #include "reports/campaign/failure_text.h"
 #include "reports/campaign/slow_text.h"
 #include "reports/check/detector_choice.h"
-#include "reports/check/plugin_text.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/progress.h"
 

@@ -11,7 +11,6 @@
 #include "properties/reducer/mesh_size.h"
 #include "properties/words.h"
 #include "reports/check/detector_choice.h"
-#include "reports/check/plugin_text.h"
 #include "reports/pictures/scene_maker.h"
 #include "reports/terminal/words.h"
 

@@ -3,22 +3,58 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <new>
+#include <optional>
 
 #include "detector/mesh/mesh_checks.h"
 #include "detector/mesh/topology.h"
 #include "detector/step_result.h"
+#include "oracle/mesh/step.h"
+#include "oracle/referee/second_opinion.h"
 #include "properties/judging/case_check.h"
-#include "reports/check/check_report.h"
-#include "reports/check/claims_tally.h"
-#include "reports/check/plugin_text.h"
-#include "reports/check/timed_oracle.h"
-#include "reports/steps/second_opinion_text.h"
+#include "reports/check/check_outcome.h"
+#include "reports/check/detector_choice.h"
 #include "reports/steps/step_json.h"
 #include "reports/steps/step_text.h"
+#include "reports/terminal/limits.h"
 #include "reports/terminal/progress.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {
+
+// Asks the oracle for `check`, within the user's limits, and measures the time that it takes.
+
+template <class Answer>
+struct Timed {
+  Answer answer;
+  double milliseconds = 0;  // wall clock
+};
+
+class TimedOracle {
+ public:
+  // Judges in `jobs` threads. If memory fails, the limits remember it and the answer is not
+  // complete.
+  TimedOracle(int jobs, oracle::AskedFeatures asked, Limits& limits)
+      : jobs_(jobs), asked_(asked), limits_(limits) {}
+
+  Timed<oracle::StepJudgement> judge(const detector::Positions& x_t0,
+                                     const detector::Positions& x_t1,
+                                     const detector::Triangles& triangles,
+                                     const detector::StopFunction& stop) const;
+
+  // Asks other methods this share of the questions behind a judgement.
+  Timed<oracle::SecondOpinion> second_opinion(const detector::Positions& x_t0,
+                                              const detector::Positions& x_t1,
+                                              const detector::Triangles& triangles,
+                                              const oracle::StepJudgement& judgement, double share,
+                                              const detector::StopFunction& stop) const;
+
+ private:
+  int jobs_;
+  oracle::AskedFeatures asked_;
+  Limits& limits_;
+};
 
 using detector::Answer;
 using properties::Outcome;
@@ -287,6 +323,45 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
   auto mesh = detector::make_topology(input.steps->triangles(), vertices);
   return CheckRun(question, *input.steps, std::move(mesh), *subject.value(), limits, listener)
       .run();
+}
+
+namespace {
+
+// Returns what `ask` answers, or an empty answer if memory fails.
+template <class Ask>
+auto timed(Limits& limits, const Ask& ask) {
+  const auto begin = std::chrono::steady_clock::now();
+  Timed<decltype(ask())> timed;
+  try {
+    timed.answer = ask();
+  } catch (const std::bad_alloc&) {
+    limits.memory_failed();
+  }
+  timed.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return timed;
+}
+
+}  // namespace
+
+Timed<oracle::StepJudgement> TimedOracle::judge(const detector::Positions& x_t0,
+                                                const detector::Positions& x_t1,
+                                                const detector::Triangles& triangles,
+                                                const detector::StopFunction& stop) const {
+  return timed(limits_, [&] {
+    return oracle::judge_step({x_t0, x_t1}, triangles, {jobs_, stop, asked_});
+  });
+}
+
+Timed<oracle::SecondOpinion> TimedOracle::second_opinion(const detector::Positions& x_t0,
+                                                         const detector::Positions& x_t1,
+                                                         const detector::Triangles& triangles,
+                                                         const oracle::StepJudgement& judgement,
+                                                         double share,
+                                                         const detector::StopFunction& stop) const {
+  return timed(limits_, [&] {
+    return oracle::second_opinion({x_t0, x_t1}, triangles, judgement, {share, jobs_, stop, {}});
+  });
 }
 
 }  // namespace assay::reports

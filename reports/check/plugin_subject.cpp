@@ -5,7 +5,7 @@
 #include "detector/step_result.h"
 #include "properties/campaign/stored/contract_json.h"
 #include "properties/printable.h"
-#include "reports/check/plugin_text.h"
+#include "reports/check/detector_choice.h"
 #include "reports/check/subject.h"
 #include "reports/terminal/words.h"
 

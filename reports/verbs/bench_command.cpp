@@ -6,7 +6,7 @@
 
 #include "reports/bench/detector/detector_suite.h"
 #include "reports/bench/suites.h"
-#include "reports/check/plugin_text.h"
+#include "reports/check/detector_choice.h"
 #include "reports/pictures/gnuplot.h"
 #include "reports/pictures/pictures.h"
 #include "reports/terminal/complaint.h"

@@ -7,7 +7,7 @@
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "reports/campaign/slow_text.h"
-#include "reports/check/plugin_text.h"
+#include "reports/check/detector_choice.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/verbs/verbs.h"

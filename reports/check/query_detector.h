@@ -6,15 +6,57 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "detector/contact/four_points.h"
 #include "properties/campaign/request.h"
-#include "reports/queries/query_judge.h"
+#include "properties/campaign/stored/step_measures.h"
+#include "properties/campaign/trials/trial.h"
+#include "properties/worker/worker_process.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 
 namespace assay::reports {
+
+// Puts elementary queries to a plug-in and judges them by its claims, many at once. Nothing is
+// stored.
+
+// What came of one query.
+struct JudgedQuery {
+  bool is_within = false;   // the contract takes it; else the rest says nothing
+  bool is_rounded = false;  // by the contract, so that another query is judged
+  bool contact = false;     // the oracle finds a contact, at `first`
+  detector::TimeEnclosure first;
+  properties::CaseRun run;
+  properties::Outcome outcome = properties::Outcome::undecided;
+  std::optional<properties::Failure> failure;
+  double microseconds = 0;  // clock time of its message over the number of queries in it
+};
+
+class QueryJudge {
+ public:
+  // The detector's claims are those on queries. All arguments must outlive the judge.
+  QueryJudge(const properties::DetectorUnderTest& detector, properties::WorkerProcess& worker,
+             properties::WorkerProcess& second)
+      : detector_(detector), worker_(worker), second_(second) {}
+
+  // Asks and judges the queries. If `deterministic` is claimed, the second worker is asked too, in
+  // the other order. The results are in the order of the queries. Runs that did not take place end
+  // with RunEnd::not_run.
+  std::vector<JudgedQuery> judge(std::span<const detector::FourPoints> queries);
+
+  // The measures of all queries that were judged.
+  properties::StepMeasures measures() const { return properties::measures_in(counts_); }
+  std::uint64_t crashes() const { return crashes_; }
+
+ private:
+  const properties::DetectorUnderTest& detector_;
+  properties::WorkerProcess &worker_, &second_;
+  properties::Counts counts_;
+  std::uint64_t crashes_ = 0;
+};
 
 // A query that broke a claim.
 struct BrokenQuery {
