@@ -1,24 +1,14 @@
-// Types that name their fields once, in a function `fields(archive, x)` that calls
-// archive("name", x.name, "other", x.other), as JSON objects, and back. An enum is written as its
-// word (name_of), and read by its list of words.
+// Types that name their fields (fields.h) as JSON objects, and back. An enum is written as its word,
+// and read by its list of words.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <type_traits>
+
+#include "properties/fields.h"
+#include "properties/words.h"
 
 namespace assay::properties {
-
-// What archives have in common: they take the fields pair by pair.
-template <class Archive>
-class NamedFields {
- public:
-  template <class T, class... Rest>
-  void operator()(const char* name, T& item, Rest&... rest) {
-    static_cast<Archive&>(*this).field(name, item);
-    if constexpr (sizeof...(rest) > 0) (*this)(rest...);
-  }
-};
 
 template <class Json>
 class JsonWriter : public NamedFields<JsonWriter<Json>> {
@@ -30,7 +20,7 @@ class JsonWriter : public NamedFields<JsonWriter<Json>> {
     if constexpr (requires { fields(*this, item); }) {
       JsonWriter inner(object_[name]);
       fields(inner, item);
-    } else if constexpr (std::is_enum_v<T>) {
+    } else if constexpr (Listed<T>) {
       object_[name] = name_of(item);
     } else {
       object_[name] = item;
@@ -53,6 +43,13 @@ class JsonReader : public NamedFields<JsonReader<Json>> {
     if constexpr (requires { fields(*this, item); }) {
       JsonReader inner(value);
       fields(inner, item);
+    } else if constexpr (Listed<T>) {
+      const auto& word = value.template get_ref<const std::string&>();
+      const auto named = from_name<T>(word);
+      if (!named)
+        throw Json::other_error::create(502, "\"" + word + "\" is none of: " + all_names<T>(),
+                                        &value);
+      item = *named;
     } else {
       value.get_to(item);
     }

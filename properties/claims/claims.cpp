@@ -1,24 +1,10 @@
 #include "properties/claims/claims.h"
 
-#include <iterator>
-
-#include "properties/words.h"
-
 namespace assay::properties {
-namespace {
-
-constexpr const char* words[] = {"free-sound", "not-late",    "first-time",    "first-pairs",
-                                 "all-pairs",  "no-spurious", "deterministic", "total",
-                                 "candidates", "times-unique"};
-
-}  // namespace
-
-const char* name_of(Claim claim) { return word_of(words, claim); }
 
 std::vector<Claim> list_of(const Claims& claims) {
   std::vector<Claim> list;
-  for (std::uint8_t number = 0; number < std::size(words); ++number) {
-    const auto claim = static_cast<Claim>(number);
+  for (const Claim claim : all_values<Claim>) {
     if (claims_from_outside.has(claim) && claims.has(claim)) list.push_back(claim);
   }
   return list;

@@ -27,9 +27,19 @@ enum class Claim : std::uint8_t {
   // detector does: nobody claims it from outside, and no list names it.
   times_unique,
 };
-
-// The word of a claim in reports and certificates, such as "free-sound".
-const char* name_of(Claim claim);
+constexpr auto names_of(Claim) {
+  using enum Claim;
+  return std::to_array<Named<Claim>>({{free_sound, "free-sound"},
+                                      {not_late, "not-late"},
+                                      {first_time, "first-time"},
+                                      {first_pairs, "first-pairs"},
+                                      {all_pairs, "all-pairs"},
+                                      {no_spurious, "no-spurious"},
+                                      {deterministic, "deterministic"},
+                                      {total, "total"},
+                                      {candidates, "candidates"},
+                                      {times_unique, "times-unique"}});
+}
 
 // A set of claims.
 class Claims {

@@ -17,10 +17,6 @@ using detector::PairContact;
 using detector::TimeEnclosure;
 using detector::TrianglePair;
 
-const char* name_of(Outcome outcome) {
-  return word_of({"holds", "defect", "undecided", "error"}, outcome);
-}
-
 namespace {
 
 // How the times of a detector are read. `unique` says that a time is the enclosure of exact

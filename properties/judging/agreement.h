@@ -17,8 +17,11 @@
 namespace assay::properties {
 
 enum class Outcome : std::uint8_t { holds, defect, undecided, error };
-
-const char* name_of(Outcome outcome);
+constexpr auto names_of(Outcome) {
+  using enum Outcome;
+  return std::to_array<Named<Outcome>>(
+      {{holds, "holds"}, {defect, "defect"}, {undecided, "undecided"}, {error, "error"}});
+}
 
 // A pair whose first time the detector has wrong.
 struct WrongTime {

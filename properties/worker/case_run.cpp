@@ -9,16 +9,11 @@
 #include <string>
 
 #include "properties/faults/fault.h"
-#include "properties/words.h"
 #include "properties/worker/case_player.h"
 
 namespace assay::properties {
 
 using detector::StepResult;
-
-const char* name_of(RunEnd end) {
-  return word_of({"completed", "crashed", "hung", "refused", "out of memory", "not run"}, end);
-}
 
 void note_error(CaseRun& run, std::size_t s, const std::string& text) {
   run.errors.resize(std::max(run.errors.size(), s + 1));

@@ -10,6 +10,7 @@
 #include "corpus/cases/case_file.h"
 #include "detector/options.h"
 #include "detector/step_result.h"
+#include "properties/words.h"
 
 namespace assay::properties {
 
@@ -40,8 +41,15 @@ enum class RunEnd : std::uint8_t {
   out_of_memory,  // before the first step: undecided
   not_run,        // there is no worker to run it: the harness failed, not the detector
 };
-
-const char* name_of(RunEnd end);
+constexpr auto names_of(RunEnd) {
+  using enum RunEnd;
+  return std::to_array<Named<RunEnd>>({{completed, "completed"},
+                                       {crashed, "crashed"},
+                                       {hung, "hung"},
+                                       {refused, "refused"},
+                                       {out_of_memory, "out of memory"},
+                                       {not_run, "not run"}});
+}
 
 // The candidate pairs of one step; nothing if the detector failed to give them.
 using CandidatePairs = std::optional<std::vector<detector::TrianglePair>>;

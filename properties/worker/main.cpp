@@ -20,9 +20,9 @@
 #include "properties/worker/channel.h"
 #include "properties/worker/isolation/keeper.h"
 #include "properties/worker/isolation/walls.h"
+#include "properties/worker/messages.h"
 #include "properties/worker/plugin/plugin_host.h"
 #include "properties/worker/plugin/python_word.h"
-#include "properties/worker/wire_fields.h"
 
 namespace {
 
@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
       if (words.size() == built_in) {
         return limit_memory(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
       }
-      const auto mode = isolation_mode_of(words[4]);
+      const auto mode = from_name<IsolationMode>(words[4]);
       const auto threads = number(words[7]), variation = number(words[10]);
       if (mode && threads && variation) {
         vary(*variation);

@@ -11,10 +11,9 @@
 #include "properties/worker/child_process.h"
 #include "properties/worker/isolation/printed_words.h"
 #include "properties/worker/isolation/scratch_folder.h"
+#include "properties/worker/messages.h"
 #include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/plugin/python_word.h"
-#include "properties/worker/reply_rules.h"
-#include "properties/worker/wire_fields.h"
 #include "properties/worker/worker_watch.h"
 
 namespace assay::properties {

@@ -28,7 +28,7 @@
 
 #include "detector/plugin/assay_detector.h"
 #include "properties/worker/channel.h"
-#include "properties/worker/wire_fields.h"
+#include "properties/worker/messages.h"
 
 struct assay_handle {
   int unused;

@@ -78,7 +78,7 @@ class CampaignRun {
     store_.set(to_row(now));
   }
   static IsolationMode weaker(IsolationMode mode, const std::string& other) {
-    return std::min(mode, isolation_mode_of(other).value_or(IsolationMode::none));
+    return std::min(mode, from_name<IsolationMode>(other).value_or(IsolationMode::none));
   }
 
   RunDeadline after(double share) const { return deadline_after(begin_, request_.plan, share); }

@@ -21,7 +21,7 @@
 #include "properties/worker/child_process.h"
 #include "properties/worker/isolation/printed_words.h"
 #include "properties/worker/isolation/walls.h"
-#include "properties/worker/wire_fields.h"
+#include "properties/worker/messages.h"
 
 namespace assay::properties {
 namespace {

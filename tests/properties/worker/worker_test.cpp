@@ -16,7 +16,7 @@
 
 #include "detector/detector.h"
 #include "properties/judging/judged_run.h"
-#include "properties/worker/wire_fields.h"
+#include "properties/worker/messages.h"
 #include "properties/worker/worker_process.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/children.h"

@@ -1,9 +1,13 @@
-// What travels between the host and its worker, field by field. A new field of a result or an
-// option does not compile here until it is named: in the binding and in the call below it.
+// What travels between the host and its worker, field by field, and the rules that a worker's
+// replies must keep to be believed. A new field of a result or an option does not compile here until
+// it is named: in the binding and in the call below it.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <string>
 
+#include "corpus/cases/case_file.h"
 #include "detector/contact/four_points.h"
 #include "detector/mesh/problem.h"
 #include "detector/step_result.h"
@@ -37,42 +41,35 @@ struct TravelsAsBytes<detector::StepTimes> : std::true_type {};
 template <>
 struct TravelsAsBytes<corpus::CaseStep> : std::true_type {};
 template <>
-inline constexpr RunEnd last_of<RunEnd> = RunEnd::not_run;
-template <>
-inline constexpr Adjacency last_of<Adjacency> = Adjacency::no_shared_vertex;
-template <>
-inline constexpr Coordinates last_of<Coordinates> = Coordinates::float32;
-template <>
-inline constexpr StartRule last_of<StartRule> = StartRule::apart;
-template <>
-inline constexpr TestedFeatures last_of<TestedFeatures> = TestedFeatures::edge_edge;
-template <>
 inline constexpr ProblemKind last_of<ProblemKind> = last_problem_kind;
 
 template <class Wire>
 void fields(Wire& wire, detector::Options& options) {
   auto& [culling, start, pairs, arithmetic, threads] = options;
-  wire(culling, start, pairs, arithmetic, threads);
+  wire("culling", culling, "start", start, "pairs", pairs, "arithmetic", arithmetic, "threads",
+       threads);
 }
 
 template <class Wire>
 void fields(Wire& wire, detector::Problem& problem) {
   auto& [error, message] = problem;
-  wire(error, message);
+  wire("error", error, "message", message);
 }
 
 template <class Wire>
 void fields(Wire& wire, detector::StepResult& result) {
   auto& [answer, problem, first, pairs, positive, negative, zero, against_all, violated, dirty,
          views, doubts, signs, primitives, apexes, counts, times] = result;
-  wire(answer, problem, first, pairs, positive, negative, zero, against_all, violated, dirty, views,
-       doubts, signs, primitives, apexes, counts, times);
+  wire("answer", answer, "problem", problem, "first", first, "pairs", pairs, "positive", positive,
+       "negative", negative, "zero", zero, "against_all", against_all, "violated", violated,
+       "dirty", dirty, "views", views, "doubts", doubts, "signs", signs, "primitives", primitives,
+       "apexes", apexes, "counts", counts, "times", times);
 }
 
 template <class Wire>
 void fields(Wire& wire, RunTimes& times) {
   auto& [create, steps, peak_bytes] = times;
-  wire(create, steps, peak_bytes);
+  wire("create", create, "steps", steps, "peak_bytes", peak_bytes);
 }
 
 template <class Wire>
@@ -80,63 +77,59 @@ void fields(Wire& wire, CaseRun& run) {
   // The last three are the host's to say.
   auto& [end, explanation, steps, candidates, errors, has_answers, times, disturbances,
          processor_seconds, printed] = run;
-  wire(end, explanation, steps, candidates, errors, has_answers, times);
+  wire("end", end, "explanation", explanation, "steps", steps, "candidates", candidates, "errors",
+       errors, "has_answers", has_answers, "times", times);
 }
 
 template <class Wire>
 void fields(Wire& wire, Configuration& configuration) {
   auto& [name, options, fault, is_timed] = configuration;
-  wire(name, options, fault, is_timed);
+  wire("name", name, "options", options, "fault", fault, "is_timed", is_timed);
 }
 
 template <class Wire>
 void fields(Wire& wire, corpus::CaseView& view) {
-  wire(view.q0, view.q1);
+  wire("q0", view.q0, "q1", view.q1);
 }
 
 // Only what a detector may know travels, and never the expected facts.
 template <class Wire>
 void fields(Wire& wire, corpus::Case& c) {
-  wire(c.id, c.triangles, c.frames, c.script, c.view);
+  wire("id", c.id, "triangles", c.triangles, "frames", c.frames, "script", c.script, "view",
+       c.view);
 }
 
 template <class Wire>
 void fields(Wire& wire, Claims& claims) {
   std::uint32_t bits = claims.bits();
-  wire(bits);
+  wire("bits", bits);
   claims = Claims::of_bits(bits);
-}
-
-template <class Wire>
-void fields(Wire& wire, Contract& contract) {
-  auto& [adjacency, coordinates, margin, start, start_distance, least_nonzero, largest, features,
-         time_tolerance, reports_pairs] = contract;
-  wire(adjacency, coordinates, margin, start, start_distance, least_nonzero, largest, features,
-       time_tolerance, reports_pairs);
 }
 
 template <class Wire>
 void fields(Wire& wire, Isolation& isolation) {
   auto& [files, processes, calls] = isolation;
-  wire(files, processes, calls);
+  wire("files", files, "processes", processes, "calls", calls);
 }
 
 template <class Wire>
 void fields(Wire& wire, KeeperHello& hello) {
-  wire(hello.wire_version, hello.isolation, hello.process, hello.has_copies);
+  wire("wire_version", hello.wire_version, "isolation", hello.isolation, "process", hello.process,
+       "has_copies", hello.has_copies);
 }
 
 template <class Wire>
 void fields(Wire& wire, PluginDescription& description) {
   auto& [name, version, claims, contract, parts] = description;
   auto& [steps, query, candidates, takes_threads] = parts;
-  wire(name, version, claims, contract, steps, query, candidates, takes_threads);
+  wire("name", name, "version", version, "claims", claims, "contract", contract, "steps", steps,
+       "query", query, "candidates", candidates, "takes_threads", takes_threads);
 }
 
 template <class Wire>
 void fields(Wire& wire, Problem& problem) {
   auto& [kind, message] = problem;
-  wire(kind, message);
+  wire("kind", kind, "message", message);
 }
 
 // The worker's first message: who it is, or why it cannot serve.
@@ -149,7 +142,8 @@ struct Hello {
 
 template <class Wire>
 void fields(Wire& wire, Hello& hello) {
-  wire(hello.wire_version, hello.description, hello.serves, hello.problem);
+  wire("wire_version", hello.wire_version, "description", hello.description, "serves", hello.serves,
+       "problem", hello.problem);
 }
 
 // What a request asks for.
@@ -166,7 +160,7 @@ struct RunRequest {
 
 template <class Wire>
 void fields(Wire& wire, RunRequest& request) {
-  wire(request.number, request.c, request.configurations);
+  wire("number", request.number, "c", request.c, "configurations", request.configurations);
 }
 
 struct RunReply {
@@ -177,7 +171,7 @@ struct RunReply {
 
 template <class Wire>
 void fields(Wire& wire, RunReply& reply) {
-  wire(reply.number, reply.place, reply.run);
+  wire("number", reply.number, "place", reply.place, "run", reply.run);
 }
 
 // Elementary queries of a plug-in; one QueryReply comes back for all.
@@ -188,13 +182,13 @@ struct QueryRequest {
 
 template <class Wire>
 void fields(Wire& wire, QueryRequest& request) {
-  wire(request.number, request.queries);
+  wire("number", request.number, "queries", request.queries);
 }
 
 template <class Wire>
 void fields(Wire& wire, QueryAnswer& answer) {
   auto& [answered, first, explanation] = answer;
-  wire(answered, first, explanation);
+  wire("answered", answered, "first", first, "explanation", explanation);
 }
 
 struct QueryReply {
@@ -204,7 +198,7 @@ struct QueryReply {
 
 template <class Wire>
 void fields(Wire& wire, QueryReply& reply) {
-  wire(reply.number, reply.answers);
+  wire("number", reply.number, "answers", reply.answers);
 }
 
 // What a worker receives: one of the two.
@@ -216,11 +210,11 @@ struct Request {
 
 template <class Wire>
 void fields(Wire& wire, Request& request) {
-  wire(request.kind);
+  wire("kind", request.kind);
   if (request.kind == RequestKind::run) {
-    wire(request.run);
+    wire("run", request.run);
   } else {
-    wire(request.query);
+    wire("query", request.query);
   }
 }
 
@@ -229,14 +223,14 @@ std::string encode(const T&... messages) {
   WireWriter writer;
   // A writer does not change the messages; the lists above are not const because readers use them
   // too.
-  writer(const_cast<T&>(messages)...);
+  (writer.field("", const_cast<T&>(messages)), ...);
   return writer.take();
 }
 
 template <class T>
 bool decode(const std::string& bytes, T& message) {
   WireReader reader(bytes);
-  reader(message);
+  reader.field("", message);
   return reader.complete();
 }
 
@@ -251,5 +245,48 @@ constexpr std::uint64_t wire_version() {
   }
   return hash;
 }
+
+// The rules. A plug-in shares its process with the code that replies, so it can send
+// whatever it likes. So no part of a reply is believed before it has been checked. A reply that
+// breaks a rule counts as a crash of the plug-in.
+
+// Bytes of the longest line of text in a reply.
+inline constexpr std::size_t longest_reply_text = 4096;
+
+// The most bytes that a reply to this case may have: that of a reply with every pair of triangles
+// in contact in each step.
+std::uint64_t longest_reply(const corpus::Case& c);
+// The most bytes that the first message of a worker may have.
+inline constexpr std::uint64_t longest_hello = 4 * longest_reply_text;
+
+// Which rule is broken by a run of a plug-in on this case; empty: none. The rules:
+// - A run that completed has a result for each step. One that was refused, or ran out of memory,
+//   has no results. No run claims an end that only the host can see (crashed, hung, not run).
+// - Every text is one printable line.
+// - A result states pairs only if its answer is neither `free` nor an error. Each is a pair of two
+//   triangles of the mesh; pairs ascend, each once.
+// - Intervals lie in [0, 1].
+// - A result states nothing that plug-ins are not asked for, such as views.
+// - If the description claims candidates, there is a list of such pairs for each step, and else
+//   none.
+// - There are answers if and only if the plug-in has the part of steps.
+// - Times, if there are any, are finite and not negative, one for each step.
+std::string broken_rule(const corpus::Case& c, const CaseRun& run,
+                        const PluginDescription& description);
+
+// The same for answers to so many queries: there is one answer for each, with a known answer, an
+// interval in [0, 1] and at most one printable line.
+std::string broken_rule(std::size_t queries, const std::vector<QueryAnswer>& answers);
+// The most bytes that these answers may have.
+std::uint64_t longest_query_reply(std::size_t queries);
+
+// The same for a description: a name and a version in one printable line each that may be such
+// (fault_of_name), a margin that is a length, at least one part that can be judged, and a claim on
+// candidates if and only if it has them.
+std::string broken_rule(const PluginDescription& description);
+
+// The same for the reason why a plug-in cannot be loaded: a problem of PluginHost::open, in one
+// printable line.
+std::string broken_rule(const Problem& refusal);
 
 }  // namespace assay::properties

@@ -1,4 +1,4 @@
-#include "properties/worker/reply_rules.h"
+#include "properties/worker/messages.h"
 
 #include <fmt/format.h>
 
