@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
       if (words.size() == built_in) {
         return limit_memory(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
       }
-      const auto mode = from_name<IsolationMode>(words[4]);
+      const auto mode = assay::from_name<IsolationMode>(words[4]);
       const auto threads = number(words[7]), variation = number(words[10]);
       if (mode && threads && variation) {
         vary(*variation);
