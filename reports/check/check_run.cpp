@@ -23,39 +23,6 @@
 
 namespace assay::reports {
 
-// Asks the oracle for `check`, within the user's limits, and measures the time that it takes.
-
-template <class Answer>
-struct Timed {
-  Answer answer;
-  double milliseconds = 0;  // wall clock
-};
-
-class TimedOracle {
- public:
-  // Judges in `jobs` threads. If memory fails, the limits remember it and the answer is not
-  // complete.
-  TimedOracle(int jobs, oracle::AskedFeatures asked, Limits& limits)
-      : jobs_(jobs), asked_(asked), limits_(limits) {}
-
-  Timed<oracle::StepJudgement> judge(const detector::Positions& x_t0,
-                                     const detector::Positions& x_t1,
-                                     const detector::Triangles& triangles,
-                                     const detector::StopFunction& stop) const;
-
-  // Asks other methods this share of the questions behind a judgement.
-  Timed<oracle::SecondOpinion> second_opinion(const detector::Positions& x_t0,
-                                              const detector::Positions& x_t1,
-                                              const detector::Triangles& triangles,
-                                              const oracle::StepJudgement& judgement, double share,
-                                              const detector::StopFunction& stop) const;
-
- private:
-  int jobs_;
-  oracle::AskedFeatures asked_;
-  Limits& limits_;
-};
-
 using detector::Answer;
 using properties::Outcome;
 
@@ -63,6 +30,27 @@ namespace {
 
 // A week, because nobody waits longer for one mesh.
 constexpr double longest_check_seconds = 7 * 24 * 3600.0;
+
+template <class Answer>
+struct Timed {
+  Answer answer;
+  double milliseconds = 0;  // wall clock
+};
+
+// Returns what `ask` answers, or an empty answer if memory fails.
+template <class Ask>
+auto timed(Limits& limits, const Ask& ask) {
+  const auto begin = std::chrono::steady_clock::now();
+  Timed<decltype(ask())> timed;
+  try {
+    timed.answer = ask();
+  } catch (const std::bad_alloc&) {
+    limits.memory_failed();
+  }
+  timed.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return timed;
+}
 
 class CheckRun {
  public:
@@ -74,7 +62,6 @@ class CheckRun {
         subject_(subject),
         limits_(limits),
         listener_(listener),
-        oracle_(question.jobs, subject.asked(), limits),
         tally_(subject.description()) {
     outcome_.is_judged = !question.no_oracle;
     outcome_.judged_by_claims = subject.judged_by_claims();
@@ -201,7 +188,10 @@ class CheckRun {
 
     progress.phase("oracle");
     JudgedByOracle oracle;
-    auto judged = oracle_.judge(step.x_t0, step.x_t1, steps_.triangles(), stop);
+    auto judged = timed(limits_, [&] {
+      return oracle::judge_step({step.x_t0, step.x_t1}, steps_.triangles(),
+                                {question_.jobs, stop, subject_.asked()});
+    });
     oracle.judgement = std::move(judged.answer);
     oracle.milliseconds = judged.milliseconds;
     oracle.truth = truth_of(oracle.judgement, contract(), steps_.triangles());
@@ -235,8 +225,10 @@ class CheckRun {
                                             const detector::StopFunction& stop,
                                             Progress& progress) {
     const double share = *question_.second_opinion;
-    const auto [opinion, milliseconds] =
-        oracle_.second_opinion(step.x_t0, step.x_t1, steps_.triangles(), judgement, share, stop);
+    const auto [opinion, milliseconds] = timed(limits_, [&] {
+      return oracle::second_opinion({step.x_t0, step.x_t1}, steps_.triangles(), judgement,
+                                    {share, question_.jobs, stop, {}});
+    });
     progress.finish();
     say(second_opinion_text(opinion, milliseconds));
     outcome_.undecided |= !opinion.complete;
@@ -287,7 +279,6 @@ class CheckRun {
   Subject& subject_;
   Limits& limits_;
   const CheckListener& listener_;
-  TimedOracle oracle_;
   std::optional<std::string> refused_;
   ClaimsTally tally_;
   CheckOutcome outcome_;
@@ -323,45 +314,6 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
   auto mesh = detector::make_topology(input.steps->triangles(), vertices);
   return CheckRun(question, *input.steps, std::move(mesh), *subject.value(), limits, listener)
       .run();
-}
-
-namespace {
-
-// Returns what `ask` answers, or an empty answer if memory fails.
-template <class Ask>
-auto timed(Limits& limits, const Ask& ask) {
-  const auto begin = std::chrono::steady_clock::now();
-  Timed<decltype(ask())> timed;
-  try {
-    timed.answer = ask();
-  } catch (const std::bad_alloc&) {
-    limits.memory_failed();
-  }
-  timed.milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  return timed;
-}
-
-}  // namespace
-
-Timed<oracle::StepJudgement> TimedOracle::judge(const detector::Positions& x_t0,
-                                                const detector::Positions& x_t1,
-                                                const detector::Triangles& triangles,
-                                                const detector::StopFunction& stop) const {
-  return timed(limits_, [&] {
-    return oracle::judge_step({x_t0, x_t1}, triangles, {jobs_, stop, asked_});
-  });
-}
-
-Timed<oracle::SecondOpinion> TimedOracle::second_opinion(const detector::Positions& x_t0,
-                                                         const detector::Positions& x_t1,
-                                                         const detector::Triangles& triangles,
-                                                         const oracle::StepJudgement& judgement,
-                                                         double share,
-                                                         const detector::StopFunction& stop) const {
-  return timed(limits_, [&] {
-    return oracle::second_opinion({x_t0, x_t1}, triangles, judgement, {share, jobs_, stop, {}});
-  });
 }
 
 }  // namespace assay::reports
