@@ -25,11 +25,15 @@ namespace {
 constexpr std::uint64_t most_crashes = 100;
 constexpr double query_seconds = 10;  // of processor time, for all queries of a message
 
-std::unique_ptr<properties::WorkerProcess> worker_of(const properties::CampaignRequest& request,
-                                                     std::uint32_t variation) {
+properties::WorkerProcess worker_of(const properties::CampaignRequest& request,
+                                    std::uint32_t variation) {
   properties::WorkerLimits limits{query_seconds, 0, request.isolation, {}, request.threads};
   limits.variation = variation;
-  return std::make_unique<properties::WorkerProcess>(request.worker, request.plugin, limits);
+  return properties::WorkerProcess(request.worker, request.plugin, limits);
+}
+
+bool same_frames(const corpus::Case& a, const corpus::Case& b) {
+  return a.frames[0] == b.frames[0] && a.frames[1] == b.frames[1];
 }
 
 }  // namespace
@@ -37,8 +41,7 @@ std::unique_ptr<properties::WorkerProcess> worker_of(const properties::CampaignR
 QueryDetector::QueryDetector(std::unique_ptr<properties::CampaignRequest> request)
     : request_(std::move(request)),
       worker_(worker_of(*request_, 0)),
-      second_(worker_of(*request_, 1)),
-      judge_(std::make_unique<QueryJudge>(request_->detector, *worker_, *second_)) {}
+      second_(worker_of(*request_, 1)) {}
 
 Expected<QueryDetector> QueryDetector::open(const DetectorWords& words) {
   auto request = std::make_unique<properties::CampaignRequest>();
@@ -63,12 +66,12 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
   std::vector<JudgedQuery> all;
   while (all.size() < queries.size()) {
     const std::size_t count = std::min(at_once, queries.size() - all.size());
-    if (judge_->crashes() > most_crashes) {
+    if (crashes_ > most_crashes) {
       not_asked_ += count;
       all.resize(all.size() + count);
       continue;
     }
-    auto some = judge_->judge(std::span(queries).subspan(all.size(), count));
+    auto some = judge_some(std::span(queries).subspan(all.size(), count));
     for (auto& one : some) {
       const auto& name = names[all.size()];
       if (one.run.end == properties::RunEnd::not_run) return Refusal(one.run.explanation);
@@ -93,11 +96,11 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
 }
 
 std::string QueryDetector::text() const {
-  std::string out = fmt::format("{}\n{}\n", measures_head(), measures_row(judge_->measures()));
+  std::string out = fmt::format("{}\n{}\n", measures_head(), measures_row(measures()));
   if (left_out_ > 0) out += fmt::format("{} queries are left out by its contract\n", left_out_);
   if (not_asked_ > 0)
-    out += fmt::format("{} queries were not asked: it had crashed {} times\n", not_asked_,
-                       judge_->crashes());
+    out +=
+        fmt::format("{} queries were not asked: it had crashed {} times\n", not_asked_, crashes_);
   constexpr std::size_t most_shown = 20;
   for (std::size_t i = 0; i < std::min(most_shown, shown_.size()); ++i) {
     const auto& one = shown_[i];
@@ -129,7 +132,7 @@ nlohmann::ordered_json QueryDetector::to_json() const {
           {"left_out", left_out_},
           {"undecided", undecided_},
           {"not_asked", not_asked_},
-          {"measures", measures_json(judge_->measures())},
+          {"measures", measures_json(measures())},
           {"broken", std::move(broken)},
           {"failures", std::move(failures)}};
 }
@@ -139,24 +142,15 @@ int QueryDetector::exit_code() const {
   return undecided_ + not_asked_ > 0 || judged_ == 0 ? exit_undecided : exit_holds;
 }
 
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-bool same_frames(const corpus::Case& a, const corpus::Case& b) {
-  return a.frames[0] == b.frames[0] && a.frames[1] == b.frames[1];
-}
-
-}  // namespace
-
-std::vector<JudgedQuery> QueryJudge::judge(std::span<const detector::FourPoints> queries) {
+std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::FourPoints> queries) {
+  const auto& plugin = request_->detector;
   std::vector<JudgedQuery> judged(queries.size());
   std::vector<std::size_t> places;
   std::vector<corpus::Case> cases;
   std::vector<detector::FourPoints> asked;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const auto given = properties::case_of_query(queries[i], "query");
-    auto seen = properties::contracted(given, detector_.contract);
+    auto seen = properties::contracted(given, plugin.contract);
     if (!seen) continue;
     judged[i].is_within = true;
     judged[i].is_rounded = !same_frames(given, *seen);
@@ -166,11 +160,11 @@ std::vector<JudgedQuery> QueryJudge::judge(std::span<const detector::FourPoints>
   }
   // This starts the worker before the time is taken. If it does not start, the runs say why.
   [[maybe_unused]] const auto started = worker_.describe();
-  const auto begin = Clock::now();
+  const auto begin = std::chrono::steady_clock::now();
   auto runs = worker_.ask(asked);
-  const std::chrono::duration<double, std::micro> took = Clock::now() - begin;
+  const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
   std::vector<properties::CaseRun> again;
-  if (detector_.claims.has(properties::Claim::deterministic)) {
+  if (plugin.claims.has(properties::Claim::deterministic)) {
     std::reverse(asked.begin(), asked.end());
     again = second_.ask(asked);
     std::reverse(again.begin(), again.end());
@@ -178,8 +172,8 @@ std::vector<JudgedQuery> QueryJudge::judge(std::span<const detector::FourPoints>
   const properties::Configuration configuration{"query", {}};
   for (std::size_t i = 0; i < places.size(); ++i) {
     JudgedQuery& one = judged[places[i]];
-    const auto truth = properties::judge_case(cases[i], detector_.contract);
-    auto verdict = properties::judge_trial(cases[i], truth, runs[i], configuration, detector_,
+    const auto truth = properties::judge_case(cases[i], plugin.contract);
+    auto verdict = properties::judge_trial(cases[i], truth, runs[i], configuration, plugin,
                                            again.empty() ? nullptr : &again[i]);
     properties::count_measures(verdict.steps, runs[i].steps, truth, counts_);
     one.contact = !truth[0].pairs.empty();

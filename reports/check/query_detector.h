@@ -1,4 +1,5 @@
-// The elementary query of a plug-in, as `check-queries` and `self-test` judge it.
+// The elementary query of a plug-in, as `check-queries` and `self-test` judge it: many queries at
+// once, by its claims. Nothing is stored.
 #pragma once
 
 #include <cstdint>
@@ -20,9 +21,6 @@
 
 namespace assay::reports {
 
-// Puts elementary queries to a plug-in and judges them by its claims, many at once. Nothing is
-// stored.
-
 // What came of one query.
 struct JudgedQuery {
   bool is_within = false;   // the contract takes it; else the rest says nothing
@@ -33,29 +31,6 @@ struct JudgedQuery {
   properties::Outcome outcome = properties::Outcome::undecided;
   std::optional<properties::Failure> failure;
   double microseconds = 0;  // clock time of its message over the number of queries in it
-};
-
-class QueryJudge {
- public:
-  // The detector's claims are those on queries. All arguments must outlive the judge.
-  QueryJudge(const properties::DetectorUnderTest& detector, properties::WorkerProcess& worker,
-             properties::WorkerProcess& second)
-      : detector_(detector), worker_(worker), second_(second) {}
-
-  // Asks and judges the queries. If `deterministic` is claimed, the second worker is asked too, in
-  // the other order. The results are in the order of the queries. Runs that did not take place end
-  // with RunEnd::not_run.
-  std::vector<JudgedQuery> judge(std::span<const detector::FourPoints> queries);
-
-  // The measures of all queries that were judged.
-  properties::StepMeasures measures() const { return properties::measures_in(counts_); }
-  std::uint64_t crashes() const { return crashes_; }
-
- private:
-  const properties::DetectorUnderTest& detector_;
-  properties::WorkerProcess &worker_, &second_;
-  properties::Counts counts_;
-  std::uint64_t crashes_ = 0;
 };
 
 // A query that broke a claim.
@@ -91,11 +66,15 @@ class QueryDetector {
  private:
   explicit QueryDetector(std::unique_ptr<properties::CampaignRequest> request);
 
-  // Request and workers are on the heap, because the judge still refers to them after this object
-  // was moved.
+  // Asks and judges some queries in one message. If `deterministic` is claimed, the second worker
+  // is asked too, in the other order. Runs that did not take place end with RunEnd::not_run.
+  std::vector<JudgedQuery> judge_some(std::span<const detector::FourPoints> queries);
+  properties::StepMeasures measures() const { return properties::measures_in(counts_); }
+
   std::unique_ptr<properties::CampaignRequest> request_;
-  std::unique_ptr<properties::WorkerProcess> worker_, second_;
-  std::unique_ptr<QueryJudge> judge_;
+  properties::WorkerProcess worker_, second_;
+  properties::Counts counts_;  // the measures of all queries that were judged
+  std::uint64_t crashes_ = 0;
   std::uint64_t judged_ = 0, left_out_ = 0, undecided_ = 0, not_asked_ = 0, defects_ = 0;
   std::map<std::string, std::uint64_t> broken_;  // how many queries broke each claim
   std::vector<BrokenQuery> shown_;               // the first of each signature
