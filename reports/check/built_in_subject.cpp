@@ -54,7 +54,7 @@ class BuiltIn : public Subject {
     return options_.arithmetic != detector::Arithmetic::exact;
   }
 
-  StepResult answer(std::size_t, const CheckedStep& step,
+  StepResult answer(std::size_t, const corpus::SourceStep& step,
                     const detector::StopFunction& stop) override try {
     if (!detector_) return undecided();
     const auto given = properties::given_view(step.view, options_.culling);
@@ -74,7 +74,8 @@ class BuiltIn : public Subject {
     return properties::compare(result, judgement, properties::claims_of(options_));
   }
 
-  std::string stage_that_lost(const CheckedStep& step, detector::TrianglePair pair) const override {
+  std::string stage_that_lost(const corpus::SourceStep& step,
+                              detector::TrianglePair pair) const override {
     if (!detector_) return "";
     return properties::stage_that_lost(triangles_, step.x_t0, step.x_t1, pair);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/outcome/try.hpp>
 #include <chrono>
 #include <new>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "oracle/mesh/step.h"
 #include "oracle/referee/second_opinion.h"
 #include "properties/judging/case_check.h"
+#include "properties/judging/case_options.h"
 #include "reports/check/check_outcome.h"
 #include "reports/check/detector_choice.h"
 #include "reports/steps/step_json.h"
@@ -54,7 +56,7 @@ auto timed(Limits& limits, const Ask& ask) {
 
 class CheckRun {
  public:
-  CheckRun(const CheckQuestion& question, CheckedSteps& steps, detector::Topology mesh,
+  CheckRun(const CheckQuestion& question, corpus::StepSource& steps, detector::Topology mesh,
            Subject& subject, Limits& limits, const CheckListener& listener)
       : question_(question),
         steps_(steps),
@@ -152,12 +154,12 @@ class CheckRun {
   }
 
   // The limits are on work, and reading is none.
-  corpus::Expected<CheckedStep> read_step(std::size_t s) {
+  corpus::Expected<corpus::SourceStep> read_step(std::size_t s) {
     const Limits::Pause pause(limits_);
     return steps_.step(s);
   }
 
-  nlohmann::ordered_json run_step(std::size_t s, const CheckedStep& step) {
+  nlohmann::ordered_json run_step(std::size_t s, const corpus::SourceStep& step) {
     Progress progress(fmt::format("step {}/{}", s + 1, step_count()));
     const detector::StopFunction stop = [&] {
       progress.tick();
@@ -220,7 +222,7 @@ class CheckRun {
     return step_json(result, oracle);
   }
 
-  nlohmann::ordered_json ask_second_opinion(std::size_t s, const CheckedStep& step,
+  nlohmann::ordered_json ask_second_opinion(std::size_t s, const corpus::SourceStep& step,
                                             const oracle::StepJudgement& judgement,
                                             const detector::StopFunction& stop,
                                             Progress& progress) {
@@ -250,7 +252,7 @@ class CheckRun {
                        *question_.second_opinion);
   }
 
-  void print_defect(const CheckedStep& step, const properties::StepDiff& diff) const {
+  void print_defect(const corpus::SourceStep& step, const properties::StepDiff& diff) const {
     if (diff.missing.empty()) return;
     const auto& lost = diff.missing.front();
     const std::string stage = subject_.stage_that_lost(step, lost.pair);
@@ -274,7 +276,7 @@ class CheckRun {
   }
 
   const CheckQuestion& question_;
-  CheckedSteps& steps_;
+  corpus::StepSource& steps_;
   detector::Topology mesh_;
   Subject& subject_;
   Limits& limits_;
@@ -285,6 +287,16 @@ class CheckRun {
 };
 
 }  // namespace
+
+corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& files) {
+  BOOST_OUTCOME_TRY(steps, corpus::read_steps({files.begin(), files.end()}));
+  if (const auto* c = steps->case_file()) {
+    if (const auto options = properties::read_options(*c); !options) {
+      return corpus::problem_in(corpus::FileProblem::wrong_type, files[0], options.error().message);
+    }
+  }
+  return CheckInput{files[0], std::move(steps)};
+}
 
 Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& input,
                                  const std::filesystem::path& worker,

@@ -77,7 +77,8 @@ class Plugin : public Subject {
 
   std::string printed() const override { return runs_[0].printed; }
 
-  StepResult answer(std::size_t s, const CheckedStep&, const detector::StopFunction&) override {
+  StepResult answer(std::size_t s, const corpus::SourceStep&,
+                    const detector::StopFunction&) override {
     return s < runs_[0].steps.size() ? runs_[0].steps[s] : not_reached();
   }
 
@@ -100,7 +101,7 @@ class Plugin : public Subject {
     return properties::compare(result, judgement, claims_, description_.contract, case_->triangles);
   }
 
-  std::string stage_that_lost(const CheckedStep&, detector::TrianglePair) const override {
+  std::string stage_that_lost(const corpus::SourceStep&, detector::TrianglePair) const override {
     return "";
   }
 
@@ -149,7 +150,7 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::filesystem::pa
   of_second.variation = 1;
   of_second.least = worker.isolation();
   const auto taken = std::make_shared<const corpus::Case>(std::move(*seen));
-  input.steps = steps_of_case(taken, false);
+  input.steps = corpus::steps_of_case(taken, false);
   return std::unique_ptr<Subject>(std::make_unique<Plugin>(
       std::move(worker), properties::WorkerProcess(worker_program, library, of_second),
       std::move(description.value()), library, limits.threads, taken,

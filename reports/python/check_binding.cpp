@@ -59,7 +59,7 @@ CheckInput input_of(const py::object& triangles, const py::list& frames) {
   if (c.frames.size() < 2) throw py::value_error("a step needs two frames or more");
   if (const auto bad = detector::check_triangles(c.triangles, c.frames[0].rows())) raise(*bad);
   return {"frames",
-          reports::steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), false)};
+          corpus::steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), false)};
 }
 
 // Returns the report as JSON, what is printed, and the exit code.
