@@ -40,11 +40,12 @@ std::string nothing_described(const assay_detector_api& table) {
   return "describe() returns nothing" + (text.empty() ? text : ": " + text);
 }
 
+// False if the number is no value of the enum.
 template <class Enum>
-bool read_word(std::int32_t raw, Enum last, Enum& value) {
-  if (raw < 0 || raw > static_cast<std::int32_t>(last)) return false;
-  value = static_cast<Enum>(raw);
-  return true;
+bool read_number(std::int32_t raw, Enum& value) {
+  const auto named = from_number<Enum>(raw);
+  value = named.value_or(value);
+  return named.has_value();
 }
 
 // Says what in the description makes no sense; empty if all of it does.
@@ -52,13 +53,11 @@ std::string read_contract(const assay_description& raw, Contract& contract) {
   const auto unknown = [](const char* field, std::int32_t value) {
     return std::string("unknown ") + field + " " + std::to_string(value);
   };
-  if (!read_word(raw.adjacency, Adjacency::no_shared_vertex, contract.adjacency))
-    return unknown("adjacency", raw.adjacency);
-  if (!read_word(raw.coordinates, Coordinates::float32, contract.coordinates))
+  if (!read_number(raw.adjacency, contract.adjacency)) return unknown("adjacency", raw.adjacency);
+  if (!read_number(raw.coordinates, contract.coordinates))
     return unknown("coordinates", raw.coordinates);
-  if (!read_word(raw.start, StartRule::apart, contract.start)) return unknown("start", raw.start);
-  if (!read_word(raw.features, TestedFeatures::edge_edge, contract.features))
-    return unknown("features", raw.features);
+  if (!read_number(raw.start, contract.start)) return unknown("start", raw.start);
+  if (!read_number(raw.features, contract.features)) return unknown("features", raw.features);
   if (raw.reports < 0 || raw.reports > ASSAY_REPORTS_NO_PAIRS)
     return unknown("reports", raw.reports);
   contract.margin = raw.margin;
@@ -114,9 +113,9 @@ Expected<PluginDescription> read_description(const assay_detector_api& table) {
   assay_description raw = {};
   std::memcpy(&raw, given,
               table.abi_version == first_version ? first_description_bytes : sizeof raw);
-  const std::uint32_t last_claim =
-      table.abi_version == first_version ? ASSAY_CLAIM_TOTAL : ASSAY_CLAIM_CANDIDATES;
-  if (raw.claims & ~((last_claim << 1) - 1)) return broken("unknown bits in its claims");
+  Claims known = claims_from_outside;
+  if (table.abi_version == first_version) known.set(Claim::candidates, false);
+  if (raw.claims & ~known.bits()) return broken("unknown bits in its claims");
 
   PluginDescription description;
   if (auto fault = read_contract(raw, description.contract); !fault.empty())
