@@ -67,7 +67,7 @@ class WorkerProcess {
 
   // Returns one run for each configuration, in order. A crash or a hang is reported for the
   // configuration that had it; the others still run, in a new worker. A reply of a plug-in that
-  // breaks a rule (reply_rules.h) counts as a crash. If no worker can be started, the runs are
+  // breaks a rule (messages.h) counts as a crash. If no worker can be started, the runs are
   // not_run and say why.
   //
   // A run whose worker is killed from outside (child_process.h) is repeated in a new worker. After

@@ -40,7 +40,7 @@ class JudgedLibrary {
   const std::vector<File>& files() const { return files_; }
 
   // SHA-256 of the library's bytes. If it needs libraries outside of the system's folders
-  // (needed_files.h), or is a detector in Python, SHA-256 of the digests of all of these files.
+  // (needed_files), or is a detector in Python, SHA-256 of the digests of all of these files.
   // cannot_open, with the reason, if one of them cannot be read.
   const corpus::Expected<std::string>& digest() const { return digest_; }
 
