@@ -11,7 +11,7 @@ namespace {
 using detector::Answer;
 using detector::PairContact;
 
-PairContact contact(std::int32_t a, std::int32_t b, double time) {
+PairContact meeting(std::int32_t a, std::int32_t b, double time) {
   return {{a, b}, {time, time}, {}};
 }
 
@@ -30,7 +30,7 @@ StepErrors errors_of_step(Answer answer, detector::TimeEnclosure first,
   return errors_of(compare(result, truth, claims, {}, detector::Triangles(0, 3)));
 }
 
-const std::vector<PairContact> at_half = {contact(0, 1, 0.5)};
+const std::vector<PairContact> at_half = {meeting(0, 1, 0.5)};
 
 TEST(StepErrors, EachWordIsMet) {
   const auto missed = errors_of_step(Answer::free, {}, {}, at_half);
@@ -55,7 +55,7 @@ TEST(StepErrors, EachWordIsMet) {
 }
 
 TEST(StepErrors, AMissingPairIsUnsafeIfPairsAreClaimed) {
-  const std::vector<PairContact> two = {contact(0, 1, 0.5), contact(2, 3, 0.5)};
+  const std::vector<PairContact> two = {meeting(0, 1, 0.5), meeting(2, 3, 0.5)};
   const auto claimed =
       errors_of_step(Answer::collision, {0.5, 0.5}, at_half, two, {Claim::first_pairs});
   EXPECT_EQ(claimed.missing, 1u);
