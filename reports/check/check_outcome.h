@@ -1,4 +1,5 @@
-// What a run of `check` comes to: its last line, its word in the report, its exit code.
+// What a run of `check` comes to: its last line, its exit code, its report, and for a plug-in the
+// claims that hold and what it does whatever it claims.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -37,16 +38,14 @@ struct CheckOutcome {
   int exit_code(bool fail_on_collision) const;
 };
 
-// The report of `check`, schema assay-check/1 (documented in reports/README.md).
-
-// `steps`: an entry for each step that was judged (steps/step_json.h).
+// The report of `check`, schema assay-check/1 (documented in reports/README.md). `steps`: an entry
+// for each step that was judged (steps/step_json.h).
 nlohmann::ordered_json check_report(const std::vector<std::string>& files,
                                     const detector::Topology& mesh, const Subject& subject,
                                     const CheckOutcome& outcome, nlohmann::ordered_json steps);
 
 // What the steps of a plug-in come to under `check`: its claims, and what it does whatever it
 // claims.
-
 class ClaimsTally {
  public:
   // `plugin` is null for the built-in detector, for which nothing is counted.

@@ -1,4 +1,5 @@
-// The detector that a run is about: the built-in one, or a plug-in.
+// The detector that a run is about: the built-in one, or a plug-in; and what a plug-in says of
+// itself, for people.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,6 @@ DetectorPart part_asked_by(const properties::CampaignPlan& plan);
 // that request.worker is set. Fails if the library cannot serve, does not hold the part that is
 // asked for, or cannot be isolated although that is required.
 Expected<void> choose_detector(const DetectorWords& words, properties::CampaignRequest& request);
-
-// What a plug-in says of itself, for people.
 
 // "plug-in NAME VERSION", its claims, its contract, its isolation, and the threads that it may
 // use: one line each, without a newline at the end.

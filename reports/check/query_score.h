@@ -1,4 +1,5 @@
-// Sums up the answers of one method to labelled queries: its score, its times, its rungs.
+// The methods that answer an elementary query, as `check-queries` names them; and what the answers
+// of one method to labelled queries come to: its score, its times, its rungs.
 #pragma once
 
 #include <array>
@@ -11,8 +12,6 @@
 #include "corpus/queries/query_csv.h"
 
 namespace assay::reports {
-
-// The methods that answer an elementary query, as `check-queries` names them.
 
 enum class QueryMethod : std::uint8_t {
   oracle,
