@@ -1,5 +1,5 @@
-// Types that name their fields (fields.h) as JSON objects, and back. An enum is written as its word,
-// and read by its list of words.
+// Types that name their fields (fields.h) as JSON objects, and back. An enum is written as its
+// word, and read by its list of words.
 #pragma once
 
 #include <nlohmann/json.hpp>

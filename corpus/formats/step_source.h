@@ -1,5 +1,6 @@
 // The steps of one mesh, one after another, wherever they come from: a case that is at hand as a
-// whole, or files, of which two frames at a time are in memory. Every input of steps is one of these.
+// whole, or files, of which two frames at a time are in memory. Every input of steps is one of
+// these.
 #pragma once
 
 #include <filesystem>
@@ -52,7 +53,8 @@ std::unique_ptr<StepSource> steps_of_case(std::shared_ptr<const Case> c, bool is
 // for. Those that are not there or of no known format are refused now. REQUIRES a file.
 Expected<std::unique_ptr<StepSource>> steps_of_files(std::vector<std::filesystem::path> files);
 
-// What these files hold: one case file (.json), or frames of one mesh, two or more. REQUIRES a file.
+// What these files hold: one case file (.json), or frames of one mesh, two or more. REQUIRES a
+// file.
 Expected<std::unique_ptr<StepSource>> read_steps(const std::vector<std::filesystem::path>& files);
 
 }  // namespace assay::corpus

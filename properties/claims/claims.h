@@ -22,8 +22,8 @@ enum class Claim : std::uint8_t {
   deterministic,  // the same input gives the same result
   total,          // every valid input within the limits is answered
   candidates,     // every pair of the oracle is among the candidate pairs of its broad phase
-  // Every time is the enclosure of exact arithmetic, so it has to be the oracle's in every bit. This
-  // is how the other claims on times are read of a detector that claims it. Only the built-in
+  // Every time is the enclosure of exact arithmetic, so it has to be the oracle's in every bit.
+  // This is how the other claims on times are read of a detector that claims it. Only the built-in
   // detector does: nobody claims it from outside, and no list names it.
   times_unique,
 };

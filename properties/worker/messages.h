@@ -1,6 +1,6 @@
 // What travels between the host and its worker, field by field, and the rules that a worker's
-// replies must keep to be believed. A new field of a result or an option does not compile here until
-// it is named: in the binding and in the call below it.
+// replies must keep to be believed. A new field of a result or an option does not compile here
+// until it is named: in the binding and in the call below it.
 #pragma once
 
 #include <cstdint>

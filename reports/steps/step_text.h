@@ -39,7 +39,8 @@ std::string step_text(std::size_t number, const detector::StepResult& result,
 // "; 12 pairs left out by the contract, the first at t = 0"; empty if none is.
 std::string left_out_text(const properties::StepTruth& truth);
 
-// Of a second opinion: one indented line with the counts; then one line for each contradiction, ten at most.
+// Of a second opinion: one indented line with the counts; then one line for each contradiction, ten
+// at most.
 std::string second_opinion_text(const oracle::SecondOpinion& opinion, double milliseconds);
 
 // `second_opinion` of a step in assay-check/1.

@@ -7,7 +7,7 @@
 
 #include "properties/words.h"
 #include "reports/check/query_score.h"
-#include "reports/check/query_detector.h"
+#include "reports/queries/query_detector.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/words.h"

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "properties/queries/self_check.h"
-#include "reports/check/query_self_test.h"
+#include "reports/queries/family_run.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/progress.h"

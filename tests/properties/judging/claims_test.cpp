@@ -84,7 +84,8 @@ TEST(Claims, AreTheBitsOfThePluginInterface) {
   EXPECT_EQ(all_claims().back(), Claim::candidates);
 }
 
-// reports/python/assay/hosting.py has the words once more, because it is read where nothing is built.
+// reports/python/assay/hosting.py has the words once more, because it is read where nothing is
+// built.
 TEST(Claims, AreNamedAlikeInPython) {
   std::ifstream in(ASSAY_SOURCE_DIR "/reports/python/assay/hosting.py");
   const std::string text(std::istreambuf_iterator<char>(in), {});

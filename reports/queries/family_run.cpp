@@ -1,4 +1,4 @@
-#include "reports/check/query_self_test.h"
+#include "reports/queries/family_run.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "properties/queries/self_check.h"
-#include "reports/check/query_detector.h"
+#include "reports/queries/query_detector.h"
 #include "reports/steps/step_text.h"
 #include "reports/terminal/words.h"
 

@@ -1,4 +1,4 @@
-#include "reports/check/query_detector.h"
+#include "reports/queries/query_detector.h"
 
 #include <fmt/format.h>
 
