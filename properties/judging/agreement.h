@@ -91,7 +91,7 @@ struct StepDiff {
   std::vector<detector::PairContact> left_out;
   bool left_out_missed = false;
 
-  // Only for a detector that claims candidates (candidate_check.h); nothing if it failed to give
+  // Only for a detector that claims candidates (judge_candidates); nothing if it failed to give
   // them.
   std::optional<CandidateCount> candidates;
   std::vector<detector::PairContact> missing_candidates;
