@@ -61,6 +61,17 @@ struct CampaignRequest {
   WorkerLimits worker_limits(std::uint32_t variation = 0) const {
     return {plan.case_seconds, plan.case_bytes, isolation, isolated, threads, folder, variation};
   }
+
+  // The limits of the worker that runs a case a second time, to judge the claim `deterministic`: it
+  // was started at another time with other hash seeds and addresses, a plug-in that asks may use
+  // another number of threads, and each step is evaluated twice.
+  WorkerLimits second_worker_limits() const {
+    constexpr std::uint64_t some = 3;  // large meshes are run with 1, 2 and 4 (repetitions.h)
+    auto limits = worker_limits(1);
+    if (takes_threads) limits.threads = threads == some ? 1 : some;
+    limits.asks_twice = true;
+    return limits;
+  }
 };
 
 // The time by which a phase of the run must be over. Only the user sets such a limit, by --time or

@@ -65,6 +65,7 @@ struct LoadedPlugin {
   const char* library;
   std::uint32_t threads = 1;
   std::string called;  // as the user calls it
+  bool asks_twice = false;
 };
 
 int serve(Channel channel, const LoadedPlugin* library) {
@@ -76,6 +77,7 @@ int serve(Channel channel, const LoadedPlugin* library) {
     auto opened = PluginHost::open(library->library, library->threads, library->called);
     if (opened) {
       plugin = std::move(opened.value());
+      plugin->ask_twice(library->asks_twice);
       hello.description = plugin->description();
     } else {
       hello.serves = false;
@@ -118,11 +120,12 @@ int serve(Channel channel, const LoadedPlugin* library) {
 // The arguments are the descriptor of the channel, the process of the host and a limit in bytes.
 // For a plug-in these follow: the isolation, its scratch folder, the library, how many threads it
 // may use, and its name as the user calls it, which may be the word of a detector in Python. Then
-// come a folder in which it reads no file, or an empty word, and the number by which this worker
-// differs from others. At last come copies of files, each followed by the path of its original.
+// come a folder in which it reads no file, or an empty word, the number by which this worker
+// differs from others, and 1 where each step is evaluated twice, else 0. At last come copies of
+// files, each followed by the path of its original.
 int main(int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-  constexpr std::size_t built_in = 4, with_plugin = 11;
+  constexpr std::size_t built_in = 4, with_plugin = 12;
   const bool is_with_plugin = words.size() >= with_plugin && (words.size() - with_plugin) % 2 == 0;
   if (words.size() == built_in || is_with_plugin) {
     const auto channel = number(words[1]), host = number(words[2]), bytes = number(words[3]);
@@ -132,10 +135,12 @@ int main(int argc, char** argv) {
         return limit_memory(*bytes) ? serve(std::move(to_host), nullptr) : exit_usage;
       }
       const auto mode = assay::from_name<IsolationMode>(words[4]);
-      const auto threads = number(words[7]), variation = number(words[10]);
-      if (mode && threads && variation) {
+      const auto threads = number(words[7]), variation = number(words[10]),
+                 asks_twice = number(words[11]);
+      if (mode && threads && variation && asks_twice) {
         vary(*variation);
-        const LoadedPlugin plugin{words[6], static_cast<std::uint32_t>(*threads), words[8]};
+        const LoadedPlugin plugin{words[6], static_cast<std::uint32_t>(*threads), words[8],
+                                  *asks_twice != 0};
         if (const auto word = python_word_of(plugin.called))
           ::setenv(python_detector_variable, word->text().c_str(), 1);
         std::vector<ReplacedFile> replaced;

@@ -136,6 +136,7 @@ struct WorkerProcess::Parts {
       arguments.push_back(who());
       arguments.push_back(limits.unread.string());
       arguments.push_back(std::to_string(limits.variation));
+      arguments.push_back(std::to_string(int{limits.asks_twice}));
       for (const auto& file : judged->files()) {
         if (file.copy.empty()) continue;
         arguments.push_back(file.copy.string());

@@ -43,6 +43,9 @@ struct WorkerLimits {
   // Workers of one detector with different numbers have different hash seeds (PYTHONHASHSEED) and
   // different addresses, even on a system that deals out none at random.
   std::uint32_t variation = 0;
+  // A plug-in evaluates each step twice, and the second result is taken: the first leaves no trace
+  // in what is carried from step to step.
+  bool asks_twice = false;
 };
 
 // The worker is started when it is first needed, and again after a crash or a hang. Use one

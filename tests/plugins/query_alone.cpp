@@ -15,6 +15,9 @@
 //   no-interval, no-answer, nan              what is no result
 //   abort-outside                            aborts when a query out of the contract is put to it
 //   free-above=N, undecided-above=N          how the steps of larger meshes are answered
+//   up-to=N, from-pairs=N                    ... but not of meshes above N, or with fewer pairs
+//   free-again                               free when a step is evaluated a second time
+//   free-threaded                            free when it may use several threads
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -152,22 +155,48 @@ std::int32_t query(std::int32_t kind, const double* x_t0, const double* x_t1,
 
 #ifdef WITH_STEPS
 std::uint64_t triangle_count = 0;
+std::uint32_t threads = 1;
+std::size_t evaluations = 0;  // since the last commit
 
 std::int32_t create(const std::int32_t* triangles, std::uint64_t m, const double* x,
                     std::uint64_t n, assay_handle** handle, const char** message) {
   triangle_count = m;
+  evaluations = 0;
   return assay_builtin_detector()->create(triangles, m, x, n, handle, message);
 }
 
+void use_threads(std::uint32_t count) { threads = count; }
+
+std::int32_t evaluate(assay_handle* handle, const double* x_t0, const double* x_t1) {
+  ++evaluations;
+  return assay_builtin_detector()->evaluate(handle, x_t0, x_t1);
+}
+
+std::int32_t commit(assay_handle* handle) {
+  evaluations = 0;
+  return assay_builtin_detector()->commit(handle);
+}
+
+bool is_above(const char* word) {
+  return has(word) && static_cast<double>(triangle_count) > number_of(word);
+}
+
+bool answers_free(const assay_result& right) {
+  if (has("free-again") && evaluations > 1) return true;
+  if (has("free-threaded") && threads > 1) return true;
+  return is_above("free-above") && !is_above("up-to") &&
+         static_cast<double>(right.pair_count) >= number_of("from-pairs");
+}
+
 std::int32_t result(assay_handle* handle, assay_result* out) {
-  const auto is_above = [](const char* word) {
-    return has(word) && static_cast<double>(triangle_count) > number_of(word);
-  };
-  if (is_above("free-above") || is_above("undecided-above")) {
-    out->answer = is_above("free-above") ? ASSAY_FREE : ASSAY_UNDECIDED;
-    return ASSAY_OK;
+  const auto code = assay_builtin_detector()->result(handle, out);
+  if (code != ASSAY_OK) return code;
+  if (is_above("undecided-above")) {
+    out->answer = ASSAY_UNDECIDED;
+  } else if (answers_free(*out)) {
+    *out = {};
   }
-  return assay_builtin_detector()->result(handle, out);
+  return code;
 }
 #endif
 
@@ -181,6 +210,9 @@ const assay_detector_api* assay_detector() {
     table = *assay_builtin_detector();
     table.create = create;
     table.result = result;
+    table.evaluate = evaluate;
+    table.commit = commit;
+    table.use_threads = use_threads;
 #endif
     table.describe = describe;
     table.query = query;

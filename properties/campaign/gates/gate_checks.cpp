@@ -90,6 +90,9 @@ void check_trials(const RunFindings& f, const Asked& asked, Lines& lines) {
   if (asked.certificate && f.planned() == 0) lines.push_back("the campaign plans no trial");
   if (f.planned() > 0 && f.tally.judged() == 0 && f.tally.trials() == f.planned())
     lines.push_back("the contract takes no case of any family");
+  if (asked.certificate && f.tally.judged() > 0 && f.run.detector.query_claims.empty() &&
+      judged_claims(f).empty())
+    lines.push_back("no claim of the detector was judged");
   check_contacts(f, asked, lines);
   // Asked of all shards together: a single one may have run on a machine short of memory.
   constexpr std::uint64_t most_disturbed = 100;  // at most one trial in this many

@@ -12,44 +12,44 @@
 #include "properties/campaign/stored/evidence.h"
 #include "properties/campaign/trials/trials.h"
 #include "properties/judging/judged_run.h"
+#include "properties/numbering.h"
 #include "properties/random.h"
 
 namespace assay::properties {
 namespace {
 
 constexpr int most_hung_repetitions = 3;
-
-// Draws another order of the list, each as likely as the other.
-template <class List>
-void shuffle(List& list, Random& random) {
-  for (int i = static_cast<int>(list.size()) - 1; i > 0; --i)
-    std::swap(list[static_cast<std::size_t>(i)],
-              list[static_cast<std::size_t>(random.below(i + 1))]);
-}
-
-std::vector<int> shuffled_numbers(Eigen::Index count, Random& random) {
-  std::vector<int> numbers(static_cast<std::size_t>(count));
-  std::iota(numbers.begin(), numbers.end(), 0);
-  shuffle(numbers, random);
-  return numbers;
-}
+constexpr std::size_t most_differing = 2;  // steps of a sequence
 
 // Gives the vertices other numbers, the triangles another order, and each of them another first
 // corner.
 void renumber(corpus::Case& c, Random& random) {
-  const auto old_vertices = shuffled_numbers(c.frames.front().rows(), random);
-  const auto old_triangles = shuffled_numbers(c.triangles.rows(), random);
-  std::vector<int> new_vertices(old_vertices.size());
-  for (std::size_t v = 0; v < old_vertices.size(); ++v)
-    new_vertices[static_cast<std::size_t>(old_vertices[v])] = static_cast<int>(v);
-  for (auto& frame : c.frames) frame = frame(old_vertices, Eigen::all).eval();
-  c.triangles = c.triangles(old_triangles, Eigen::all).eval();
+  const auto vertices = shuffled(random, in_order(static_cast<std::size_t>(c.frames[0].rows())));
+  const auto places = shuffled(random, in_order(static_cast<std::size_t>(c.triangles.rows())));
+  for (auto& frame : c.frames) {
+    detector::Positions moved(frame.rows(), 3);
+    for (Eigen::Index v = 0; v < frame.rows(); ++v) moved.row(vertices[at(v)]) = frame.row(v);
+    frame = std::move(moved);
+  }
+  detector::Triangles moved(c.triangles.rows(), 3);
   for (Eigen::Index t = 0; t < c.triangles.rows(); ++t) {
     const int first = random.below(3);
-    const Eigen::RowVector3i corners = c.triangles.row(t);
     for (int k = 0; k < 3; ++k)
-      c.triangles(t, k) = new_vertices[static_cast<std::size_t>(corners((first + k) % 3))];
+      moved(places[at(t)], k) = vertices[at(c.triangles(t, (first + k) % 3))];
   }
+  c.triangles = std::move(moved);
+}
+
+// Half of the scenes have the wanted size. The others lie between it and the largest of the
+// trials, each doubling equally often.
+std::uint64_t drawn_size(Random& random, std::uint64_t most) {
+  if (random.one_in(2)) return most;
+  constexpr std::uint64_t largest_of_trials = 200;
+  std::uint64_t least = std::min(most, largest_of_trials);
+  int doublings = 0;
+  while (least << (doublings + 1) < most) ++doublings;
+  least <<= random.below(doublings + 1);
+  return least + random.next() % (std::min(2 * least, most) - least + 1);
 }
 
 // A map of space that keeps what is outside outside. It bends nothing, so what meets still does,
@@ -65,12 +65,11 @@ Eigen::Matrix3d drawn_map(Random& random) {
 
 corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
                             std::uint64_t seed) {
-  constexpr int few_frames = 6;
+  constexpr int least_frames = 6, most_frames = 18;
   Random random(fmt::format("{}{}:{}", repeated_in_id, seed, scene.name));
-  const int all = static_cast<int>(triangles);
   corpus::SceneOptions options;
-  options.size = random.one_in(2) ? all : random.between((all + 3) / 4, all);
-  options.frames = std::max(few_frames, scene.least_frames);
+  options.size = static_cast<int>(drawn_size(random, triangles));
+  options.frames = std::max(random.between(least_frames, most_frames), scene.least_frames);
   auto made = corpus::make_scene(scene.name, options).value();
   corpus::Case c;
   c.id = scene.name;
@@ -98,20 +97,50 @@ CaseRun step_alone(const CaseRun& run, std::size_t s) {
   return one;
 }
 
-// The places of the steps that the oracle judges, ascending (repetitions.h), of a case that the
-// contract takes. `answered` is the run of the built-in detector.
-std::vector<std::size_t> steps_to_judge(const corpus::Case& c, const Contract& contract,
-                                        const CaseRun& answered) {
+// Whether the features that meet first are of a kind that the contract has tested.
+bool is_tested(const Contract& contract, const detector::PairContact& contact) {
+  const bool is_edge_edge = contact.feature.kind == detector::FeatureKind::edge_edge;
+  return contract.features == TestedFeatures::both ||
+         is_edge_edge == (contract.features == TestedFeatures::edge_edge);
+}
+
+// The steps in which the run breaks a claim if the built-in detector, whose run is `answered`, is
+// right: those with the fewest contacts, and not more than most_differing.
+std::vector<std::size_t> differing_steps(const corpus::Case& c, const DetectorUnderTest& detector,
+                                         const CaseRun& run, const CaseRun& answered) {
+  const auto& contract = detector.contract;
+  std::vector<std::size_t> places;
+  for (std::size_t s = 0; s < std::min(run.steps.size(), answered.steps.size()); ++s) {
+    const auto& believed = answered.steps[s];
+    oracle::StepJudgement judgement;
+    judgement.answer = believed.answer;
+    judgement.complete = true;
+    judgement.first = believed.first;
+    judgement.pairs = believed.pairs;
+    for (const auto& contact : believed.pairs) {
+      if (is_tested(contract, contact)) judgement.asked_pairs.push_back(contact);
+    }
+    const auto diff = compare_step(run, s, judgement, detector.claims, contract, c.triangles);
+    if (diff.outcome == Outcome::defect) places.push_back(s);
+  }
+  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+    return answered.steps[a].pairs.size() < answered.steps[b].pairs.size();
+  });
+  places.resize(std::min(places.size(), most_differing));
+  return places;
+}
+
+// Of a case that the contract takes: the colliding step with the fewest contacts that count, and
+// the first without any. `answered` is the run of the built-in detector.
+std::vector<std::size_t> plain_steps(const corpus::Case& c, const Contract& contract,
+                                     const CaseRun& answered) {
   std::optional<std::size_t> colliding, free;
   std::size_t fewest = 0;
   for (std::size_t s = 0; s < answered.steps.size(); ++s) {
     const auto& pairs = answered.steps[s].pairs;
     const auto count = static_cast<std::size_t>(
         std::count_if(pairs.begin(), pairs.end(), [&](const detector::PairContact& contact) {
-          const bool is_edge_edge = contact.feature.kind == detector::FeatureKind::edge_edge;
-          const bool is_tested = contract.features == TestedFeatures::both ||
-                                 is_edge_edge == (contract.features == TestedFeatures::edge_edge);
-          return is_tested && !leaves_out(contract, c.triangles, contact.pair);
+          return is_tested(contract, contact) && !leaves_out(contract, c.triangles, contact.pair);
         }));
     if (count == 0 && !free) free = s;
     if (count > 0 && (!colliding || count < fewest)) {
@@ -123,7 +152,6 @@ std::vector<std::size_t> steps_to_judge(const corpus::Case& c, const Contract& c
   for (const auto& place : {colliding, free}) {
     if (place) places.push_back(*place);
   }
-  std::sort(places.begin(), places.end());
   return places;
 }
 
@@ -138,7 +166,8 @@ std::optional<std::size_t> differing_step(const CaseRun& a, const CaseRun& b) {
 
 class Repetitions {
  public:
-  Repetitions(const CampaignRequest& request, Store& store) : request_(request), store_(store) {
+  Repetitions(const CampaignRequest& request, Store& store)
+      : request_(request), store_(store), built_in_(request.worker, std::nullopt, {}) {
     if (!request.detector.claims.has(Claim::deterministic)) {
       threads_ = {request.threads};
     } else if (request.takes_threads) {
@@ -211,10 +240,14 @@ class Repetitions {
 
   void judge_steps(const corpus::Case& c, const CaseRun& run, Repetition& row) {
     const Configuration chooser{"auto", {}};
-    WorkerProcess worker(request_.worker, std::nullopt, {});
-    const auto answered = std::move(worker.run(c, {&chooser, 1}).front());
+    const auto answered = std::move(built_in_.run(c, {&chooser, 1}).front());
     const auto& contract = request_.detector.contract;
-    for (const auto s : steps_to_judge(c, contract, answered)) {
+    auto places = differing_steps(c, request_.detector, run, answered);
+    const auto plain = plain_steps(c, contract, answered);
+    places.insert(places.end(), plain.begin(), plain.end());
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    for (const auto s : places) {
       const auto alone = with_steps(c, {s});
       const auto truth = judge_case(alone, contract, request_.jobs);
       const auto judged =
@@ -264,14 +297,18 @@ class Repetitions {
            : fmt::format("step {}, run {} with {} threads: {}; run 1 with {}: {}", *s + 1,
                          row.threads.size(), row.threads.back(), answer_of(run, *s),
                          row.threads.front(), answer_of(first, *s));
-    if (!row.broken) return;
+    if (row.broken) keep_end(s ? with_steps(c, {*s}) : c, run, judged, row.difference);
+  }
+
+  // Stores what the end of a run shows, or its difference from another one.
+  void keep_end(const corpus::Case& c, const CaseRun& run, const JudgedRun& judged,
+                const std::string& what) {
     Failure failure;
     failure.claim = judged.broken.front();
     failure.kind = failure.claim == Claim::deterministic ? "two runs differ" : name_of(run.end);
     failure.cause = "large mesh";
-    failure.explanation = fmt::format("{}, {} triangles, {}", c.id, row.triangles, row.difference);
-    auto shown =
-        failing_case(s ? with_steps(c, {*s}) : c, configuration(), request_.detector, failure);
+    failure.explanation = fmt::format("{}, {} triangles, {}", c.id, c.triangles.rows(), what);
+    const auto shown = failing_case(c, configuration(), request_.detector, failure);
     store_.add({fmt::format("{}{}", repeated_in_id, c.id), configuration().name,
                 failure.signature(), failure.explanation, corpus::case_text(shown), "", true,
                 run.printed});
@@ -280,6 +317,7 @@ class Repetitions {
   const CampaignRequest& request_;
   Store& store_;
   std::vector<std::uint64_t> threads_;
+  WorkerProcess built_in_;
   std::vector<WorkerProcess> workers_;  // by the place of the run
   int hung_ = 0;
 };

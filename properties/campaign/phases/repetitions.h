@@ -22,9 +22,9 @@ inline constexpr std::uint64_t repeated_threads[] = {1, 2, 4, 4};
 bool is_repeated(const CampaignPlan& plan, bool built_in);
 
 // A scene as it is put to a plug-in. The seed draws its size, which is the wanted number of
-// triangles or, for about half of the scenes, down to a quarter of it. The seed also draws the
-// order of vertices, triangles and corners, and one linear map near the identity, through which all
-// frames go. So these meshes are known to nobody before the seed is. The map keeps contacts and
+// triangles or, for about half of the scenes, between it and the largest of the trials. The seed
+// also draws the number of frames, the order of vertices, triangles and corners, and one linear map
+// near the identity, through which all frames go. So these meshes are known to nobody before the seed is. The map keeps contacts and
 // their times, but for what rounding decides.
 corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
                             std::uint64_t seed);
@@ -39,8 +39,9 @@ corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triang
 // one is run.
 //
 // Of each scene the oracle judges two steps by the first run: the one with the fewest contacts
-// that the contract does not leave out, and the first without any, in so far as there are such. The
-// built-in detector chooses them, and decides nothing else. Where a claim is broken, that is a
+// that the contract does not leave out, and the first without any, in so far as there are such. It
+// also judges up to two steps in which a claim is broken if the built-in detector is right. The
+// built-in detector chooses the steps, and decides nothing else. Where a claim is broken, that is a
 // failure of the run, whose mesh is the step alone, or, where it fails only after the steps before
 // it, the scene up to this step.
 //

@@ -100,17 +100,16 @@ class Trials {
 
  private:
   // Every 16th trial is run twice, to judge the claim `deterministic`: the second time in another
-  // process, which was started at another time with other hash seeds and addresses (variation),
-  // and in another order: some of these trials wait for each other, and the last comes first.
+  // process (CampaignRequest::second_worker_limits), and in another order: some of these trials
+  // wait for each other, and the last comes first.
   static constexpr std::uint64_t repeat_every = 16;
   static constexpr std::size_t repeated_together = 4;
-  static constexpr std::uint32_t variation = 1;
   static constexpr std::uint64_t meshes_kept = 3;  // this many meshes of each signature are stored
   static constexpr std::size_t counted_together = 32;  // law_checks.h
 
   void work() {
     Workers workers{{request_.worker, request_.plugin, request_.worker_limits()},
-                    {request_.worker, request_.plugin, request_.worker_limits(variation)}};
+                    {request_.worker, request_.plugin, request_.second_worker_limits()}};
     std::vector<Trial> waiting, judged;
     // If something goes wrong in one thread, all of them end.
     try {

@@ -23,11 +23,12 @@ namespace {
 class PluginRun {
  public:
   PluginRun(const assay_detector_api& api, assay_handle* handle, std::int32_t triangle_count,
-            bool reports_pairs)
+            bool reports_pairs, bool asks_twice)
       : api_(api),
         handle_(handle, api.destroy),
         triangle_count_(triangle_count),
-        reports_pairs_(reports_pairs) {}
+        reports_pairs_(reports_pairs),
+        asks_twice_(asks_twice) {}
 
   // The candidate pairs of a step, or why there are none: out_of_memory, step_failed or
   // broken_result.
@@ -43,17 +44,8 @@ class PluginRun {
   // The result of a step, or why it has none: the same reasons.
   Expected<StepResult> step(const detector::Positions& x_t0, const detector::Positions& x_t1,
                             bool commit) {
-    const auto evaluated =
-        called("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data()));
-    if (!evaluated) return evaluated.error();
-    assay_result raw = {};
-    const auto asked = called("result", api_.result(handle_.get(), &raw));
-    if (!asked) return asked.error();
-    if (raw.answer == ASSAY_ERROR && !(raw.message && *raw.message)) {
-      if (auto text = text_of_error(api_); !text.empty())
-        return Problem{ProblemKind::step_failed, std::move(text)};
-    }
-    auto result = step_result(raw, triangle_count_, reports_pairs_);
+    auto result = evaluated_step(x_t0, x_t1);
+    if (result && asks_twice_) result = evaluated_step(x_t0, x_t1);
     if (!result) return result;
     const Answer answer = result.value().answer;
     if (commit && (answer == Answer::free || answer == Answer::collision)) {
@@ -64,6 +56,21 @@ class PluginRun {
   }
 
  private:
+  Expected<StepResult> evaluated_step(const detector::Positions& x_t0,
+                                      const detector::Positions& x_t1) {
+    const auto evaluated =
+        called("evaluate", api_.evaluate(handle_.get(), x_t0.data(), x_t1.data()));
+    if (!evaluated) return evaluated.error();
+    assay_result raw = {};
+    const auto asked = called("result", api_.result(handle_.get(), &raw));
+    if (!asked) return asked.error();
+    if (raw.answer == ASSAY_ERROR && !(raw.message && *raw.message)) {
+      if (auto text = text_of_error(api_); !text.empty())
+        return Problem{ProblemKind::step_failed, std::move(text)};
+    }
+    return step_result(raw, triangle_count_, reports_pairs_);
+  }
+
   // Says why the call did not do its work, if it did not.
   Expected<void> called(const char* function, std::int32_t code) const {
     if (code == ASSAY_OK) return boost::outcome_v2::success();
@@ -74,7 +81,7 @@ class PluginRun {
   const assay_detector_api& api_;
   std::unique_ptr<assay_handle, void (*)(assay_handle*)> handle_;
   std::int32_t triangle_count_;
-  bool reports_pairs_;
+  bool reports_pairs_, asks_twice_;
 };
 
 }  // namespace
@@ -163,7 +170,7 @@ CaseRun PluginHost::run(const corpus::Case& c, bool is_timed) const {
     return {RunEnd::refused, std::move(explanation), {}};
   }
   PluginRun plugin(table_, handle, static_cast<std::int32_t>(c.triangles.rows()),
-                   description_.contract.reports_pairs);
+                   description_.contract.reports_pairs, asks_twice_);
   CaseRun run;
   run.has_answers = parts.steps;
   for (const auto& step : corpus::steps_of(c)) {

@@ -25,6 +25,9 @@ class PluginHost {
 
   const PluginDescription& description() const { return description_; }
 
+  // Whether run() evaluates each step twice. The second result is the one that is taken.
+  void ask_twice(bool asks_twice) { asks_twice_ = asks_twice; }
+
   // Runs a case as run_case does. If a result breaks the header's rules (an index out of range, an
   // invalid interval), its step is an error; `explanation` tells errors. Coordinates are rounded
   // as the contract says. The caller has to leave out the steps that the contract leaves out.
@@ -40,6 +43,7 @@ class PluginHost {
 
   assay_detector_api table_;  // in the form of this host's version
   PluginDescription description_;
+  bool asks_twice_ = false;
 };
 
 }  // namespace assay::properties

@@ -282,6 +282,18 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
     f.run.detector.contract.reports_pairs = false;
   };
   expect_certified({plug_in, void_pairs, contacts(0, 0)});
+  // But some claim has to be judged: one whose every interval says nothing of the time is none.
+  const Change only_wide_times = [](auto& f) {
+    f.run.detector.configurations[0].claims = {"first-time"};
+    for (auto& [family, tally] : f.tally.strata) {
+      tally.measures["measure:collisions"] = 2;
+      tally.measures["measure:without-time"] = 2;
+    }
+  };
+  const auto unjudged = judged_after({plug_in, only_wide_times});
+  expect(unjudged, Gate::complete, "incomplete", 3);
+  EXPECT_EQ(unjudged.of(Gate::complete).reasons,
+            std::vector<std::string>{"no claim of the detector was judged"});
   // A shard by itself may have too few.
   EXPECT_EQ(judged_after({contacts(0, 0),
                           [](auto& f) {

@@ -83,6 +83,34 @@ TEST_F(Repetitions, ADetectorThatIsWrongOnLargeMeshesAloneIsFound) {
   }
 }
 
+// The seed draws half of the sizes between those of the trials and that of the plan.
+TEST_F(Repetitions, ADetectorThatIsWrongInARangeOfSizesIsFound) {
+  const auto made = judge("run", "steps_and_query", 1500, "--part steps",
+                          "ASSAY_QUERY='free-above=210 up-to=1300' ");
+  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
+}
+
+TEST_F(Repetitions, ADetectorThatIsWrongWhereManyPairsMeetIsFound) {
+  // In no scene does the colliding step with the fewest contacts have so many.
+  const auto made = judge("run", "steps_and_query", 2000, "--part steps",
+                          "ASSAY_QUERY='free-above=1900 from-pairs=2600' ");
+  EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
+  EXPECT_TRUE(contains(made.out, "DEFECT free-sound: answered free, ")) << made.out;
+}
+
+TEST_F(Repetitions, TheSecondRunOfATrialAsksAgainAndWithOtherThreads) {
+  const auto plan = scratch.write("many.json", plan_text(128));
+  for (const std::string word : {"free-again", "free-threaded"}) {
+    std::filesystem::remove_all(out);
+    const auto made = run_assay("run --campaign " + plan + " --jobs 2 --out " + out +
+                                    " --part steps --detector " + plugin("steps_and_query"),
+                                "ASSAY_QUERY=" + word + " ");
+    EXPECT_EQ(made.exit_code, 1) << word << made.out << made.err;
+    EXPECT_TRUE(contains(made.out, "DEFECT deterministic: two runs differ")) << word << made.out;
+  }
+}
+
 TEST_F(Repetitions, TheCertificateSaysUpToWhichSizeEachClaimWasTried) {
   const auto made = judge("certify", "steps_and_query", 700, "--part steps");
   EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
