@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "detector/mesh/arithmetic.h"
+#include "detector/mesh/step_types.h"
 
 namespace assay::detector {
 

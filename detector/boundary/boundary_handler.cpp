@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "detector/boundary/apex_choice.h"
 #include "detector/parallel/workers.h"
 
 namespace assay::detector {

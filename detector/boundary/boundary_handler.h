@@ -16,7 +16,7 @@ class BoundaryHandler {
                            PacedStop& pace) const;
 
   // The rule that places the apex of each loop for the life of a detector: one whose ghosts touch
-  // few triangles at x (apex_choice.h). If `stop` asked for an end, it must not be used.
+  // few triangles at x (apex.h). If `stop` asked for an end, it must not be used.
   virtual std::vector<ApexRule> choose_apexes(const Surface& surface, BoundingVolumeTree& tree,
                                               const PositionsView& x,
                                               const ElementaryTest& elementary,

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "detector/mesh/problem.h"
-#include "detector/state/state_fields.h"
+#include "detector/state/step_state.h"
 
 namespace assay::detector {
 

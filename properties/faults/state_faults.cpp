@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "detector/state/layers.h"
-#include "detector/step/static_touches.h"
+#include "detector/step/release_rule.h"
 #include "properties/faults/planting.h"
 
 namespace assay::properties {

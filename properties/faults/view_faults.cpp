@@ -3,7 +3,7 @@
 // From a point: here f = (p0 - q).N is a cubic in t, and every short cut looks at less than all of
 // it (L2).
 
-#include "detector/bernstein/bernstein.h"
+#include "detector/exact/bernstein.h"
 #include "detector/geometry/winding.h"
 #include "properties/faults/planting.h"
 #include "properties/faults/view_polynomials.h"

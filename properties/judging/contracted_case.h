@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "corpus/cases/case_file.h"
-#include "detector/contact/four_points.h"
+#include "detector/mesh/step_types.h"
 #include "oracle/mesh/step.h"
 #include "properties/claims/contract.h"
 

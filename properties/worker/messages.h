@@ -8,8 +8,8 @@
 #include <string>
 
 #include "corpus/cases/case_file.h"
-#include "detector/contact/four_points.h"
 #include "detector/mesh/problem.h"
+#include "detector/mesh/step_types.h"
 #include "detector/step_result.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "detector/contact/four_points.h"
+#include "detector/mesh/step_types.h"
 #include "properties/problem.h"
 #include "properties/worker/case_run.h"
 #include "properties/worker/isolation/isolation.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "detector/contact/four_points.h"
+#include "detector/mesh/step_types.h"
 #include "properties/campaign/request.h"
 #include "properties/campaign/stored/step_measures.h"
 #include "properties/campaign/trials/trial.h"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "detector/mesh/mesh_checks.h"
-#include "detector/state/state_fields.h"
+#include "detector/state/step_state.h"
 #include "tests/detector/points.h"
 
 namespace assay::detector {

@@ -2,7 +2,7 @@
 
 #include "detector/search/bounding_volume_tree.h"
 #include "detector/search/marking.h"
-#include "detector/search/triangle_type.h"
+#include "detector/search/pair_rule.h"
 #include "properties/judging/case_options.h"
 #include "reports/bench/claims/claims_parts.h"
 #include "reports/bench/interleave.h"

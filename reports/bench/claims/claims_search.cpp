@@ -4,7 +4,6 @@
 #include "detector/search/marking.h"
 #include "detector/search/pair_rule.h"
 #include "detector/search/pair_search.h"
-#include "detector/search/triangle_type.h"
 #include "detector/step/stages.h"
 #include "reports/bench/claims/claims_parts.h"
 #include "reports/bench/interleave.h"

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "detector/detector.h"
-#include "detector/state/state_fields.h"
+#include "detector/state/step_state.h"
 #include "tests/detector/contact/same_contacts.h"
 #include "tests/detector/points.h"
 #include "tests/detector/view/revolved.h"

@@ -10,7 +10,6 @@
 
 #include "corpus/scenes/scenes.h"
 #include "detector/detector.h"
-#include "detector/state/state_fields.h"
 #include "detector/state/step_state.h"
 #include "properties/judging/agreement.h"
 #include "properties/judging/case_check.h"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "detector/mesh/loops.h"
+#include "detector/mesh/surface.h"
 #include "oracle/instant/layers.h"
 #include "oracle/mesh/loops.h"
 #include "oracle/mesh/step.h"

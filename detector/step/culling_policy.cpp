@@ -1,4 +1,4 @@
-#include "detector/step/clean_triangles.h"
+#include "detector/step/culling_policy.h"
 
 #include <algorithm>
 
