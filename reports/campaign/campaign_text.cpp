@@ -45,8 +45,7 @@ std::string strata_text(const RunFindings& findings) {
                                 "undecided", "bound", "wanted", "steps/s/core");
   for (const auto& stratum : findings.run.plan.strata) {
     const auto& all = findings.tally_of(stratum).by_configuration;
-    const bool all_same = std::all_of(all.begin(), all.end(),
-                                      [&](const auto& outcomes) { return outcomes == all[0]; });
+    const bool all_same = configurations_agree(findings, stratum);
     const std::size_t rows = all_same ? std::min<std::size_t>(all.size(), 1) : all.size();
     for (std::size_t c = 0; c < rows; ++c)
       out += stratum_row(findings, stratum, c,

@@ -19,7 +19,8 @@ Json bounds_json(const RunFindings& findings, const properties::StratumPlan& str
                     {"defects", outcomes.defects},
                     {"undecided", outcomes.undecided},
                     {"errors", outcomes.errors},
-                    {"bound", bound_of(outcomes, findings.run)}});
+                    {"bound", bound_of(outcomes, findings.run)},
+                    {"met", is_met(findings, stratum, c)}});
   }
   return list;
 }
@@ -106,6 +107,7 @@ Json strata_json(const RunFindings& findings) {
                                      ? Json(nullptr)
                                      : measures_json(properties::measures_in(tally.measures))},
                     {"wanted_bound", wanted > 0 ? Json(wanted) : Json(nullptr)},
+                    {"agree", configurations_agree(findings, stratum)},
                     {"bounds", bounds_json(findings, stratum)}});
   }
   return list;

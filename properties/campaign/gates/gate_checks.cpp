@@ -212,16 +212,13 @@ GateFindings check_bounds(const RunFindings& f, const Asked&) {
     if ((is_wanted && f.alone) || f.is_left_out(stratum)) continue;
     judged = true;
     for (std::size_t c = 0; c < f.run.detector.configurations.size(); ++c) {
+      if (is_met(f, stratum, c)) continue;
       const auto outcomes = f.outcomes_of(stratum, c);
-      const std::string where =
-          fmt::format("{}, {}", stratum.family, f.run.detector.configurations[c].name);
-      const double bound = bound_of(outcomes, f.run);
-      if (!is_wanted && outcomes.open() > 0) {
-        found.against.push_back(fmt::format("{}: {} without a verdict", where, outcomes.open()));
-      } else if (is_wanted && bound > stratum.wanted_bound) {
-        found.against.push_back(
-            fmt::format("{}: bound {:.2e}, {:.0e} is wanted", where, bound, stratum.wanted_bound));
-      }
+      found.against.push_back(
+          fmt::format("{}, {}: ", stratum.family, f.run.detector.configurations[c].name) +
+          (is_wanted ? fmt::format("bound {:.2e}, {:.0e} is wanted", bound_of(outcomes, f.run),
+                                   stratum.wanted_bound)
+                     : fmt::format("{} without a verdict", outcomes.open())));
     }
   }
   if (!judged)
