@@ -7,7 +7,6 @@
 #include "properties/campaign/phases/phases.h"
 #include "properties/campaign/stored/binding.h"
 #include "reports/campaign/failure_text.h"
-#include "reports/campaign/slow_text.h"
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/progress.h"

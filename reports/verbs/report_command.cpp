@@ -4,7 +4,6 @@
 #include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/verify.h"
-#include "reports/page/data/failure_scenes.h"
 #include "reports/page/data/page_file.h"
 #include "reports/page/data/run_json.h"
 #include "reports/terminal/complaint.h"

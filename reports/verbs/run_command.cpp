@@ -9,7 +9,7 @@
 #include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
-#include "reports/certificate/corpus_check.h"
+#include "reports/certificate/own_checks.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"
 #include "reports/terminal/complaint.h"

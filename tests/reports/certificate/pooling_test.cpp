@@ -1,9 +1,8 @@
 // Nights are pooled under equal digests only.
-#include "reports/certificate/pooling.h"
-
 #include <gtest/gtest.h>
 
 #include "properties/campaign/gates/statistics.h"
+#include "reports/certificate/verify.h"
 
 namespace assay::reports {
 namespace {

@@ -8,7 +8,6 @@
 #include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/merge.h"
 #include "properties/faults/fault.h"
-#include "reports/page/data/failure_scenes.h"
 #include "reports/page/data/page_file.h"
 #include "reports/page/data/run_json.h"
 #include "tests/reports/program.h"

@@ -1,5 +1,4 @@
-// Runs the shipped corpus and scenes through the detector under test, as evidence of a
-// certificate.
+// What `certify` checks by itself, as evidence of a certificate: the corpus, the oracle, the speed.
 #pragma once
 
 #include <functional>
@@ -40,5 +39,14 @@ std::string corpus_row_text(const properties::CorpusRow& row);
 
 // SHA-256 over names and bytes of the case files.
 std::string corpus_digest(const std::filesystem::path& corpus);
+
+// Is called for each family of `assay self-test` as soon as it is known.
+using OnSelfTestRow = std::function<void(const properties::SelfTestRow&)>;
+void check_oracle(std::uint64_t queries, int jobs, const OnSelfTestRow& on_family);
+
+// Is called for each of properties::speed_figures: a ratio of processor times of interleaved steps
+// of the built-in detector. 10 s in all.
+using OnSpeedFigure = std::function<void(const properties::SpeedFigure&)>;
+void measure_speed(const OnSpeedFigure& on_figure);
 
 }  // namespace assay::reports
