@@ -197,7 +197,6 @@ Expected<void> check_queries(const properties::CampaignRequest& request,
 }
 
 using detector::Arithmetic;
-using detector::Culling;
 using detector::Options;
 using properties::SpeedFigure;
 

@@ -1,17 +1,19 @@
 // The plug-in that serves `--detector python:MODULE:CLASS`. It runs an interpreter in the process
 // of a plug-in, and the class in it. assay/hosting.py says what the class may have and how its
 // answers are read, and does everything that can be done in Python.
+#include <Python.h>
 #include <dlfcn.h>
 #include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 
 #include "detector/plugin/assay_detector.hpp"
 #include "properties/worker/plugin/python_word.h"
-#include "reports/python/interpreter.h"
 
 namespace assay::python {
 namespace {
@@ -23,6 +25,55 @@ using plugin::Mesh;
 using plugin::Pair;
 using plugin::Positions;
 using plugin::Result;
+
+// Modules such as those of NumPy take the symbols of the interpreter from the program. Here the
+// interpreter is a library that was loaded for this plug-in alone, so it is loaded again, which
+// shows its symbols to all.
+void show_interpreter_to_modules() {
+  Dl_info library = {};
+  if (::dladdr(reinterpret_cast<const void*>(&Py_InitializeFromConfig), &library) == 0 ||
+      !::dlopen(library.dli_fname, RTLD_NOW | RTLD_GLOBAL | RTLD_NOLOAD))
+    throw std::runtime_error("the library of Python is not found");
+}
+
+void demand(PyStatus status, PyConfig& config) {
+  if (!PyStatus_Exception(status)) return;
+  const char* why = status.err_msg ? status.err_msg : "no reason given";
+  PyConfig_Clear(&config);
+  throw std::runtime_error(std::string("Python does not start: ").append(why));
+}
+
+void initialize() {
+  // Libraries that multiply matrices in threads reserve much memory for each of them.
+  for (const char* name : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"}) ::setenv(name, "1", 0);
+  PyConfig config;
+  PyConfig_InitPythonConfig(&config);
+  config.parse_argv = 0;
+  config.install_signal_handlers = 0;
+  config.write_bytecode = 0;  // there is no place to write it to
+  config.buffered_stdio = 0;  // text must come out in the step that printed it
+  const char* executable = std::getenv("ASSAY_PYTHON");
+  if (!executable || !*executable) executable = ASSAY_PYTHON_EXECUTABLE;
+  demand(PyConfig_SetBytesString(&config, &config.program_name, executable), config);
+  demand(Py_InitializeFromConfig(&config), config);
+  PyConfig_Clear(&config);
+}
+
+// Starts the interpreter once and does not hold its lock afterwards; it is never ended.
+// ASSAY_PYTHON names its executable, which tells where its modules are; without it, it is the
+// interpreter that the plug-in was built for. `package` is the folder in which the package assay
+// lies. Throws std::runtime_error.
+void start_interpreter(const char* package) {
+  if (Py_IsInitialized()) return;
+  show_interpreter_to_modules();
+  initialize();
+  {
+    auto path = py::module_::import("sys").attr("path").cast<py::list>();
+    path.insert(0, "");  // the current folder, as with `python -m`
+    path.append(package);
+  }
+  PyEval_SaveThread();
+}
 
 // The folder above that of this library. The package `assay` is in it.
 std::string folder_of_package() {

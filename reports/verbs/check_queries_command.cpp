@@ -10,8 +10,8 @@
 #include "reports/queries/query_detector.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
-#include "reports/terminal/words.h"
 #include "reports/terminal/text_file.h"
+#include "reports/terminal/words.h"
 #include "reports/verbs/verbs.h"
 
 namespace assay::reports {

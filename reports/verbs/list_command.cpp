@@ -8,7 +8,6 @@
 #include "properties/laws/law.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/check/detector_choice.h"
-#include "reports/check/plugin_text.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/verbs/verbs.h"
