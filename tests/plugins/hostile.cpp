@@ -177,10 +177,12 @@ const std::map<std::string, Forgery>& forgeries() {
   Hello hello;
   hello.wire_version = wire_version();
   hello.description = {"forger", mode, {}, {}};
-  auto& c = hello.description.claims;
-  c = {true, true, true, true, true, true, true, true};
+  const bool has_candidates = mode.starts_with("forge-candidate-");
+  auto& claims = hello.description.claims;
+  claims = claims_from_outside;
+  claims.set(Claim::candidates, has_candidates);
   hello.description.parts.query = mode.starts_with("forge-query");
-  hello.description.parts.candidates = c.candidates = mode.starts_with("forge-candidate-");
+  hello.description.parts.candidates = has_candidates;
   channel.send(encode(hello));
   std::string message;
   while (channel.receive(message) == Transfer::done) {
