@@ -7,7 +7,7 @@
 #include "corpus/atomic_file.h"
 #include "properties/reducer/mesh_size.h"
 #include "reports/campaign/failure_text.h"
-#include "reports/pictures/scene_maker.h"
+#include "reports/pictures/case_scene.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {

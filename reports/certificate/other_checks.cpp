@@ -2,7 +2,7 @@
 
 #include "properties/campaign/plan.h"
 #include "properties/queries/self_check.h"
-#include "reports/bench/contact_step.h"
+#include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/timed_step.h"
 

@@ -5,8 +5,8 @@
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/page/data/scene_json.h"
+#include "reports/pictures/case_scene.h"
 #include "reports/pictures/mesh_svg.h"
-#include "reports/pictures/scene_maker.h"
 
 namespace assay::reports {
 namespace {

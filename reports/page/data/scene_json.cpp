@@ -4,8 +4,8 @@
 #include <set>
 
 #include "detector/step_result.h"
+#include "reports/pictures/case_scene.h"
 #include "reports/pictures/contact_point.h"
-#include "reports/pictures/view_set.h"
 #include "reports/steps/step_json.h"
 
 namespace assay::reports {
