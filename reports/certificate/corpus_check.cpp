@@ -7,7 +7,7 @@
 #include "corpus/digest.h"
 #include "corpus/queries/query_csv.h"
 #include "corpus/scenes/scenes.h"
-#include "properties/campaign/stored/step_measures.h"
+#include "properties/campaign/ledger/step_measures.h"
 #include "properties/judging/case_check.h"
 #include "properties/queries/rung_cases.h"
 #include "properties/worker/plugin/query_case.h"

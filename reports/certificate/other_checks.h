@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "properties/campaign/stored/evidence.h"
+#include "properties/campaign/ledger/evidence.h"
 
 namespace assay::reports {
 

@@ -9,7 +9,7 @@
 #include "corpus/digest.h"
 #include "corpus/file_bytes.h"
 #include "corpus/json_text.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "reports/certificate/junit.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"

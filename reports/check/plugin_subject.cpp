@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "detector/step_result.h"
-#include "properties/campaign/stored/contract_json.h"
+#include "properties/campaign/ledger/binding.h"
 #include "properties/printable.h"
 #include "reports/check/plugin_text.h"
 #include "reports/check/subject.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/gates/measure_rates.h"
+#include "properties/campaign/ledger/step_measures.h"
 #include "properties/printable.h"
 #include "properties/words.h"
 #include "reports/certificate/sections.h"

@@ -48,7 +48,7 @@ std::vector<JudgedQuery> QueryJudge::judge(std::span<const detector::FourPoints>
     const auto truth = properties::judge_case(cases[i], detector_.contract);
     auto verdict = properties::judge_trial(cases[i], truth, runs[i], configuration, detector_,
                                            again.empty() ? nullptr : &again[i]);
-    properties::count_measures(verdict.steps, runs[i].steps, truth, counts_);
+    measures_ += properties::measures_of(verdict.steps, runs[i].steps);
     one.contact = !truth[0].pairs.empty();
     one.first = truth[0].first;
     one.outcome = verdict.outcome;

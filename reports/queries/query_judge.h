@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "detector/contact/four_points.h"
-#include "properties/campaign/stored/step_measures.h"
+#include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/trials/trial.h"
 #include "properties/worker/worker_process.h"
 
@@ -38,13 +38,13 @@ class QueryJudge {
   std::vector<JudgedQuery> judge(std::span<const detector::FourPoints> queries);
 
   // The measures of all queries that were judged.
-  properties::StepMeasures measures() const { return properties::measures_in(counts_); }
+  const properties::StepMeasures& measures() const { return measures_; }
   std::uint64_t crashes() const { return crashes_; }
 
  private:
   const properties::DetectorUnderTest& detector_;
   properties::WorkerProcess &worker_, &second_;
-  properties::Counts counts_;
+  properties::StepMeasures measures_;
   std::uint64_t crashes_ = 0;
 };
 

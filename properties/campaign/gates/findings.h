@@ -1,4 +1,4 @@
-// All that the stores of a folder say of one campaign. read_findings.h reads it and gates.h judges
+// All that the stores of a folder say of one campaign. read_findings reads it and gates.h judges
 // it; every text, file and page only presents findings and gates.
 #pragma once
 
@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/evidence.h"
-#include "properties/campaign/stored/step_measures.h"
-#include "properties/campaign/stored/store.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/evidence.h"
+#include "properties/campaign/ledger/row.h"
+#include "properties/campaign/ledger/store.h"
+#include "properties/campaign/ledger/tally.h"
 
 namespace assay::properties {
 
@@ -66,5 +67,38 @@ struct RunFindings {
   // The others were found by their curated case alone.
   std::uint64_t planted() const, found() const, found_at_random() const;
 };
+
+// Reads the stores of a folder into findings. This is done here and nowhere else.
+
+// The rows that a process knows of the stores of a folder, because it wrote them or found them
+// when it began. The keys are the names of the files, without their folder.
+using KnownRows = std::map<std::string, const RowTally*>;
+
+// Reads one store alone. The problems are those of Store::read, and not_as_stored if `known` is
+// given and the store does not hold exactly these rows.
+Expected<RunFindings> read_one_store(const std::filesystem::path& file,
+                                     const RowTally* known = nullptr);
+
+// Reads merged.sqlite if there is one, else every shard-*.sqlite, and checks.sqlite. O(trials).
+//
+// Problems besides those of Store::read: no_run if there is nothing; another_run and contradiction
+// if two files do not belong together; wrong_shards; stale_merge; damaged_store, also for a trial
+// that its shard does not plan; not_as_stored if `known` is not empty and the folder does not hold
+// exactly these stores, each with exactly its rows.
+Expected<RunFindings> read_findings(const std::filesystem::path& folder,
+                                    const KnownRows& known = {});
+
+// The bounds that the trials of a campaign support, all of them together.
+
+// The number of bounds: strata times the claims of all configurations. A trial that breaks any
+// claim of a configuration counts against that configuration's bound, so one bound holds for all
+// of its claims. Each claim is counted all the same, which only widens the bounds.
+std::uint64_t number_of_bounds(const BoundRun& run);
+
+// The risk of each bound, so that all of them hold together with family_confidence.
+double risk_of_each(const BoundRun& run);
+
+// The bound on the share of cases on which one configuration does not hold.
+double bound_of(const StratumTally::Outcomes& outcomes, const BoundRun& run);
 
 }  // namespace assay::properties

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/stored/contract_json.h"
+#include "properties/campaign/ledger/binding.h"
 #include "reports/bench/speed_error/error_output.h"
 #include "reports/terminal/words.h"
 

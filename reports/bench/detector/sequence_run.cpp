@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "properties/campaign/stored/step_measures.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
+#include "properties/judging/step_errors.h"
 #include "reports/bench/detector/timed_runs.h"
 #include "reports/bench/interleave.h"
 
 namespace assay::reports {
 namespace {
 
-using detector::Answer;
 using properties::Outcome;
 using properties::RunEnd;
 
@@ -21,33 +20,23 @@ std::optional<ComparedTime> compared(const std::vector<double>& plugin,
   return ComparedTime{median_of(plugin), median_of(built_in), ratio_of(plugin, built_in)};
 }
 
-FirstTimesOff off(const properties::ByHowMuch& values, std::uint64_t steps) {
-  return {steps, properties::worst_of(values)};
-}
+FirstTimesOff off(const properties::TimesOff& times) { return {times.steps, times.quantile(1)}; }
 
-PluginErrors errors_of(const properties::JudgedRun& judged, const properties::CaseRun& run,
-                       const std::vector<oracle::StepJudgement>& truth, bool claims_pairs) {
+PluginErrors errors_of(const properties::JudgedRun& judged, std::size_t steps) {
   PluginErrors errors;
   for (const auto claim : judged.broken) errors.broken.emplace_back(name_of(claim));
-  properties::Counts counts;
-  count_measures(judged.steps, run.steps, truth, counts);
-  const auto measures = properties::measures_in(counts);
-  errors.judged = truth.size();
-  errors.undecided = truth.size();
-  errors.missed = measures.answered_free;
-  errors.false_alarms = measures.false_alarms;
-  errors.spurious = measures.spurious_pairs;
-  errors.late = off(measures.late, measures.late_steps());
-  errors.early = off(measures.early, measures.early_steps());
-  for (std::size_t s = 0; s < judged.steps.size(); ++s) {
-    const auto& diff = judged.steps[s];
-    const Answer answer = run.steps[s].answer;
-    if (answer == Answer::free || answer == Answer::collision) --errors.undecided;
-    errors.contact += diff.first_contact ? 1 : 0;
-    errors.missing += diff.missing.size();
-    const bool misses_pair = claims_pairs && !diff.missing.empty();
-    errors.unsafe += diff.answered_free || diff.late_first || misses_pair ? 1 : 0;
-  }
+  properties::StepErrors sum;
+  for (const auto& diff : judged.steps) sum += properties::errors_of(diff);
+  errors.judged = steps;
+  errors.undecided = steps - sum.answered();
+  errors.contact = sum.contact;
+  errors.missed = sum.missed;
+  errors.unsafe = sum.unsafe;
+  errors.false_alarms = sum.false_alarms;
+  errors.missing = sum.missing;
+  errors.spurious = sum.spurious;
+  errors.late = off(sum.late);
+  errors.early = off(sum.early);
   return errors;
 }
 
@@ -107,7 +96,7 @@ ComparedSequence ComparedWorkers::compare(const SequenceToCompare& sequence,
   tick();
   const auto truth = properties::judge_case(*seen, contract, plugin_.jobs);
   const auto judged = judge_run(*seen, *plugin_runs.first, truth, claims, contract);
-  out.errors = errors_of(judged, *plugin_runs.first, truth, claims.all_pairs || claims.first_pairs);
+  out.errors = errors_of(judged, truth.size());
   if (claims.deterministic && plugin_runs.has_differing_runs)
     out.errors.broken.emplace_back(name_of(properties::Claim::deterministic));
   for (const auto& claim : out.errors.broken)

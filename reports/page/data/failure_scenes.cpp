@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/page/data/scene_json.h"
 #include "reports/pictures/mesh_svg.h"

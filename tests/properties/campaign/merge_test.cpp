@@ -1,5 +1,5 @@
 // Merging stores: associative, repeatable, and refused where two stores contradict each other.
-#include "properties/campaign/stored/merge.h"
+#include "properties/campaign/ledger/merge.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/store.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/store.h"
 #include "tests/reports/program.h"
 
 namespace assay::properties {
@@ -42,7 +42,7 @@ TrialRecord record(std::uint64_t i) {
           4,
           50,
           60,
-          {{"tag:x", i}},
+          {{{"x", i}}, {}, {}, {}},
           ~i};
 }
 
@@ -164,7 +164,7 @@ TEST_F(Merged, JoinWhatMayRightlyDiffer) {
   });
   EXPECT_EQ(store->failures()[0].smallest, "small");
   ASSERT_EQ(store->evidence().size(), 1u);
-  EXPECT_EQ(store->evidence()[0].facts, R"({"more": 1})");
+  EXPECT_EQ(store->evidence()[0].fields, R"({"more": 1})");
 }
 
 TEST_F(Merged, OtherRunsAreRefused) {
@@ -204,7 +204,7 @@ TEST_F(Merged, ContradictionsAreRefused) {
   };
   trial("outcome", [](TrialRecord& r) { r.outcomes = "HH"; });
   trial("steps", [](TrialRecord& r) { r.steps = 3; });
-  trial("counts", [](TrialRecord& r) { r.counts["tag:y"] = 1; });
+  trial("counts", [](TrialRecord& r) { r.counts.tags["y"] = 1; });
   trial("mesh", [](TrialRecord& r) { r.mesh = 1; });
   {
     auto changed = failure(3);
@@ -214,11 +214,9 @@ TEST_F(Merged, ContradictionsAreRefused) {
   expect_refused(scratch / "failure", ProblemKind::contradiction,
                  "failure test:1:broken:3, bvh differs");
   { other("met").add(record(3), {}, {{"bvh", "u"}}); }
-  expect_refused(scratch / "met", ProblemKind::contradiction,
-                 "failure test:1:broken:3, bvh differs");
+  expect_refused(scratch / "met", ProblemKind::contradiction, "met test:1:broken:3, bvh differs");
   { other("evidence").set({"canary", "c", "1/3", 1, R"({"found": 3})"}); }
-  expect_refused(scratch / "evidence", ProblemKind::contradiction,
-                 "evidence canary, c, 1/3 differs");
+  expect_refused(scratch / "evidence", ProblemKind::contradiction, "canary c, 1/3 differs");
 }
 
 // A merge that is killed leaves its parts; the next one leaves none, whoever made them.
