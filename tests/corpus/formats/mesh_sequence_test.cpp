@@ -95,19 +95,20 @@ TEST_F(MeshSequence, WhatIsSeenWithoutReading) {
   EXPECT_TRUE(says(look("a.xyz", obj_tetrahedron).error(), "neither PLY nor OFF"));
   EXPECT_TRUE(says(look("empty.ply", "").error(), "the file is empty"));
   EXPECT_TRUE(says(look("plain.obj.gz", obj_tetrahedron).error(), "has no gzip signature"));
-  EXPECT_EQ(kind("a.xyz.gz", gzip(obj_tetrahedron)), unknown_format);
-  EXPECT_EQ(kind("a.xyz.gz", gzip(off_tetrahedron)), std::nullopt);
-  EXPECT_EQ(kind("empty.off.gz", gzip("")), empty_file);
-  EXPECT_EQ(kind("cut.off.gz", gzip(off_tetrahedron).substr(0, 40)), corrupt_gzip);
+  EXPECT_TRUE(says(look("a.xyz.gz", gzip(obj_tetrahedron)).error(), "neither PLY nor OFF"));
+  EXPECT_TRUE(look("a.xyz.gz", gzip(off_tetrahedron)));
+  EXPECT_TRUE(says(look("empty.off.gz", gzip("")).error(), "the file is empty"));
+  EXPECT_TRUE(says(look("cut.off.gz", gzip(off_tetrahedron).substr(0, 40)).error(),
+                   "the gzip stream is cut off"));
   // The format may be told only by several members together.
-  EXPECT_EQ(kind("a.gz", gzip("pl") + gzip(ply_tetrahedron.substr(2))), std::nullopt);
+  EXPECT_TRUE(look("a.gz", gzip("pl") + gzip(ply_tetrahedron.substr(2))));
   // What is behind the start is not seen.
   std::string large(off_tetrahedron);
   for (int i = 0; i < 100000; ++i) large += std::to_string(i * 7919 % 100003) + "\n";
-  EXPECT_EQ(kind("large.off", large), std::nullopt);
-  EXPECT_EQ(kind("large.off.gz", gzip(large).substr(0, 100000)), std::nullopt);
-  EXPECT_EQ(look_at_mesh(folder() / "absent.obj").error().kind, cannot_open);
-  EXPECT_EQ(look_at_mesh(folder()).error().kind, is_directory);
+  EXPECT_TRUE(look("large.off", large));
+  EXPECT_TRUE(look("large.off.gz", gzip(large).substr(0, 100000)));
+  EXPECT_TRUE(says(look_at_mesh(folder() / "absent.obj").error(), "cannot be read: No such file"));
+  EXPECT_TRUE(says(look_at_mesh(folder()).error(), "cannot be read: Is a directory"));
 }
 
 TEST_F(MeshSequence, LookingAheadNamesTheFirstFileThatCannotBeRead) {
