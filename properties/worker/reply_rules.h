@@ -49,8 +49,8 @@ std::uint64_t longest_query_reply(std::size_t queries);
 // candidates if and only if it has them.
 std::string broken_rule(const PluginDescription& description);
 
-// The same for the reason why a plug-in cannot be loaded: a problem of PluginHost::open, in one
+// The same for the reason why a plug-in cannot be loaded: a message of PluginHost::open, in one
 // printable line.
-std::string broken_rule(const Problem& refusal);
+std::string broken_rule(const std::string& refusal);
 
 }  // namespace assay::properties

@@ -46,8 +46,6 @@ template <>
 inline constexpr StartRule last_of<StartRule> = StartRule::apart;
 template <>
 inline constexpr TestedFeatures last_of<TestedFeatures> = TestedFeatures::edge_edge;
-template <>
-inline constexpr ProblemKind last_of<ProblemKind> = last_problem_kind;
 
 template <class Wire>
 void fields(Wire& wire, detector::Options& options) {
@@ -134,23 +132,17 @@ void fields(Wire& wire, PluginDescription& description) {
   wire(name, version, claims, contract, steps, query, candidates, takes_threads);
 }
 
-template <class Wire>
-void fields(Wire& wire, Problem& problem) {
-  auto& [kind, message] = problem;
-  wire(kind, message);
-}
-
 // The worker's first message: who it is, or why it cannot serve.
 struct Hello {
   std::uint64_t wire_version = 0;
   PluginDescription description;
   bool serves = true;
-  Problem problem;  // why it does not
+  std::string refusal;  // why it does not
 };
 
 template <class Wire>
 void fields(Wire& wire, Hello& hello) {
-  wire(hello.wire_version, hello.description, hello.serves, hello.problem);
+  wire(hello.wire_version, hello.description, hello.serves, hello.refusal);
 }
 
 // What a request asks for.

@@ -62,7 +62,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
   std::filesystem::create_directories(folder, error);
   if (error) {
     report.written =
-        Refusal(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+        Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
     return report;
   }
   SceneMaker scenes(detector);
@@ -73,7 +73,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
           std::pair(out / failure_file(failure, true), failure.smallest)}) {
       if (text.empty()) continue;
       if (const auto written = corpus::write_file_atomically(path, text); !written) {
-        report.written = Refusal(written.error());
+        report.written = written.error();
         return report;
       }
     }

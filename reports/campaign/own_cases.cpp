@@ -33,13 +33,13 @@ std::string digest_of_files(const std::vector<std::filesystem::path>& files) {
 
 Expected<properties::OwnCases> read_own_cases(const std::filesystem::path& folder) {
   auto files = corpus::case_files(folder);
-  if (!files) return Refusal(files.error());
+  if (!files) return files.error();
   std::erase_if(files.value(),
                 [](const auto& file) { return file.filename() == waivers_of_owner; });
   if (files.value().empty())
-    return Refusal(fmt::format("{}: there is no case file in it", folder.string()));
+    return Problem{fmt::format("{}: there is no case file in it", folder.string())};
   auto cases = read_cases(files.value());
-  if (!cases) return Refusal(cases.error());
+  if (!cases) return cases.error();
   return properties::OwnCases{std::move(cases.value()), digest_of_files(files.value())};
 }
 

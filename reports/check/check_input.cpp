@@ -11,7 +11,7 @@ namespace {
 corpus::Expected<std::unique_ptr<CheckedSteps>> steps_of_case_file(const std::string& file) {
   BOOST_OUTCOME_TRY(c, corpus::read_case(file));
   if (const auto options = properties::read_options(c); !options) {
-    return corpus::problem_in(corpus::FileProblem::wrong_type, file, options.error().message);
+    return corpus::problem_in(file, options.error().message);
   }
   if (c.frames.size() < 2) return one_frame_only();
   return steps_of_case(std::make_shared<const corpus::Case>(std::move(c)), true);

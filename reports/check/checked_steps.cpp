@@ -101,8 +101,7 @@ corpus::Expected<std::unique_ptr<CheckedSteps>> steps_of_files(
 }
 
 corpus::Problem one_frame_only() {
-  return corpus::problem_in(corpus::FileProblem::no_frames, {},
-                            "one frame only: a step needs two frames or more");
+  return corpus::problem_in({}, "one frame only: a step needs two frames or more");
 }
 
 }  // namespace assay::reports

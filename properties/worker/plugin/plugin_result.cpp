@@ -83,15 +83,14 @@ std::string read_result(const assay_result& raw, std::int32_t triangle_count,
 Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
                                            bool reports_pairs) {
   if (raw.answer == ASSAY_ERROR) {
-    return Problem{ProblemKind::step_failed,
-                   raw.message && *raw.message ? raw.message : "an error without a message"};
+    return Problem{raw.message && *raw.message ? raw.message : "an error without a message"};
   }
   if (!reports_pairs && raw.pair_count > 0) {
-    return Problem{ProblemKind::broken_result, "gives pairs, and says that it reports none"};
+    return Problem{"gives pairs, and says that it reports none"};
   }
   detector::StepResult result;
   std::string broken = read_result(raw, triangle_count, result);
-  if (!broken.empty()) return Problem{ProblemKind::broken_result, std::move(broken)};
+  if (!broken.empty()) return Problem{std::move(broken)};
   return result;
 }
 
@@ -109,9 +108,7 @@ QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw) {
 
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
                                                               std::int32_t triangle_count) {
-  const auto broken = [](std::string explanation) {
-    return Problem{ProblemKind::broken_result, std::move(explanation)};
-  };
+  const auto broken = [](std::string explanation) { return Problem{std::move(explanation)}; };
   if (raw.pair_count > 0 && !raw.pairs) return broken("candidates are counted but not given");
   std::vector<detector::TrianglePair> pairs;
   for (std::uint64_t i = 0; i < raw.pair_count; ++i) {

@@ -16,9 +16,7 @@ constexpr std::uint32_t first_version = 1;
 constexpr std::size_t first_table_bytes = offsetof(assay_detector_api, use_threads);
 constexpr std::size_t first_description_bytes = offsetof(assay_description, start);
 
-Problem broken(std::string explanation) {
-  return {ProblemKind::broken_plugin, std::move(explanation)};
-}
+Problem broken(std::string explanation) { return {std::move(explanation)}; }
 
 std::string gap_in(const assay_detector_api& table) {
   if (!table.describe) return "a function is missing in its table: describe";
@@ -89,15 +87,12 @@ std::string text_of_code(const assay_detector_api& table, const char* function, 
 }
 
 Expected<assay_detector_api> read_table(const assay_detector_api* api) {
-  if (!api)
-    return Problem{ProblemKind::not_a_plugin,
-                   "not a detector plug-in: assay_detector() returns nothing"};
+  if (!api) return Problem{"not a detector plug-in: assay_detector() returns nothing"};
   const std::uint32_t version = api->abi_version;
   if (version < first_version || version > ASSAY_DETECTOR_ABI_VERSION) {
-    return Problem{ProblemKind::other_abi_version,
-                   "built for ABI version " + std::to_string(version) + ", this program takes " +
-                       std::to_string(first_version) + " to " +
-                       std::to_string(ASSAY_DETECTOR_ABI_VERSION)};
+    return Problem{"built for ABI version " + std::to_string(version) + ", this program takes " +
+                   std::to_string(first_version) + " to " +
+                   std::to_string(ASSAY_DETECTOR_ABI_VERSION)};
   }
   assay_detector_api table = {};
   std::memcpy(&table, api, version == first_version ? first_table_bytes : sizeof table);

@@ -17,11 +17,11 @@ std::string text_of_error(const assay_detector_api& table);
 std::string text_of_code(const assay_detector_api& table, const char* function, std::int32_t code);
 
 // The table as one of this host's version; functions that an older version does not have are NULL.
-// The problems are not_a_plugin, other_abi_version, and broken_plugin if there is a gap. They do
-// not name the library.
+// Refuses NULL, another version of the interface, and a table with a gap; the problem does not name
+// the library.
 Expected<assay_detector_api> read_table(const assay_detector_api* api);
 
-// The plug-in's description; broken_plugin if it makes no sense. The problem does not name the
+// The plug-in's description. Refuses one that makes no sense; the problem does not name the
 // library.
 Expected<PluginDescription> read_description(const assay_detector_api& table);
 
