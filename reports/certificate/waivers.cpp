@@ -6,7 +6,6 @@
 
 #include "corpus/file_bytes.h"
 #include "corpus/json_fields.h"
-#include "corpus/json_text.h"
 
 namespace assay::reports {
 namespace {
