@@ -337,13 +337,13 @@ CrossingSigns filtered_signs(const std::array<Point, 3>& corners, const RayOrigi
   }
   const VectorOf<Number> direction = {static_cast<Number>(r[0]), static_cast<Number>(r[1]),
                                       static_cast<Number>(r[2])};
-  const VectorOf<Number> reach = {std::abs(direction[0]), std::abs(direction[1]),
+  const VectorOf<Number> extent = {std::abs(direction[0]), std::abs(direction[1]),
                                   std::abs(direction[2])};
   const auto dets = determinants<Number>(a, direction);
   // V is summed by terms, because each coordinate of the (exact) direction has its own size.
   constexpr Number error = 128 * Bounds::unit;
   const Number along =
-      error * (w[0] * w[1] * reach[2] + w[1] * w[2] * reach[0] + w[2] * w[0] * reach[1]);
+      error * (w[0] * w[1] * extent[2] + w[1] * w[2] * extent[0] + w[2] * w[0] * extent[1]);
   const Number volume = error * (w[0] * w[1] * w[2]);
   return {sign_beyond(dets[0], along), sign_beyond(dets[1], along), sign_beyond(dets[2], along),
           sign_beyond(dets[3], volume)};

@@ -8,7 +8,7 @@ namespace {
 
 // -1: all of S lies strictly before all of S' along the axis; 1: strictly after; 0: neither.
 int strict_order(const FourPoints& q, detector::Point detector::MovingPoint::*end, int axis) {
-  auto at = [&](int i) { return (q.x[i].*end)[axis]; };
+  auto at = [&](int i) { return (q.points[i].*end)[axis]; };
   double s_min = at(0), s_max = at(0);
   for (int i = 1; i < q.first_group; ++i) {
     s_min = std::min(s_min, at(i));

@@ -3,8 +3,8 @@
 namespace assay::oracle {
 
 ContactPolynomials::ContactPolynomials(const FourPoints& q) : first_group_(q.first_group) {
-  const IntegerScale scale(q.x);
-  for (int j = 0; j < 3; ++j) u_[j] = moving_difference(scale, q.x[0], q.x[j + 1]);
+  const IntegerScale scale(q.points);
+  for (int j = 0; j < 3; ++j) u_[j] = moving_difference(scale, q.points[0], q.points[j + 1]);
 }
 
 const PolynomialVector& ContactPolynomials::normal(int i) {

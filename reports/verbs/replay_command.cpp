@@ -226,10 +226,12 @@ int run_replay(const ReplayRequest& request) {
   for (const auto& run : runs) {
     if (run.end == properties::RunEnd::not_run) return refuse(run.explanation);
   }
-  // A plug-in that claims to be deterministic is asked again, in another process, as in a campaign.
+  // A plug-in that claims to be deterministic is asked again, as in a campaign: in another process,
+  // in which each step is evaluated twice.
   const bool asks_twice =
       !subject.detector.built_in && subject.detector.claims.has(properties::Claim::deterministic);
   limits.variation = 1;
+  limits.asks_twice = true;
   limits.least = worker.isolation();
   properties::WorkerProcess second(subject.worker, subject.plugin, limits);
   const auto again = asks_twice ? second.run(*seen, subject.detector.configurations)

@@ -40,16 +40,29 @@ void renumber(corpus::Case& c, Random& random) {
   c.triangles = std::move(moved);
 }
 
-// Half of the scenes have the wanted size. The others lie between it and the largest of the
-// trials, each doubling equally often.
+// Between the largest of the trials and the wanted size, each doubling equally often.
 std::uint64_t drawn_size(Random& random, std::uint64_t most) {
-  if (random.one_in(2)) return most;
   constexpr std::uint64_t largest_of_trials = 200;
   std::uint64_t least = std::min(most, largest_of_trials);
   int doublings = 0;
   while (least << (doublings + 1) < most) ++doublings;
   least <<= random.below(doublings + 1);
   return least + random.next() % (std::min(2 * least, most) - least + 1);
+}
+
+// Puts copies of the mesh side by side, so far apart that none meets another.
+void put_side_by_side(corpus::Case& c, int copies) {
+  double reach = 0;
+  for (const auto& frame : c.frames) reach = std::max(reach, frame.cwiseAbs().maxCoeff());
+  const auto vertices = c.frames[0].rows(), triangles = c.triangles.rows();
+  for (auto& frame : c.frames) {
+    frame = frame.replicate(copies, 1).eval();
+    for (int k = 1; k < copies; ++k)
+      frame.middleRows(k * vertices, vertices).col(0).array() += 4 * reach * k;
+  }
+  c.triangles = c.triangles.replicate(copies, 1).eval();
+  for (int k = 1; k < copies; ++k)
+    c.triangles.middleRows(k * triangles, triangles).array() += static_cast<int>(k * vertices);
 }
 
 // A map of space that keeps what is outside outside. It bends nothing, so what meets still does,
@@ -61,20 +74,33 @@ Eigen::Matrix3d drawn_map(Random& random) {
   return map;
 }
 
+std::string name_of_form(const corpus::SceneInfo& scene, int form) {
+  return form == 0 ? std::string(scene.name) : fmt::format("{}-{}", scene.name, form + 1);
+}
+
 }  // namespace
 
 corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
-                            std::uint64_t seed) {
-  constexpr int least_frames = 6, most_frames = 18;
-  Random random(fmt::format("{}{}:{}", repeated_in_id, seed, scene.name));
+                            std::uint64_t seed, int form) {
+  constexpr int least_frames = 6, most_frames = 18, most_copies = 6;
+  const std::string name = name_of_form(scene, form);
+  Random random(fmt::format("{}{}:{}", repeated_in_id, seed, name));
   corpus::SceneOptions options;
-  options.size = static_cast<int>(drawn_size(random, triangles));
+  int copies = 1;
+  options.size = static_cast<int>(triangles);
+  if (form > 0) {
+    copies = random.one_in(2) ? random.between(2, most_copies) : 1;
+    options.size = static_cast<int>(drawn_size(random, triangles)) / copies;
+  }
   options.frames = std::max(random.between(least_frames, most_frames), scene.least_frames);
   auto made = corpus::make_scene(scene.name, options).value();
   corpus::Case c;
-  c.id = scene.name;
+  c.id = name;
   c.triangles = std::move(made.triangles);
   c.frames = std::move(made.frames);
+  // A scene has a least size of its own.
+  const auto fitting = static_cast<int>(triangles) / static_cast<int>(c.triangles.rows());
+  put_side_by_side(c, std::max(1, std::min(copies, fitting)));
   renumber(c, random);
   const auto map = drawn_map(random);
   for (auto& frame : c.frames) frame = (frame * map).eval();
@@ -345,10 +371,12 @@ void repeat_large_meshes(const CampaignRequest& request, Store& store, RunDeadli
     if (progress) progress(input);
     repetitions.put(make(), is_judged);
   };
-  for (const auto& scene : corpus::scenes())
-    put(std::string(scene.name), true, [&] {
-      return repeated_scene(scene, request.plan.policy.repeated_triangles, request.seed);
-    });
+  for (int form = 0; form < forms_of_a_scene; ++form) {
+    for (const auto& scene : corpus::scenes())
+      put(name_of_form(scene, form), true, [&] {
+        return repeated_scene(scene, request.plan.policy.repeated_triangles, request.seed, form);
+      });
+  }
   for (const auto& c : request.repeated) put(c.id, false, [&] { return c; });
 }
 

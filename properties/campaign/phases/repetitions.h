@@ -21,13 +21,15 @@ inline constexpr std::uint64_t repeated_threads[] = {1, 2, 4, 4};
 // phase.
 bool is_repeated(const CampaignPlan& plan, bool built_in);
 
-// A scene as it is put to a plug-in. The seed draws its size, which is the wanted number of
-// triangles or, for about half of the scenes, between it and the largest of the trials. The seed
-// also draws the number of frames, the order of vertices, triangles and corners, and one linear map
-// near the identity, through which all frames go. So these meshes are known to nobody before the seed is. The map keeps contacts and
-// their times, but for what rounding decides.
+// A scene as it is put to a plug-in, in one of its forms. Form 0 has the wanted number of
+// triangles. The size of the others lies between that and the largest of the trials, and about half
+// of them are several smaller copies side by side, which makes many components. The seed draws
+// these sizes, the number of frames, the order of vertices, triangles and corners, and one linear
+// map near the identity, through which all frames go. So these meshes are known to nobody before
+// the seed is. The map keeps contacts and their times, but for what rounding decides.
+inline constexpr int forms_of_a_scene = 3;
 corpus::Case repeated_scene(const corpus::SceneInfo& scene, std::uint64_t triangles,
-                            std::uint64_t seed);
+                            std::uint64_t seed, int form);
 
 // Puts every scene of the corpus, as the seed draws it, and the request's other sequences to the
 // plug-in: with each of repeated_threads if it asks how many it may use, else three times; once if

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -18,8 +19,7 @@ namespace fs = std::filesystem;
 class PythonWords : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "python_words";
-    fs::remove_all(folder_);
+    folder_ = fs::path(testing::TempDir()) / ("python_words_" + std::to_string(::getpid()));
     write("bin/assay-worker", "");
     ::setenv("PYTHONPATH", (folder_ / "more").c_str(), 1);
   }

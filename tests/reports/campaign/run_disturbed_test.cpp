@@ -120,17 +120,19 @@ TEST(RunDisturbed, WorkersKilledAtRandomMomentsChangeNeitherVerdictNorTallies) {
   EXPECT_FALSE(contains(expected_text, " ran again")) << "somebody else disturbs this machine";
 
   // Moments of the run, by its progress and so whatever else the machine does: a number of stored
-  // trials, and some milliseconds more.
-  constexpr double last_share = 0.9;
+  // trials, and some milliseconds more. Between two of them the run goes on: what is killed at every
+  // attempt has crashed, rightly.
+  constexpr double last_share = 0.9, widest = 0.7;
   std::vector<double> moments;
   const auto expected_trials = trials_of(undisturbed);
-  for (int i = 0; i < kills; ++i)
-    moments.push_back(last_share * random.unit() * static_cast<double>(expected_trials.size()));
-  std::sort(moments.begin(), moments.end());
+  const double apart = last_share * static_cast<double>(expected_trials.size()) / kills;
+  for (int i = 0; i < kills; ++i) moments.push_back(apart * (i + widest * random.unit()));
   Started started(words(out), scratch / "text");
   std::uint64_t killed = 0, terminated = 0;
+  double least = 0;  // of stored trials
   for (const double moment : moments) {
-    while (!started.has_ended() && static_cast<double>(stored_trials(out)) < moment)
+    while (!started.has_ended() &&
+           static_cast<double>(stored_trials(out)) < std::max(least, moment))
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     std::this_thread::sleep_for(std::chrono::milliseconds(random.below(20)));
     constexpr int terminated_of = 3;  // one of so many by SIGTERM, as a batch system does
@@ -141,6 +143,7 @@ TEST(RunDisturbed, WorkersKilledAtRandomMomentsChangeNeitherVerdictNorTallies) {
       sent = signal_a_worker(started.id(), signal, random);
       if (!sent) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+    least = static_cast<double>(stored_trials(out)) + (1 - widest) * apart;
     killed += sent ? 1 : 0;
     terminated += sent && signal == SIGTERM ? 1 : 0;
   }
