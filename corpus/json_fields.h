@@ -20,9 +20,9 @@ class JsonField {
 
   bool has(std::string_view key) const;
 
-  // The field `key`. Problems: missing_field; wrong_type when this is no object.
+  // The field `key`. Fails when it is missing, and when this is no object.
   Expected<JsonField> at(std::string_view key) const;
-  // The number of items. wrong_type when this is no array.
+  // The number of items. Fails when this is no array.
   Expected<std::size_t> size() const;
   // REQUIRES: an array with more than `i` items.
   JsonField item(std::size_t i) const;
@@ -32,7 +32,7 @@ class JsonField {
   Expected<std::int32_t> integer(std::int64_t least, std::int64_t end) const;  // in [least, end)
 
   // A problem whose message names this field.
-  Problem problem(std::string_view detail, FileProblem kind = FileProblem::wrong_type) const;
+  Problem problem(std::string_view detail) const;
 
   const Json& json() const { return *value_; }
 

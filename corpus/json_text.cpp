@@ -16,16 +16,14 @@ Expected<Value> parse_as(std::string_view text, const std::filesystem::path& fil
     return !too_deep;
   };
   Value json = Value::parse(text, keep);
-  if (too_deep) return problem_in(FileProblem::malformed, file, "JSON nested too deeply");
+  if (too_deep) return problem_in(file, "JSON nested too deeply");
   return json;
 } catch (const typename Value::parse_error& error) {
-  const FileProblem kind =
-      error.byte > text.size() ? FileProblem::truncated : FileProblem::malformed;
-  return problem_in(kind, file, fmt::format("byte {}: not JSON", error.byte));
+  return problem_in(file, fmt::format("byte {}: not JSON", error.byte));
 } catch (const typename Value::out_of_range&) {
-  return problem_in(FileProblem::non_finite_coordinate, file, "a number beyond the doubles");
+  return problem_in(file, "a number beyond the doubles");
 } catch (const typename Value::exception&) {
-  return problem_in(FileProblem::malformed, file, "not JSON");
+  return problem_in(file, "not JSON");
 }
 
 }  // namespace

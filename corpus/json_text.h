@@ -13,10 +13,9 @@ namespace assay::corpus {
 // Keeps the order of an object's keys.
 using Json = nlohmann::ordered_json;
 
-// Problems: truncated when the text ends too early, malformed at another error (both name the
-// byte), non_finite_coordinate for a number beyond the doubles. A value nested more than 64 levels
-// deep is malformed too, because what prints or copies it descends level by level, and a stack
-// ends somewhere. `file` stands for the text in messages.
+// Refuses what is not JSON (the message names the byte) and a number beyond the doubles. A value
+// nested more than 64 levels deep is refused too, because what prints or copies it descends level
+// by level, and a stack ends somewhere. `file` stands for the text in messages.
 Expected<Json> parse_json(std::string_view text, const std::filesystem::path& file);
 // The same, for values that sort their keys by name.
 Expected<nlohmann::json> parse_sorted_json(std::string_view text,

@@ -28,7 +28,7 @@ Expected<std::vector<std::filesystem::path>> case_files(const std::filesystem::p
        file.increment(error)) {
     if (file->path().extension() == ".json") paths.push_back(file->path());
   }
-  if (error) return problem_in(FileProblem::cannot_open, folder, error.message());
+  if (error) return problem_in(folder, error.message());
   std::sort(paths.begin(), paths.end());
   return paths;
 }

@@ -56,7 +56,7 @@ Expected<detector::Triangles> read_triangles(const JsonField& field, std::int64_
     }
     const bool repeats = row(0) == row(1) || row(1) == row(2) || row(0) == row(2);
     if (repeats && !may_repeat) {
-      return item.problem("a vertex named twice", FileProblem::repeated_index);
+      return item.problem("a vertex named twice");
     }
   }
   return triangles;

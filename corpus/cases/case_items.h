@@ -24,14 +24,13 @@ Expected<std::vector<T>> read_list(const JsonField& field, ReadItem read_item) {
   return list;
 }
 
-// wrong_type unless `field` is an array of `wanted` items.
+// Fails unless `field` is an array of `wanted` items.
 Expected<void> expect_size(const JsonField& field, std::size_t wanted);
 
 Expected<std::vector<detector::Point>> read_points(const JsonField& field);
 Expected<detector::Positions> read_frame(const JsonField& field);
 
-// Reads triples of indices below `vertices`. Problems: index_out_of_range; repeated_index unless
-// `may_repeat`.
+// Reads triples of indices below `vertices`; unless `may_repeat`, the three of a triple differ.
 Expected<detector::Triangles> read_triangles(const JsonField& field, std::int64_t vertices,
                                              bool may_repeat);
 

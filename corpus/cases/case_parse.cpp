@@ -20,7 +20,7 @@ class CaseParser {
   Expected<Case> read() {
     BOOST_OUTCOME_TRY(schema, top_.at("schema"));
     if (schema.json() != case_schema) {
-      return schema.problem(fmt::format("{} expected", case_schema), FileProblem::wrong_schema);
+      return schema.problem(fmt::format("{} expected", case_schema));
     }
     BOOST_OUTCOME_TRY(read_text("id", case_.id));
     BOOST_OUTCOME_TRY(read_text("about", case_.about));
@@ -58,8 +58,7 @@ class CaseParser {
     for (std::size_t i = 1; i < list.size(); ++i) {
       if (list[i].rows() != list[0].rows()) {
         return frames.item(i).problem(
-            fmt::format("{} vertices, but frame 0 has {}", list[i].rows(), list[0].rows()),
-            FileProblem::vertex_counts_differ);
+            fmt::format("{} vertices, but frame 0 has {}", list[i].rows(), list[0].rows()));
       }
     }
     case_.frames = std::move(list);
@@ -72,7 +71,7 @@ class CaseParser {
     BOOST_OUTCOME_TRY(field, top_.at("triangles"));
     BOOST_OUTCOME_TRY(triangles, read_triangles(field, case_.frames[0].rows(),
                                                 case_.expected.answer == detector::Answer::error));
-    if (triangles.rows() == 0) return field.problem("none", FileProblem::no_triangles);
+    if (triangles.rows() == 0) return field.problem("none");
     case_.triangles = std::move(triangles);
     return boost::outcome_v2::success();
   }
@@ -213,7 +212,7 @@ Expected<Case> parse_case(std::string_view text, std::string_view name) try {
   BOOST_OUTCOME_TRY(json, parse_json(text, file));
   return CaseParser(JsonField(json, file)).read();
 } catch (const std::bad_alloc&) {
-  return problem_in(FileProblem::too_large, name, "larger than the memory at hand");
+  return problem_in(name, "larger than the memory at hand");
 }
 
 }  // namespace assay::corpus

@@ -10,7 +10,7 @@ namespace assay::corpus {
 
 // `v` and `f` (v, v/vt, v//vn, v/vt/vn, negative indices, polygons) make the mesh; texture
 // coordinates, normals, groups, materials, lines, points and curves are passed over. A line with
-// any other keyword is malformed, so that noise is not taken for a mesh.
+// any other keyword is refused, so that noise is not taken for a mesh.
 Expected<Mesh> read_obj(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace assay::corpus

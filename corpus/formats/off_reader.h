@@ -13,7 +13,7 @@ bool looks_like_off(std::string_view text);
 
 // Reads a header word, the counts, one vertex a line and one polygon a line; `#` starts a comment.
 // Normals, colours and texture coordinates are passed over; 4-dimensional and binary files are
-// malformed.
+// refused.
 Expected<Mesh> read_off(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace assay::corpus

@@ -27,14 +27,13 @@ bool is_signed(PlyType type) {
 Place PlyBody::place() const { return is_ascii() ? Place{"line", line_} : Place{"byte", offset_}; }
 
 Problem PlyBody::truncated() const {
-  return problem_in(FileProblem::truncated, file_,
+  return problem_in(file_,
                     fmt::format("{}: the file ends before its header's counts", shown(place())));
 }
 
 Problem PlyBody::malformed(std::string_view word) const {
   return problem_in(
-      FileProblem::malformed, file_,
-      fmt::format("{}: {} is not of the type in the header", shown(place()), excerpt(word)));
+      file_, fmt::format("{}: {} is not of the type in the header", shown(place()), excerpt(word)));
 }
 
 void PlyBody::skip_blanks() {

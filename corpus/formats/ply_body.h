@@ -22,8 +22,7 @@ class PlyBody {
         offset_(header.size),
         line_(header.lines + 1) {}
 
-  // The next value. Problems: truncated at the end of the file, malformed when a word is no number
-  // of that kind.
+  // The next value. Fails at the end of the file, and when a word is no number of that kind.
   Expected<double> number(PlyType type);
   // REQUIRES: is_integer(type).
   Expected<std::int64_t> integer(PlyType type);

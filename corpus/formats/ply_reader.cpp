@@ -37,8 +37,7 @@ class PlyReader {
       BOOST_OUTCOME_TRY(read_element(element));
     }
     if (!body_.at_end()) {
-      return builder_.problem(FileProblem::malformed, body_.place(),
-                              "data after the last element of the header");
+      return builder_.problem(body_.place(), "data after the last element of the header");
     }
     return builder_.finish();
   }
@@ -56,14 +55,14 @@ class PlyReader {
     }
     const bool vertices = element.name == "vertex";
     if (vertices && (found[0] != 1 || found[1] != 1 || found[2] != 1)) {
-      return problem_in(FileProblem::malformed, file_, "element vertex has no x, y, z");
+      return problem_in(file_, "element vertex has no x, y, z");
     }
     if (element.name == "face" && found[static_cast<std::size_t>(Role::corners)] != 1) {
-      return problem_in(FileProblem::malformed, file_,
+      return problem_in(file_,
                         "element face has no list vertex_indices or vertex_index of integers");
     }
     if (!body_.has_room(element.count, least_size)) {
-      return builder_.problem(FileProblem::truncated, body_.place(),
+      return builder_.problem(body_.place(),
                               fmt::format("{} times element {} do not fit into the rest of the "
                                           "file",
                                           element.count, element.name));
@@ -95,13 +94,11 @@ class PlyReader {
 
   Expected<void> read_list(const PlyProperty& property, Role role, const Place& place) {
     BOOST_OUTCOME_TRY(count, body_.integer(*property.count_type));
-    if (count < 0)
-      return builder_.problem(FileProblem::malformed, place, "a list of negative size");
+    if (count < 0) return builder_.problem(place, "a list of negative size");
     const auto items = static_cast<std::uint64_t>(count);
     if (!body_.has_room(items, size_of(property.type))) {
       return builder_.problem(
-          FileProblem::truncated, place,
-          fmt::format("a list of {} items does not fit into the rest of the file", items));
+          place, fmt::format("a list of {} items does not fit into the rest of the file", items));
     }
     if (role != Role::corners) return body_.skip(property.type, items);
     corners_.clear();

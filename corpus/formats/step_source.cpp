@@ -12,7 +12,7 @@ using detector::Positions;
 
 // That there is no step, because there is one frame only.
 Problem one_frame_only() {
-  return problem_in(FileProblem::no_frames, {}, "one frame only: a step needs two frames or more");
+  return problem_in({}, "one frame only: a step needs two frames or more");
 }
 
 class StepsOfCase : public StepSource {

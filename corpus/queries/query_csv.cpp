@@ -54,8 +54,7 @@ class CsvReader {
       if (line.empty() && text_.find_first_not_of(" \t\r\n") == std::string_view::npos) break;
       BOOST_OUTCOME_TRY(row, read_row(line));
       if (filled > 0 && row.label != rows[0].label) {
-        return wrong(FileProblem::labels_differ,
-                     fmt::format("this row's label is not that of its query's first row, {} before",
+        return wrong(fmt::format("this row's label is not that of its query's first row, {} before",
                                  filled));
       }
       rows[filled++] = row;
@@ -65,15 +64,14 @@ class CsvReader {
       }
     }
     if (filled != 0 || queries.empty()) {
-      return wrong(FileProblem::wrong_row_count,
-                   fmt::format("{} rows are not a multiple of 8", 8 * queries.size() + filled));
+      return wrong(fmt::format("{} rows are not a multiple of 8", 8 * queries.size() + filled));
     }
     return queries;
   }
 
  private:
-  Problem wrong(FileProblem kind, std::string_view detail) const {
-    return problem_in(kind, file_, fmt::format("line {}: {}", line_, detail));
+  Problem wrong(std::string_view detail) const {
+    return problem_in(file_, fmt::format("line {}: {}", line_, detail));
   }
 
   std::string_view next_line() {
@@ -94,8 +92,7 @@ class CsvReader {
       line.remove_prefix(more ? comma + 1 : comma);
     }
     if (count != 6 && count != 7) {
-      return wrong(FileProblem::wrong_column_count,
-                   fmt::format("{} columns, where 6 or 7 are expected", count));
+      return wrong(fmt::format("{} columns, where 6 or 7 are expected", count));
     }
     Row row;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -104,7 +101,7 @@ class CsvReader {
     }
     if (count == 7) {
       if (columns[6] != "0" && columns[6] != "1") {
-        return wrong(FileProblem::malformed, "the label is neither 0 nor 1");
+        return wrong("the label is neither 0 nor 1");
       }
       row.label = columns[6] == "1";
     }
@@ -118,14 +115,13 @@ class CsvReader {
       case RationalState::exact:
         return value.value;
       case RationalState::not_a_number:
-        return wrong(FileProblem::malformed,
-                     fmt::format("{}: numerator or denominator is not a whole number", axis));
+        return wrong(fmt::format("{}: numerator or denominator is not a whole number", axis));
       case RationalState::zero_denominator:
-        return wrong(FileProblem::zero_denominator, fmt::format("{}: denominator 0", axis));
+        return wrong(fmt::format("{}: denominator 0", axis));
       case RationalState::not_a_double:
         break;
     }
-    return wrong(FileProblem::not_a_double, fmt::format("{}: no double has this value", axis));
+    return wrong(fmt::format("{}: no double has this value", axis));
   }
 
   static std::string_view trimmed(std::string_view text) {
@@ -156,7 +152,7 @@ Expected<std::vector<LabelledQuery>> read_queries(
     const std::filesystem::path& csv, const std::optional<std::filesystem::path>& truth_json) try {
   const auto kind = kind_of(csv);
   if (!kind) {
-    return problem_in(FileProblem::unknown_query_kind, csv,
+    return problem_in(csv,
                       "vertex-face or edge-edge queries? The path should have a folder of that "
                       "name, or the file's name should end in vf or ee");
   }
@@ -165,15 +161,14 @@ Expected<std::vector<LabelledQuery>> read_queries(
   if (truth_json) {
     BOOST_OUTCOME_TRY(truths, read_truths(*truth_json));
     if (truths.size() != queries.size()) {
-      return problem_in(FileProblem::truth_count_differs, *truth_json,
-                        fmt::format("{} truths, but {} has {} queries", truths.size(), csv.string(),
-                                    queries.size()));
+      return problem_in(*truth_json, fmt::format("{} truths, but {} has {} queries", truths.size(),
+                                                 csv.string(), queries.size()));
     }
     for (std::size_t i = 0; i < queries.size(); ++i) queries[i].truth = truths[i];
   }
   return std::move(queries);
 } catch (const std::bad_alloc&) {
-  return problem_in(FileProblem::too_large, csv, "larger than the memory at hand");
+  return problem_in(csv, "larger than the memory at hand");
 }
 
 }  // namespace assay::corpus

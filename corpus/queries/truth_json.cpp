@@ -13,13 +13,12 @@ Expected<std::vector<bool>> read_truths(const std::filesystem::path& path) {
   BOOST_OUTCOME_TRY(bytes, read_bytes(path));
   BOOST_OUTCOME_TRY(json, parse_json(bytes, path));
   if (!json.is_array()) {
-    return problem_in(FileProblem::wrong_type, path, "an array of booleans expected");
+    return problem_in(path, "an array of booleans expected");
   }
   std::vector<bool> truths;
   for (const Json& truth : json) {
     if (!truth.is_boolean()) {
-      return problem_in(FileProblem::wrong_type, path,
-                        fmt::format("item {} is not a boolean", truths.size()));
+      return problem_in(path, fmt::format("item {} is not a boolean", truths.size()));
     }
     truths.push_back(truth.get<bool>());
   }

@@ -8,7 +8,7 @@
 
 namespace assay::corpus {
 
-// Problems: those of read_bytes and parse_json; wrong_type when it is not an array of booleans.
+// Refuses what read_bytes and parse_json refuse, and what is not an array of booleans.
 Expected<std::vector<bool>> read_truths(const std::filesystem::path& path);
 
 }  // namespace assay::corpus

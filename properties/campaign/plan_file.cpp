@@ -23,8 +23,7 @@ class PlanReader {
   corpus::Expected<CampaignPlan> read() {
     BOOST_OUTCOME_TRY(schema_field, top_.at("schema"));
     if (schema_field.json() != schema) {
-      return schema_field.problem(std::string(schema) + " expected",
-                                  corpus::FileProblem::wrong_schema);
+      return schema_field.problem(std::string(schema) + " expected");
     }
     for (const auto& [key, value] : top_.json().items()) {
       // An unknown key is refused, because a misspelt limit must not pass for a limit that was not
@@ -235,14 +234,14 @@ corpus::Expected<CampaignPlan> find_plan(const std::string& name_or_file) {
   const auto* meant = plan_meant_by(name_or_file);
   std::error_code ignored;
   if (meant && !std::filesystem::exists(name_or_file, ignored)) {
-    return corpus::problem_in(corpus::FileProblem::cannot_open, name_or_file,
+    return corpus::problem_in(name_or_file,
                               "is no campaign and no file; did you mean " + meant->name + "?");
   }
   BOOST_OUTCOME_TRY(bytes, corpus::read_bytes(name_or_file));
   BOOST_OUTCOME_TRY(plan, parse_plan(bytes, name_or_file));
   for (const auto& named : named_plans()) {
     if (plan.name != named.name || is_the_same_but_for_time(plan, named)) continue;
-    return corpus::problem_in(corpus::FileProblem::malformed, name_or_file,
+    return corpus::problem_in(name_or_file,
                               "is another plan than the built-in campaign of its name");
   }
   return plan;

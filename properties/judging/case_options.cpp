@@ -37,8 +37,7 @@ Expected<detector::Options> read_options(const corpus::Case& c) {
   detector::Options options;
   for (const auto& [name, word] : c.options) {
     if (!set_option(options, name, word)) {
-      return Problem{ProblemKind::unknown_option,
-                     fmt::format("option {} = '{}' is not known", name, word)};
+      return Problem{fmt::format("option {} = '{}' is not known", name, word)};
     }
   }
   return options;

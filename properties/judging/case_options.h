@@ -11,8 +11,8 @@
 
 namespace assay::properties {
 
-// The options that a case states; the others are the defaults. unknown_option for an unknown name
-// or word; the problem does not name the case's file.
+// The options that a case states; the others are the defaults. Fails at an unknown name or word;
+// the problem does not name the case's file.
 Expected<detector::Options> read_options(const corpus::Case& c);
 
 // The same for a case whose options are known to be understood. Options that are not understood

@@ -98,7 +98,7 @@ Expected<ChildProcess> ChildProcess::start(const std::filesystem::path& program,
   ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
   if (error != 0) {
-    return Problem{ProblemKind::cannot_start, "cannot start " + name + ": " + std::strerror(error)};
+    return Problem{"cannot start " + name + ": " + std::strerror(error)};
   }
   return ChildProcess(id);
 }

@@ -44,7 +44,7 @@ class ChildProcess {
  public:
   // Starts the program with an empty stdin. `descriptor` becomes child_descriptor of the child.
   // `printed` becomes printed_descriptor, if it is given and greater than both of these numbers.
-  // The problem is cannot_start, with the system's reason.
+  // The problem states the system's reason.
   static Expected<ChildProcess> start(const std::filesystem::path& program,
                                       const std::vector<std::string>& arguments, int descriptor,
                                       int printed = -1);

@@ -81,7 +81,7 @@ int serve(Channel channel, const LoadedPlugin* library) {
       hello.description = plugin->description();
     } else {
       hello.serves = false;
-      hello.problem = opened.error();
+      hello.refusal = opened.error().message;
     }
   }
   if (channel.send(encode(hello)) != Transfer::done) return 0;

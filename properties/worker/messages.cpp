@@ -185,17 +185,8 @@ std::string broken_rule(const PluginDescription& description) {
   return fault_of(description.contract);
 }
 
-std::string broken_rule(const Problem& refusal) {
-  if (!is_line(refusal.message)) return "a refusal that is no line";
-  switch (refusal.kind) {
-    case ProblemKind::not_found:
-    case ProblemKind::not_a_plugin:
-    case ProblemKind::other_abi_version:
-    case ProblemKind::broken_plugin:
-      return "";
-    default:
-      return "a refusal that loading a plug-in does not end with";
-  }
+std::string broken_rule(const std::string& refusal) {
+  return is_line(refusal) ? "" : "a refusal that is no line";
 }
 
 }  // namespace assay::properties

@@ -40,8 +40,6 @@ template <>
 struct TravelsAsBytes<detector::StepTimes> : std::true_type {};
 template <>
 struct TravelsAsBytes<corpus::CaseStep> : std::true_type {};
-template <>
-inline constexpr ProblemKind last_of<ProblemKind> = last_problem_kind;
 
 template <class Wire>
 void fields(Wire& wire, detector::Options& options) {
@@ -126,24 +124,18 @@ void fields(Wire& wire, PluginDescription& description) {
        "query", query, "candidates", candidates, "takes_threads", takes_threads);
 }
 
-template <class Wire>
-void fields(Wire& wire, Problem& problem) {
-  auto& [kind, message] = problem;
-  wire("kind", kind, "message", message);
-}
-
 // The worker's first message: who it is, or why it cannot serve.
 struct Hello {
   std::uint64_t wire_version = 0;
   PluginDescription description;
   bool serves = true;
-  Problem problem;  // why it does not
+  std::string refusal;  // why it does not
 };
 
 template <class Wire>
 void fields(Wire& wire, Hello& hello) {
   wire("wire_version", hello.wire_version, "description", hello.description, "serves", hello.serves,
-       "problem", hello.problem);
+       "refusal", hello.refusal);
 }
 
 // What a request asks for.
@@ -285,8 +277,8 @@ std::uint64_t longest_query_reply(std::size_t queries);
 // candidates if and only if it has them.
 std::string broken_rule(const PluginDescription& description);
 
-// The same for the reason why a plug-in cannot be loaded: a problem of PluginHost::open, in one
+// The same for the reason why a plug-in cannot be loaded: a message of PluginHost::open, in one
 // printable line.
-std::string broken_rule(const Problem& refusal);
+std::string broken_rule(const std::string& refusal);
 
 }  // namespace assay::properties

@@ -162,7 +162,7 @@ Expected<void> run_on_terminal(const properties::CampaignRequest& request, prope
                                const std::string& out) {
   CampaignTerminal terminal(request, out);
   const auto ran = properties::run_campaign(request, ASSAY_CORPUS_DIR, store, terminal);
-  if (!ran) return Refusal(ran.error());
+  if (!ran) return ran.error();
   return terminal.written();
 }
 

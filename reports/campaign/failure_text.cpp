@@ -104,7 +104,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
   std::filesystem::create_directories(folder, error);
   if (error) {
     report.written =
-        Refusal(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+        Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
     return report;
   }
   SceneMaker scenes(detector);
@@ -115,7 +115,7 @@ FailureReport write_failures(const properties::KeptFailures& kept, const std::fi
           std::pair(out / failure_file(failure, true), failure.smallest)}) {
       if (text.empty()) continue;
       if (const auto written = corpus::write_file_atomically(path, text); !written) {
-        report.written = Refusal(written.error());
+        report.written = written.error();
         return report;
       }
     }
@@ -150,7 +150,7 @@ Expected<void> write_slow_cases(const std::vector<SlowCase>& cases,
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    return Refusal(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+    return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
   // The scene is made by the oracle alone, because the detector takes too long for this case to be
   // asked again.
   SceneMaker scenes(std::nullopt);
@@ -160,7 +160,7 @@ Expected<void> write_slow_cases(const std::vector<SlowCase>& cases,
       if (text.empty()) continue;
       const auto path = out / slow_file(slow, smallest);
       if (const auto written = corpus::write_file_atomically(path, text); !written)
-        return Refusal(written.error());
+        return written.error();
     }
     const bool is_shrunk = !slow.smallest.empty();
     const auto shown = corpus::parse_case(is_shrunk ? slow.smallest : slow.mesh, "slow case");

@@ -76,13 +76,13 @@ std::string digest_of_files(const std::vector<std::filesystem::path>& files) {
 
 Expected<properties::OwnCases> read_own_cases(const std::filesystem::path& folder) {
   auto files = corpus::case_files(folder);
-  if (!files) return Refusal(files.error());
+  if (!files) return files.error();
   std::erase_if(files.value(),
                 [](const auto& file) { return file.filename() == waivers_of_owner; });
   if (files.value().empty())
-    return Refusal(fmt::format("{}: there is no case file in it", folder.string()));
+    return Problem{fmt::format("{}: there is no case file in it", folder.string())};
   auto cases = read_cases(files.value());
-  if (!cases) return Refusal(cases.error());
+  if (!cases) return cases.error();
   return properties::OwnCases{std::move(cases.value()), digest_of_files(files.value())};
 }
 
@@ -97,9 +97,7 @@ corpus::Expected<std::vector<Waiver>> read_waivers(const std::filesystem::path& 
   BOOST_OUTCOME_TRY(json, corpus::parse_json(bytes, file));
   const corpus::JsonField top(json, file);
   BOOST_OUTCOME_TRY(schema_field, top.at("schema"));
-  if (schema_field.json() != schema)
-    return schema_field.problem(std::string(schema) + " expected",
-                                corpus::FileProblem::wrong_schema);
+  if (schema_field.json() != schema) return schema_field.problem(std::string(schema) + " expected");
   BOOST_OUTCOME_TRY(list, top.at("waivers"));
   BOOST_OUTCOME_TRY(size, list.size());
   std::vector<Waiver> waivers;

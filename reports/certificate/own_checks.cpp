@@ -184,7 +184,7 @@ Expected<void> check_queries(const properties::CampaignRequest& request,
   for (const auto& row : named.rows()) on_row(row);
   const auto file = corpus / ".." / "queries" / "example_vf.csv";
   const auto queries = corpus::read_queries(file);
-  if (!queries) return Refusal(queries.error());
+  if (!queries) return queries.error();
   JudgedRows labelled(request, file.filename().string(), on_failure, hung);
   place = 0;
   for (const auto& one : queries.value()) {
@@ -221,7 +221,7 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
                             const OnCorpusFailure& on_failure) {
   if (request.detector.of_queries) return check_queries(request, corpus, on_row, on_failure);
   const auto cases = curated(corpus);
-  if (!cases) return Refusal(cases.error());
+  if (!cases) return cases.error();
   int hung = 0;
   if (request.detector.built_in) {
     for (const auto culling : all_values<Culling>) {
@@ -237,7 +237,7 @@ Expected<void> check_corpus(const properties::CampaignRequest& request,
   }
   for (const auto& scene : corpus::scenes()) {
     const auto c = case_of_scene(scene);
-    if (!c) return Refusal(c.error());
+    if (!c) return c.error();
     JudgedRows judged(request, std::string(scene.name), on_failure, hung);
     judged.add(c.value());
     for (const auto& row : judged.rows()) on_row(row);

@@ -206,18 +206,15 @@ Verification verify_certificate(const std::filesystem::path& certificate,
 
 properties::Expected<Json> pool(const std::vector<Json>& predicates) {
   using properties::Problem;
-  using properties::ProblemKind;
   std::set<std::pair<std::string, std::uint64_t>> nights;
   for (const auto& p : predicates) {
     const auto difference = difference_of(predicates[0], p);
     const auto& campaign = p["campaign"];
     if (!difference.empty()) {
-      return Problem{ProblemKind::another_run,
-                     fmt::format("these nights cannot be pooled: {}", difference)};
+      return Problem{fmt::format("these nights cannot be pooled: {}", difference)};
     }
     if (!nights.emplace(campaign["name"], campaign["seed"]).second) {
       return Problem{
-          ProblemKind::wrong_shards,
           fmt::format("these nights cannot be pooled: campaign {} with seed {} is there "
                       "twice",
                       campaign["name"].get<std::string>(), campaign["seed"].get<std::uint64_t>())};

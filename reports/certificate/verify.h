@@ -39,10 +39,10 @@ std::string sent_alone(const std::filesystem::path& certificate);
 // of {family, configuration, n, holds, bound}: of n trials so many hold, and `bound` is the upper
 // bound of the rate of failures at the confidence of the campaigns.
 //
-// Fails with another_run unless all certificates speak of one detector, generator and judge: the
+// Fails unless all certificates speak of one detector, generator and judge: the
 // digests of program, worker, plug-in and generator must be equal, and so must detector, families
 // and the number of bounds. A program in which a bug was fixed is another program, so its sums
-// start at 0. Fails with wrong_shards if a trial would count twice: no two certificates may have
+// start at 0. It fails too if a trial would count twice: no two certificates may have
 // the same campaign and the same seed.
 properties::Expected<nlohmann::ordered_json> pool(
     const std::vector<nlohmann::ordered_json>& predicates);

@@ -108,7 +108,7 @@ Expected<std::unique_ptr<Subject>> make_built_in(const BuiltInChoice& choice,
     if (made) {
       detector = std::move(made.value());
     } else if (made.error().error != detector::InputError::stopped) {
-      return Refusal(fmt::format("{}: {}", input.file, made.error().message));
+      return Problem{fmt::format("{}: {}", input.file, made.error().message)};
     }
   } catch (const std::bad_alloc&) {
     limits.memory_failed();

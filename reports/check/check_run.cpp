@@ -76,10 +76,10 @@ class CheckRun {
     if (begin()) {
       for (std::size_t s = 0; s < step_count(); ++s) {
         const auto step = read_step(s);
-        if (!step) return Refusal(step.error());
+        if (!step) return step.error();
         auto json = run_step(s, step.value());
         if (question_.wants_report) steps.push_back(std::move(json));
-        if (refused_) return Refusal(*refused_);
+        if (refused_) return Problem{refused_->message};
         if (outcome_.unsound) break;
       }
       if (has_facts() && !outcome_.undecided) check_facts();
@@ -292,7 +292,7 @@ corpus::Expected<CheckInput> read_check_input(const std::vector<std::string>& fi
   BOOST_OUTCOME_TRY(steps, corpus::read_steps({files.begin(), files.end()}));
   if (const auto* c = steps->case_file()) {
     if (const auto options = properties::read_options(*c); !options) {
-      return corpus::problem_in(corpus::FileProblem::wrong_type, files[0], options.error().message);
+      return corpus::problem_in(files[0], options.error().message);
     }
   }
   return CheckInput{files[0], std::move(steps)};
@@ -303,11 +303,11 @@ Expected<CheckAnswer> check_mesh(const CheckQuestion& question, CheckInput& inpu
                                  const CheckListener& listener) {
   const auto vertices = input.steps->first_frame().rows();
   if (const auto bad = detector::check_triangles(input.steps->triangles(), vertices))
-    return Refusal(fmt::format("{}: {}", input.file, bad->message));
+    return Problem{fmt::format("{}: {}", input.file, bad->message)};
   const bool is_plugin = !question.detector.library.empty();
   if (is_plugin) {
     auto whole = input.steps->read_whole();
-    if (!whole) return Refusal(whole.error());
+    if (!whole) return whole.error();
     input.steps = std::move(whole.value());
   }
   Limits limits(question.time_limit, question.memory_limit);

@@ -41,7 +41,7 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
       request.worker, request.plugin,
       {.isolation = request.isolation, .threads = request.threads, .unread = request.folder});
   const auto description = worker.describe();
-  if (!description) return Refusal(description.error());
+  if (!description) return description.error();
   request.isolated = worker.isolation();
   const auto& plugin = description.value();
   request.takes_threads = plugin.parts.takes_threads;
@@ -49,9 +49,9 @@ Expected<void> choose_detector(const DetectorWords& words, properties::CampaignR
   const bool of_queries =
       words.part == DetectorPart::query || (words.part == DetectorPart::by_library && !has_steps);
   if (of_queries && !plugin.parts.query)
-    return Refusal(fmt::format("{}: it holds no elementary query", words.library));
+    return Problem{fmt::format("{}: it holds no elementary query", words.library)};
   if (!of_queries && !has_steps)
-    return Refusal(fmt::format("{}: it holds no steps, but a query alone", words.library));
+    return Problem{fmt::format("{}: it holds no steps, but a query alone", words.library)};
   // The words of the plug-in go into ids, files and pages, so they must be printable.
   const auto name = properties::printable(plugin.name);
   request.detector = {fmt::format("{} {}", name, properties::printable(plugin.version)),

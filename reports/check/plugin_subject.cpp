@@ -130,20 +130,20 @@ Expected<std::unique_ptr<Subject>> make_plugin_subject(const std::filesystem::pa
                                                        CheckInput& input) {
   properties::WorkerProcess worker(worker_program, library, limits);
   auto description = worker.describe();
-  if (!description) return Refusal(description.error());
+  if (!description) return description.error();
   const auto& parts = description.value().parts;
   if (!parts.steps && !parts.candidates)
-    return Refusal(
-        fmt::format("{}: it holds no steps, but a query alone: assay check-queries", library));
+    return Problem{
+        fmt::format("{}: it holds no steps, but a query alone: assay check-queries", library)};
   if (judged_claims(claims_on_steps(description.value()), description.value().contract).empty())
-    return Refusal(fmt::format(
+    return Problem{fmt::format(
         "{}: it claims nothing that its contract leaves to be judged; there is nothing to check",
-        library));
+        library)};
   auto seen = properties::contracted(*input.steps->whole(), description.value().contract);
   if (!seen) {
-    return Refusal(fmt::format(
+    return Problem{fmt::format(
         "{}: nothing of it is within the contract of {}: {}", input.file, description.value().name,
-        properties::why_left_out(*input.steps->whole(), description.value().contract)));
+        properties::why_left_out(*input.steps->whole(), description.value().contract))};
   }
   const std::size_t given = input.steps->count();
   auto of_second = limits;

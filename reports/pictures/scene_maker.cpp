@@ -21,7 +21,7 @@ SceneMaker::SceneMaker(const std::optional<DetectorWords>& detector)
   properties::CampaignRequest request;
   request.worker = properties::worker_program();
   if (auto chosen = choose_detector(*detector, request); !chosen) {
-    absent_ = chosen.error().line;
+    absent_ = chosen.error().message;
     return;
   }
   detector_ = request.detector;

@@ -105,7 +105,7 @@ py::tuple checked(CheckInput& input, const CheckQuestion& question, const std::s
   const auto answer = interruptible([&](const auto& stop) {
     return reports::check_mesh(question, input, worker, {tell, stop});
   });
-  if (!answer) throw py::value_error(answer.error().line);
+  if (!answer) throw py::value_error(answer.error().message);
   return py::make_tuple(
       answer.value().report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
       text, answer.value().outcome.exit_code(false));

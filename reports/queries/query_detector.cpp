@@ -51,7 +51,7 @@ Expected<QueryDetector> QueryDetector::open(const DetectorWords& words) {
   if (auto chosen = choose_detector(of_queries, *request); !chosen) return chosen.error();
   const auto& detector = request->detector;
   if (judged_claims(detector.claims, detector.contract).empty())
-    return Refusal(fmt::format("{}: it claims nothing of its query", words.library));
+    return Problem{fmt::format("{}: it claims nothing of its query", words.library)};
   return QueryDetector(std::move(request));
 }
 
@@ -74,7 +74,7 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
     auto some = judge_some(std::span(queries).subspan(all.size(), count));
     for (auto& one : some) {
       const auto& name = names[all.size()];
-      if (one.run.end == properties::RunEnd::not_run) return Refusal(one.run.explanation);
+      if (one.run.end == properties::RunEnd::not_run) return Problem{one.run.explanation};
       if (!one.is_within) {
         ++left_out_;
       } else {

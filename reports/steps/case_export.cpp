@@ -183,10 +183,10 @@ Expected<void> export_case(const std::filesystem::path& folder, const corpus::Ca
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    return Refusal(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+    return Problem{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
   const auto write = [&](const std::string& name, const std::string& text) -> Expected<void> {
     const auto written = corpus::write_file_atomically(folder / name, text);
-    if (!written) return Refusal(written.error());
+    if (!written) return written.error();
     return outcome::success();
   };
   for (std::size_t f = 0; f < c.frames.size(); ++f) {

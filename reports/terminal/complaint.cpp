@@ -22,6 +22,11 @@ int refuse(const std::string& line) noexcept {
   return exit_usage;
 }
 
+int refuse(const Problem& problem) noexcept {
+  refuse(problem.message);
+  return problem.kind == ProblemKind::not_as_stored ? exit_unsound : exit_usage;
+}
+
 bool output_was_written() noexcept {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
   refuse("standard output cannot be written");

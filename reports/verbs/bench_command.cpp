@@ -73,11 +73,11 @@ Expected<BenchedPlugin> plugin_of(const BenchRequest& request) {
   plugin.limits.threads = words.threads;
   properties::WorkerProcess worker(properties::worker_program(), words.library, plugin.limits);
   auto description = worker.describe();
-  if (!description) return Refusal(description.error());
+  if (!description) return description.error();
   plugin.description = std::move(description.value());
   plugin.limits.least = worker.isolation();
   if (!plugin.description.parts.steps)
-    return Refusal(fmt::format("{}: it holds no steps, which are what is timed", words.library));
+    return Problem{fmt::format("{}: it holds no steps, which are what is timed", words.library)};
   return plugin;
 }
 

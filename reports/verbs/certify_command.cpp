@@ -128,11 +128,11 @@ class Certification {
     std::set<std::string> signatures;
     for (const auto& file : waiver_files()) {
       const auto waivers = read_waivers(file);
-      if (!waivers) return Refusal(waivers.error());
+      if (!waivers) return waivers.error();
       for (const auto& waiver : waivers.value()) {
         if (!signatures.insert(waiver.signature).second)
-          return Refusal(
-              fmt::format("{}: \"{}\" is waived already", file.string(), waiver.signature));
+          return Problem{
+              fmt::format("{}: \"{}\" is waived already", file.string(), waiver.signature)};
         keep(properties::StoredWaiver{waiver.signature, waiver.reason, waiver.link, waiver.expires,
                                       is_expired(waiver, today)});
       }
@@ -159,7 +159,7 @@ class Certification {
     std::set<std::string> signatures;
     for (const auto& failure : corpus_failures_) signatures.insert(failure.signature);
     checks_.keep_failures(signatures);
-    if (const auto& problem = checks_.problem()) return Refusal(*problem);
+    if (const auto& problem = checks_.problem()) return *problem;
     return outcome::success();
   }
 
@@ -171,7 +171,7 @@ class Certification {
                                        [&](const std::string& text) { progress.show(text); });
     }
     const auto kept = checks_.failures();
-    if (!kept) return Refusal(kept.error());
+    if (!kept) return kept.error();
     const auto shown = write_failures(kept.value(), out_, words_.detector);
     fmt::print("{}", shown.text);
     return shown.written;
@@ -180,10 +180,10 @@ class Certification {
   Expected<void> open_store() {
     auto store = properties::Store::open(properties::store_file(out_, request_.shard),
                                          properties::binding_of(request_));
-    if (!store) return Refusal(store.error());
+    if (!store) return store.error();
     store_ = std::move(store.value());
     if (const auto kept = properties::keeps_isolation(request_, *store_); !kept)
-      return Refusal(kept.error());
+      return kept.error();
     return outcome::success();
   }
 
@@ -191,17 +191,17 @@ class Certification {
     fmt::print("\n");
     auto done = run_on_terminal(request_, *store_, words_.out);
     const auto sealed = store_->seal();
-    if (done && !sealed) return Refusal(sealed.error());
+    if (done && !sealed) return sealed.error();
     return done;
   }
 
   // Takes the stores that `run` or `merge` wrote, and makes whole files of them.
   Expected<void> take_shards() {
     const auto files = stored_shards(out_);
-    if (!files) return Refusal(files.error());
+    if (!files) return files.error();
     for (const auto& file : files.value()) {
       auto whole = properties::make_whole(file, request_);
-      if (!whole) return Refusal(whole.error());
+      if (!whole) return whole.error();
       shards_[file.filename().string()] = std::move(whole.value());
     }
     return outcome::success();
@@ -259,19 +259,18 @@ class Certification {
     keep(properties::Issued{fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
                             seconds});
     checks_.seal();
-    if (const auto& problem = checks_.problem()) return refuse(Refusal(*problem));
+    if (const auto& problem = checks_.problem()) return refuse(*problem);
     // The code of a plug-in may have reached the files. So there is a verdict on what was stored,
     // or none.
     const auto findings = properties::read_findings(out_, known_rows());
-    if (!findings) return refuse(Refusal(findings.error()));
+    if (!findings) return refuse(findings.error());
     const auto statement = make_statement(findings.value());
-    if (!statement) return refuse(Refusal(statement.error()));
+    if (!statement) return refuse(statement.error());
     const auto& digests = statement.value()["predicate"]["digests"];
     if (digests["campaign"] != corpus::sha256_of(campaign_text()))
-      return refuse(
-          Refusal(properties::Problem{properties::ProblemKind::not_as_stored,
-                                      fmt::format("{}: was changed while this run was at work",
-                                                  properties::campaign_file(out_).string())}));
+      return refuse(properties::Problem{fmt::format("{}: was changed while this run was at work",
+                                                    properties::campaign_file(out_).string()),
+                                        ProblemKind::not_as_stored});
     const auto certificate = properties::certificate_file(out_).string();
     auto written = write_text_file(certificate, statement_text(statement.value()));
     if (written) written = write_for_ci(statement.value()["predicate"], out_);
@@ -305,7 +304,7 @@ int run_certify(const CampaignWords& words) {
                     "to the run of each",
                     words.out));
   auto checks = properties::Checks::open(words.out, request);
-  if (!checks) return refuse(Refusal(checks.error()));
+  if (!checks) return refuse(checks.error());
   fmt::print("the shipped corpus, campaign {}, self-test and speed; writes {}\n", request.plan.name,
              words.out);
   return Certification(words, request, std::move(checks.value())).run();

@@ -23,7 +23,7 @@ int run_check(const CheckRequest& request) {
   // This is asked before the work, not after it.
   if (auto may = may_write(request.json_file, request.files); !may) return refuse(may.error());
   auto input = read_check_input(request.files);
-  if (!input) return refuse(Refusal(input.error()));
+  if (!input) return refuse(input.error());
   CheckQuestion question = request.question;
   question.files = request.files;
   question.wants_report = !request.json_file.empty();

@@ -91,7 +91,7 @@ int run_check_queries(const CheckQueriesRequest& request) {
     std::optional<std::filesystem::path> truth;
     if (!request.truths.empty()) truth = request.truths[i];
     auto queries = corpus::read_queries(request.files[i], truth);
-    if (!queries) return refuse(Refusal(queries.error()));
+    if (!queries) return refuse(queries.error());
     sets.push_back(std::move(queries.value()));
   }
   if (!request.detector.library.empty()) return check_plugin(request, sets);

@@ -200,12 +200,12 @@ const std::map<std::string, Forgery>& forgeries() {
   _exit(0);
 }
 
-[[noreturn]] void forge_refusal(ProblemKind kind, const std::string& message) {
+[[noreturn]] void forge_refusal(const std::string& message) {
   Channel channel(find_channel());
   Hello hello;
   hello.wire_version = wire_version();
   hello.serves = false;
-  hello.problem = {kind, message};
+  hello.refusal = message;
   channel.send(encode(hello));
   for (;;) pause();
 }
@@ -612,10 +612,8 @@ const assay_detector_api* assay_detector() {
   if (forgery != forgeries().end()) forge(forgery->second, mode);
   if (mode.starts_with("forge-query")) forge({}, mode);
   if (mode == "forge-length") forge_length();
-  if (mode == "forge-refusal") forge_refusal(ProblemKind::not_a_plugin, "a\n\033[2Jcertified");
-  if (mode == "forge-long-refusal")
-    forge_refusal(ProblemKind::not_a_plugin, std::string(longest, 'x'));
-  if (mode == "forge-refusal-kind") forge_refusal(ProblemKind::busy, "it is busy");
+  if (mode == "forge-refusal") forge_refusal("a\n\033[2Jcertified");
+  if (mode == "forge-long-refusal") forge_refusal(std::string(longest, 'x'));
   if (mode == "forge-name") forge_hello("a\nb", 0);
   if (mode == "forge-built-in") forge_hello("Built-in", 0);
   if (mode == "forge-built-in-1") forge_hello("built in 1", 0);

@@ -16,12 +16,10 @@ namespace assay::properties {
 FileLock::FileLock(const std::filesystem::path& path, On on, const std::string& if_busy) {
   const int flags = on == On::file ? O_RDWR | O_CREAT : O_RDONLY | O_DIRECTORY;
   lock_ = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
-  if (lock_ < 0)
-    throw StoreProblem(ProblemKind::cannot_write,
-                       fmt::format("{}: {}", path.string(), std::strerror(errno)));
+  if (lock_ < 0) throw StoreProblem(fmt::format("{}: {}", path.string(), std::strerror(errno)));
   if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
   ::close(lock_);
-  throw StoreProblem(ProblemKind::busy, if_busy);
+  throw StoreProblem(if_busy);
 }
 
 FileLock::FileLock(FileLock&& other) noexcept : lock_(std::exchange(other.lock_, -1)) {}

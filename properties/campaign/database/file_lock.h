@@ -13,8 +13,8 @@ class FileLock {
     file,    // the file is made if it is not there, and stays
     folder,  // nothing stays of the lock
   };
-  // Throws StoreProblem: busy, with the text `if_busy`, if another process holds it; cannot_write
-  // if it cannot be opened.
+  // Throws StoreProblem if it cannot be opened, and, with the text `if_busy`, if another process
+  // holds it.
   FileLock(const std::filesystem::path& path, On on, const std::string& if_busy);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;

@@ -106,8 +106,7 @@ std::uint64_t number_of_text(const std::string& text) {
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size())
-    throw StoreProblem(ProblemKind::damaged_store,
-                       fmt::format("'{}' stands where a number belongs", text));
+    throw StoreProblem(fmt::format("'{}' stands where a number belongs", text));
   return static_cast<std::uint64_t>(number);
 }
 
@@ -167,12 +166,11 @@ void for_each_row(const Database& database, const StoreTable& table, const RowTa
     if (known && !known->holds(name, hash)) {
       const char* change = known->knows(name) ? "was changed while this run was at work"
                                               : "was not stored by this run";
-      throw StoreProblem(ProblemKind::not_as_stored,
-                         fmt::format("{}: {} {}", database.file(), name, change));
+      throw StoreProblem(fmt::format("{}: {} {}", database.file(), name, change),
+                         ProblemKind::not_as_stored);
     }
     if (rows.text(count) != hash) {
       throw StoreProblem(
-          ProblemKind::changed_row,
           fmt::format("{}: {} was changed after it was written", database.file(), name));
     }
     visit(row);
@@ -208,8 +206,8 @@ void check_rows(const Database& database, const RowTally& known) {
   known.for_each_name([&](const std::string& name) {
     if (there.contains(name)) return;
     throw StoreProblem(
-        ProblemKind::not_as_stored,
-        fmt::format("{}: {} was taken away while this run was at work", database.file(), name));
+        fmt::format("{}: {} was taken away while this run was at work", database.file(), name),
+        ProblemKind::not_as_stored);
   });
 }
 
@@ -226,7 +224,6 @@ void check_tables(const Database& database, bool may_lack) {
                : found == expected;
   if (!are_ours)
     throw StoreProblem(
-        ProblemKind::damaged_store,
         fmt::format("{}: its tables are not those of the store of a run", database.file()));
 }
 

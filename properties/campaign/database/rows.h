@@ -52,7 +52,7 @@ using Row = std::vector<std::string>;
 Row lasting_columns(const StoreTable& table, const Row& row);
 
 std::string text_of_number(std::uint64_t number);
-// Throws StoreProblem (damaged_store) if the text is not a number.
+// Throws StoreProblem if the text is not a number.
 std::uint64_t number_of_text(const std::string& text);
 
 // SHA-256 over the table's name and all columns, each behind its length, so that no two different
@@ -83,8 +83,8 @@ class RowTally {
 
 // Visits the rows of a table. `more` is SQL such as "WHERE id=? ORDER BY place", whose question
 // marks stand for the texts of `bound`; if it is empty the rows come in the order of their keys.
-// Throws StoreProblem: not_as_stored at the first row that differs from `known`, if that is given;
-// changed_row at the first row that does not fit its own hash; and the problems of SQLite.
+// Throws StoreProblem at the first row that does not fit its own hash, and if SQLite fails; of the
+// kind not_as_stored at the first row that differs from `known`, if that is given.
 void for_each_row(const Database& database, const StoreTable& table, const RowTally* known,
                   const std::string& more, const std::vector<std::string>& bound,
                   const std::function<void(const Row&)>& visit);
@@ -94,11 +94,11 @@ void for_each_row(const Database& database, const StoreTable& table, const RowTa
 bool put_row(const Database& database, const StoreTable& table, const Row& row,
              const char* on_conflict = nullptr);
 
-// Throws StoreProblem (not_as_stored) that names the first row that the tally does not know, that
-// differs from it, or that is missing. O(rows).
+// Throws a StoreProblem of the kind not_as_stored that names the first row that the tally does not
+// know, that differs from it, or that is missing. O(rows).
 void check_rows(const Database& database, const RowTally& known);
 
-// Throws StoreProblem (damaged_store) unless the tables of the file are those of a store and
+// Throws StoreProblem unless the tables of the file are those of a store and
 // nothing else is in it, such as a trigger that changes rows by itself. If `may_lack` is set, some
 // of the tables may not be there yet.
 void check_tables(const Database& database, bool may_lack);

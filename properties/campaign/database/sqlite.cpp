@@ -4,34 +4,6 @@
 #include <sqlite3.h>
 
 namespace assay::properties {
-namespace {
-
-// What a result code of SQLite means to the user of a store. A code that is not in the list is
-// about the rows: somebody changed the file, and a table is not there, for example.
-ProblemKind kind_of(int code) {
-  constexpr int primary = 0xff;  // extended codes keep the primary code in these bits
-  switch (code & primary) {
-    case SQLITE_CANTOPEN:
-    case SQLITE_PERM:
-    case SQLITE_AUTH:
-    case SQLITE_NOMEM:
-      return ProblemKind::cannot_read;
-    case SQLITE_FULL:
-    case SQLITE_READONLY:
-    case SQLITE_IOERR:
-      return ProblemKind::cannot_write;
-    case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-      return ProblemKind::busy;
-    case SQLITE_NOTADB:
-      return ProblemKind::foreign_file;
-    default:
-      return ProblemKind::damaged_store;
-  }
-}
-
-}  // namespace
-
 Database::Database(const std::filesystem::path& file, Mode mode) {
   const int flags =
       mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
@@ -40,7 +12,7 @@ Database::Database(const std::filesystem::path& file, Mode mode) {
     const std::string reason =
         fmt::format("{}: {}", file.string(), db_ ? sqlite3_errmsg(db_) : "no memory");
     sqlite3_close(db_);
-    throw StoreProblem(kind_of(code), reason);
+    throw StoreProblem(reason);
   }
   constexpr int patience_ms = 5000;
   sqlite3_busy_timeout(db_, patience_ms);
@@ -55,14 +27,13 @@ std::string Database::file() const {
 
 void Database::run(const std::string& sql) const {
   const int code = sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, nullptr);
-  if (code != SQLITE_OK)
-    throw StoreProblem(kind_of(code), fmt::format("{}: {}", file(), sqlite3_errmsg(db_)));
+  if (code != SQLITE_OK) throw StoreProblem(fmt::format("{}: {}", file(), sqlite3_errmsg(db_)));
 }
 
 void Database::check_whole() const {
   Statement query(*this, "PRAGMA quick_check(1)");
   if (!query.next() || query.text(0) != "ok")
-    throw StoreProblem(ProblemKind::damaged_store, fmt::format("{}: the file is damaged", file()));
+    throw StoreProblem(fmt::format("{}: the file is damaged", file()));
 }
 
 Statement::Statement(const Database& database, const std::string& sql) : database_(database) {
@@ -103,8 +74,7 @@ bool Statement::changed_a_row() const { return sqlite3_changes(database_.handle(
 
 void Statement::check(int code) const {
   if (code == SQLITE_OK) return;
-  throw StoreProblem(kind_of(code),
-                     fmt::format("{}: {}", database_.file(), sqlite3_errmsg(database_.handle())));
+  throw StoreProblem(fmt::format("{}: {}", database_.file(), sqlite3_errmsg(database_.handle())));
 }
 
 }  // namespace assay::properties

@@ -26,7 +26,7 @@ class Database {
 
   // Runs one statement or several, without results.
   void run(const std::string& sql) const;
-  // Throws damaged_store if a page is damaged.
+  // Throws if a page is damaged.
   void check_whole() const;
   std::string file() const;
   sqlite3* handle() const { return db_; }

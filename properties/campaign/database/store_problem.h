@@ -16,10 +16,10 @@ class StoreProblem : public std::runtime_error {
  public:
   explicit StoreProblem(const Problem& problem)
       : std::runtime_error(problem.message), kind_(problem.kind) {}
-  StoreProblem(ProblemKind kind, const std::string& message)
-      : StoreProblem(Problem{kind, message}) {}
+  explicit StoreProblem(const std::string& message, ProblemKind kind = ProblemKind::other)
+      : StoreProblem(Problem{message, kind}) {}
 
-  Problem problem() const { return {kind_, what()}; }
+  Problem problem() const { return {what(), kind_}; }
 
  private:
   ProblemKind kind_;

@@ -47,7 +47,7 @@ std::optional<Shard> shard_of(const std::string& text) {
   const Shard shard{number_of_text(text.substr(0, slash)), number_of_text(text.substr(slash + 1))};
   constexpr std::uint64_t most_shards = 1'000'000;
   if (shard.index < 1 || shard.index > shard.count || shard.count > most_shards)
-    throw StoreProblem(ProblemKind::damaged_store, fmt::format("no run has a shard {}", text));
+    throw StoreProblem(fmt::format("no run has a shard {}", text));
   return shard;
 }
 
@@ -85,10 +85,10 @@ class Reader {
     evidence_.erase(std::unique(evidence_.begin(), evidence_.end(), is_same), evidence_.end());
     for (const auto& row : evidence_) found_.evidence.take(row);
     if (found_.evidence.power.size() > 1)
-      throw StoreProblem(ProblemKind::contradiction,
-                         fmt::format("{}: its shards took their proofs of planted faults from "
-                                     "different runs",
-                                     found_.folder.string()));
+      throw StoreProblem(
+          fmt::format("{}: its shards took their proofs of planted faults from "
+                      "different runs",
+                      found_.folder.string()));
     if (found_.evidence.paths) found_.library = found_.evidence.paths->detector;
     std::sort(found_.failures.begin(), found_.failures.end(), is_before);
     found_.rows = rows_.value();
@@ -114,8 +114,7 @@ class Reader {
       if (!whole || !shard) continue;  // the reader of the file reports it
       shard.value().for_each_trial([&](const TrialRecord& r) {
         if (whole.value().has_trial(r.id)) return;
-        throw StoreProblem(ProblemKind::stale_merge,
-                           fmt::format("{}: holds {}, which {} does not: merge again",
+        throw StoreProblem(fmt::format("{}: holds {}, which {} does not: merge again",
                                        file.string(), r.id, merged.filename().string()));
       });
     }
@@ -125,9 +124,9 @@ class Reader {
     std::error_code ignored;
     for (const auto& [name, rows] : known_) {
       if (!std::filesystem::exists(found_.folder / name, ignored))
-        throw StoreProblem(ProblemKind::not_as_stored,
-                           fmt::format("{}: was taken away while this run was at work",
-                                       (found_.folder / name).string()));
+        throw StoreProblem(fmt::format("{}: was taken away while this run was at work",
+                                       (found_.folder / name).string()),
+                           ProblemKind::not_as_stored);
     }
   }
 
@@ -136,8 +135,8 @@ class Reader {
     if (known_.empty()) return;
     const auto known = known_.find(file.filename().string());
     if (known == known_.end())
-      throw StoreProblem(ProblemKind::not_as_stored,
-                         fmt::format("{}: was not stored by this run", file.string()));
+      throw StoreProblem(fmt::format("{}: was not stored by this run", file.string()),
+                         ProblemKind::not_as_stored);
     value_or_throw(store.check_against(*known->second));
   }
 
@@ -153,11 +152,10 @@ class Reader {
     }
     const auto difference = difference_of(binding_, store.binding());
     if (!difference.empty())
-      throw StoreProblem(ProblemKind::another_run,
-                         fmt::format("{}: holds stores of different runs: {}",
+      throw StoreProblem(fmt::format("{}: holds stores of different runs: {}",
                                      found_.folder.string(), difference));
     const auto digest = corpus::sha256_of_file(file);
-    if (!digest) throw StoreProblem(ProblemKind::cannot_read, digest.error().message);
+    if (!digest) throw StoreProblem(digest.error().message);
     found_.files.push_back({file.filename().string(), digest.value()});
     if (const auto library = noted_library(store)) found_.library = *library;
     take_rows(store, file, binding.shard);
@@ -171,10 +169,10 @@ class Reader {
           std::any_of(found_.shards.begin(), found_.shards.end(),
                       [&](const Shard& other) { return other.index == shard->index; });
       if (is_there || (!is_first && shard->count != found_.shard_count))
-        throw StoreProblem(ProblemKind::wrong_shards,
-                           fmt::format("{}: shard {} does not stand beside the others: it is there "
-                                       "already, or of another number of shards",
-                                       file.string(), name));
+        throw StoreProblem(
+            fmt::format("{}: shard {} does not stand beside the others: it is there "
+                        "already, or of another number of shards",
+                        file.string(), name));
       found_.shards.push_back(*shard);
       found_.shard_count = shard->count;
     } else if (name == merged_shard) {
@@ -189,8 +187,7 @@ class Reader {
                               r.id == trial_id(plan, found_.run.seed, r.family, r.index);
       const bool is_of_shard = shard ? shard->holds(r.index) : name == merged_shard;
       if (!is_planned || !is_of_shard)
-        throw StoreProblem(ProblemKind::damaged_store,
-                           fmt::format("{}: {} is no trial of this shard", file.string(), r.id));
+        throw StoreProblem(fmt::format("{}: {} is no trial of this shard", file.string(), r.id));
       found_.tally.add(r);
       rows_.add(lasting_columns(trial_table(), row_of(r)));
     });
@@ -217,8 +214,7 @@ class Reader {
     });
     if (known == evidence_.end()) return false;
     if (known->facts != row.facts)
-      throw StoreProblem(ProblemKind::contradiction,
-                         fmt::format("{}: evidence {} {} differs from that of another store",
+      throw StoreProblem(fmt::format("{}: evidence {} {} differs from that of another store",
                                      file.string(), row.kind, row.name));
     return true;
   }
@@ -244,8 +240,7 @@ Expected<RunFindings> told(const std::filesystem::path& name, const Read& read) 
     return catch_store_problem(read);
   } catch (const std::exception& failure) {
     // This is thrown for a number that cannot be read, in a store that somebody changed.
-    return Problem{ProblemKind::damaged_store,
-                   fmt::format("{}: not what a run stores: {}", name.string(), failure.what())};
+    return Problem{fmt::format("{}: not what a run stores: {}", name.string(), failure.what())};
   }
 }
 

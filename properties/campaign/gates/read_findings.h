@@ -14,17 +14,18 @@ namespace assay::properties {
 // when it began. The keys are the names of the files, without their folder.
 using KnownRows = std::map<std::string, const RowTally*>;
 
-// Reads one store alone. The problems are those of Store::read, and not_as_stored if `known` is
-// given and the store does not hold exactly these rows.
+// Reads one store alone. Fails as Store::read does; the kind is not_as_stored if `known` is given
+// and the store does not hold exactly these rows.
 Expected<RunFindings> read_one_store(const std::filesystem::path& file,
                                      const RowTally* known = nullptr);
 
 // Reads merged.sqlite if there is one, else every shard-*.sqlite, and checks.sqlite. O(trials).
 //
-// Problems besides those of Store::read: no_run if there is nothing; another_run and contradiction
-// if two files do not belong together; wrong_shards; stale_merge; damaged_store, also for a trial
-// that its shard does not plan; not_as_stored if `known` is not empty and the folder does not hold
-// exactly these stores, each with exactly its rows.
+// Refuses, besides what Store::read refuses: a folder without a run; two files that do not belong
+// together; a shard that is there twice, or of another number of shards; a merged store beside
+// which a shard holds more; a trial that its shard does not plan. The kind is not_as_stored if
+// `known` is not empty and the folder does not hold exactly these stores, each with exactly its
+// rows.
 Expected<RunFindings> read_findings(const std::filesystem::path& folder,
                                     const KnownRows& known = {});
 

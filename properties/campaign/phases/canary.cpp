@@ -25,8 +25,7 @@ Canary meet_canary(const CampaignRequest& request) {
     const auto made = make_case(
         family, fmt::format("{}:{}.canary:{}:{}", request.plan.name, request.seed, family.name, i));
     const auto run = worker.run(made.c, {&configuration, 1});
-    if (run[0].end == RunEnd::not_run)
-      throw StoreProblem(ProblemKind::cannot_start, run[0].explanation);
+    if (run[0].end == RunEnd::not_run) throw StoreProblem(run[0].explanation);
     const auto verdict = judge_trial(made.c, judge_case(made.c), run[0], configuration, detector);
     // A worker that dies does not show that a defect was seen.
     if (run[0].end != RunEnd::completed || verdict.outcome != Outcome::defect) continue;

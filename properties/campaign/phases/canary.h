@@ -8,7 +8,7 @@
 namespace assay::properties {
 
 // Runs random cases of all families in turn, 400 at most, until the planted fault shows. Throws
-// StoreProblem (cannot_start) if there is no worker.
+// StoreProblem if there is no worker.
 Canary meet_canary(const CampaignRequest& request);
 
 }  // namespace assay::properties

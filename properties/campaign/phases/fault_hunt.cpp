@@ -77,7 +77,7 @@ class Hunt {
       if (result.fault->curated.empty()) continue;
       const auto c =
           corpus::read_case(hunt_.curated / (std::string(result.fault->curated) + ".json"));
-      if (!c) throw StoreProblem(ProblemKind::cannot_read, c.error().message);
+      if (!c) throw StoreProblem(c.error().message);
       result.proof.curated =
           failure_of_fault(*result.fault, c.value(), judge_case(c.value())).has_value();
     }

@@ -174,10 +174,10 @@ Expected<void> keeps_isolation(const CampaignRequest& request, const Store& stor
     for (const auto& row : store.evidence()) facts.take(row);
     for (const auto& before : facts.isolation) {
       if (covers(request.isolated, isolation_of(before.got))) continue;
-      throw StoreProblem(ProblemKind::not_isolated,
-                         fmt::format("this run began with isolation {}, and would go on with {}: "
-                                     "ask for no less, or for another --out",
-                                     before.got, text_of(request.isolated)));
+      throw StoreProblem(
+          fmt::format("this run began with isolation {}, and would go on with {}: "
+                      "ask for no less, or for another --out",
+                      before.got, text_of(request.isolated)));
     }
   });
 }

@@ -36,8 +36,8 @@ class CampaignObserver {
   virtual void on_world(const std::string& /*world*/) {}
 };
 
-// Whether the run may go on as it is asked for: not_isolated if the store holds trials of a plug-in
-// that was better isolated than it is now.
+// Whether the run may go on as it is asked for: not if the store holds trials of a plug-in that was
+// better isolated than it is now.
 Expected<void> keeps_isolation(const CampaignRequest& request, const Store& store);
 
 // Does what the store does not hold yet: the trials, the shrinking of what failed, and the planted
@@ -47,8 +47,7 @@ Expected<void> keeps_isolation(const CampaignRequest& request, const Store& stor
 // farther stays. Faults and worlds are shared out among the shards by their place in the list.
 // `corpus` is the folder of the curated cases.
 //
-// What is stored stays, whatever happens. The problems are cannot_write, damaged_store and so on,
-// if the store cannot be read or written any more.
+// What is stored stays, whatever happens. Fails if the store cannot be read or written any more.
 Expected<void> run_campaign(const CampaignRequest& request, const std::filesystem::path& corpus,
                             Store& store, CampaignObserver& observer);
 

@@ -236,7 +236,7 @@ class Repetitions {
       workers_.emplace_back(request_.worker, request_.plugin, limits);
     }
     auto run = std::move(workers_[process].run(c, {&configuration(), 1}).front());
-    if (run.end == RunEnd::not_run) throw StoreProblem(ProblemKind::cannot_start, run.explanation);
+    if (run.end == RunEnd::not_run) throw StoreProblem(run.explanation);
     return run;
   }
 

@@ -22,8 +22,7 @@ Judge judge_of_detector(const DetectorUnderTest& detector, const Configuration& 
     const bool vouched = configuration.options.start == detector::Start::clean;
     if (detector.built_in && vouched && !starts_clean(c)) return std::nullopt;
     const auto run = worker.run(*seen, {&configuration, 1});
-    if (run[0].end == RunEnd::not_run)
-      throw StoreProblem(ProblemKind::cannot_start, run[0].explanation);
+    if (run[0].end == RunEnd::not_run) throw StoreProblem(run[0].explanation);
     const auto verdict =
         judge_trial(*seen, judge_case(*seen, detector.contract), run[0], configuration, detector);
     if (!verdict.failure) return std::nullopt;

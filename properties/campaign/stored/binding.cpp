@@ -76,16 +76,15 @@ Json json_of(const BoundDigests& digests) { return digests; }
 
 Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file) try {
   const auto read = corpus::parse_sorted_json(text, file);
-  if (!read) return Problem{ProblemKind::damaged_store, read.error().message};
+  if (!read) return Problem{read.error().message};
   const Json& json = read.value();
   auto plan = parse_plan(corpus::json_text(json.at("campaign")), file);
-  if (!plan) return Problem{ProblemKind::damaged_store, plan.error().message};
+  if (!plan) return Problem{plan.error().message};
   auto run = json.get<BoundRun>();
   run.plan = std::move(plan.value());
   return run;
 } catch (const Json::exception& wrong) {
-  return Problem{ProblemKind::damaged_store,
-                 fmt::format("{}: not the store of a run: {}", file.string(), wrong.what())};
+  return Problem{fmt::format("{}: not the store of a run: {}", file.string(), wrong.what())};
 }
 
 std::string generator_digest() {

@@ -50,8 +50,7 @@ struct BoundRun {
 nlohmann::json json_of(const BoundDetector& detector);
 nlohmann::json json_of(const BoundDigests& digests);
 
-// Reads a binding. damaged_store if the text is no binding of this schema; `file` is named in the
-// problem.
+// Reads a binding. Fails if the text is no binding of this schema; the problem names `file`.
 Expected<BoundRun> read_binding(const std::string& text, const std::filesystem::path& file);
 
 // The same binding for another shard; nothing if the text is no binding.

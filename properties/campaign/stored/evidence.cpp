@@ -60,8 +60,7 @@ void from_json(const nlohmann::json& j, FaultStatus& status) {
   for (const auto one : {FaultStatus::planted, FaultStatus::open, FaultStatus::equivalent}) {
     if (j == name_of(one)) return void(status = one);
   }
-  throw StoreProblem(ProblemKind::damaged_store,
-                     fmt::format("no status of a fault: {}", corpus::json_text(j)));
+  throw StoreProblem(fmt::format("no status of a fault: {}", corpus::json_text(j)));
 }
 
 namespace {
@@ -89,9 +88,7 @@ Evidence row(const char* kind, const std::string& name, const std::string& shard
 template <class T>
 T told(const Evidence& row, T facts = {}) {
   const auto read = corpus::parse_sorted_json(row.facts, row.name);
-  if (!read)
-    throw StoreProblem(ProblemKind::damaged_store,
-                       fmt::format("evidence {} {}", row.kind, read.error().message));
+  if (!read) throw StoreProblem(fmt::format("evidence {} {}", row.kind, read.error().message));
   read.value().get_to(facts);
   return facts;
 }
@@ -206,12 +203,10 @@ void EvidenceFacts::take(const Evidence& r) try {
     speed.push_back(told<SpeedFigure>(r));
     speed.back().name = r.name;
   } else {
-    throw StoreProblem(ProblemKind::damaged_store,
-                       fmt::format("no run stores evidence {} {}", r.kind, r.name));
+    throw StoreProblem(fmt::format("no run stores evidence {} {}", r.kind, r.name));
   }
 } catch (const nlohmann::json::exception& wrong) {
-  throw StoreProblem(ProblemKind::damaged_store,
-                     fmt::format("evidence {} {}: {}", r.kind, r.name, wrong.what()));
+  throw StoreProblem(fmt::format("evidence {} {}: {}", r.kind, r.name, wrong.what()));
 }
 
 void drop(Store& store, DroppedKind kind) {

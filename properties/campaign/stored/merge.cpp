@@ -63,8 +63,7 @@ void join(const Database& from, const Database& into, const JoinedTable& joined)
     if (put_row(into, table, row, joined.on_conflict)) return;
     std::string key = row[0];
     for (std::size_t c = 1; c < table.key_columns; ++c) key += ", " + row[c];
-    throw StoreProblem(ProblemKind::contradiction,
-                       fmt::format("{}: {} {} differs from that of another store", from.file(),
+    throw StoreProblem(fmt::format("{}: {} {} differs from that of another store", from.file(),
                                    joined.row_name, key));
   });
 }
@@ -122,8 +121,7 @@ class Merge {
     const auto store = value_or_throw(Store::read(file));
     const auto binding = with_shard(store.binding(), merged_shard);
     if (!binding) {
-      throw StoreProblem(ProblemKind::damaged_store,
-                         fmt::format("{}: not the store of a shard", file.string()));
+      throw StoreProblem(fmt::format("{}: not the store of a shard", file.string()));
     }
     if (!binding_) {
       binding_ = binding;
@@ -132,8 +130,7 @@ class Merge {
     }
     const std::string difference = difference_of(*binding_, *binding);
     if (!difference.empty()) {
-      throw StoreProblem(ProblemKind::another_run,
-                         fmt::format("{} and {} are of different runs: {}", first_.string(),
+      throw StoreProblem(fmt::format("{} and {} are of different runs: {}", first_.string(),
                                      file.string(), difference));
     }
   }
@@ -189,8 +186,7 @@ Expected<void> merge_stores(std::span<const std::filesystem::path> stores,
     std::error_code error;
     std::filesystem::rename(parts.whole, out, error);
     if (error)
-      throw StoreProblem(ProblemKind::cannot_write,
-                         fmt::format("{}: cannot be written: {}", out.string(), error.message()));
+      throw StoreProblem(fmt::format("{}: cannot be written: {}", out.string(), error.message()));
   });
 }
 

@@ -16,14 +16,14 @@ namespace assay::properties {
 // value is taken of a trial's times and of shrunk meshes, and of evidence the one with more
 // progress. Such rows get a new hash; all others keep theirs.
 //
-// If there is a problem, nothing is written:
-// - another_run: two stores belong to different runs (plan, seed, detector, digests: all of the
-//   binding but the shard).
-// - contradiction: one trial has two outcomes, one failure two meshes, or one piece of evidence
-//   two results at equal progress.
-// - changed_row: names the first row that does not fit its hash.
-// - busy: another merge is writing into the same folder.
-// - cannot_write, and the problems of Store::read.
+// If there is a problem, nothing is written. It is one:
+// - if two stores belong to different runs (plan, seed, detector, digests: all of the binding but
+//   the shard).
+// - if one trial has two outcomes, one failure two meshes, or one piece of evidence two results at
+//   equal progress.
+// - if a row does not fit its hash. The first one is named.
+// - if another merge is writing into the same folder, or the result cannot be written.
+// - if Store::read fails.
 Expected<void> merge_stores(std::span<const std::filesystem::path> stores,
                             const std::filesystem::path& out);
 

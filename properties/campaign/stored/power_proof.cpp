@@ -45,12 +45,10 @@ Expected<PowerProof> take_power(const std::filesystem::path& folder,
                                 const std::filesystem::path& out, const CampaignRequest& request) {
   if (request.plan.fault_cases == 0) {
     return Problem{
-        ProblemKind::no_proof_needed,
         fmt::format("campaign {} plants no faults: no proof of them is needed", request.plan.name)};
   }
   if (is_below(folder, out)) {
-    return Problem{ProblemKind::proof_in_the_way,
-                   fmt::format("{}: a proof must lie outside of the folder that the run writes",
+    return Problem{fmt::format("{}: a proof must lie outside of the folder that the run writes",
                                folder.string())};
   }
   const auto read = read_findings(folder);
@@ -59,12 +57,10 @@ Expected<PowerProof> take_power(const std::filesystem::path& folder,
   const auto build = read_binding(binding_of(request), folder);
   if (!build) return build.error();
   if (!is_of_build(findings, build.value())) {
-    return Problem{ProblemKind::another_build,
-                   fmt::format("{}: the run is of another build of assay", folder.string())};
+    return Problem{fmt::format("{}: the run is of another build of assay", folder.string())};
   }
   const auto lack = lack_of(findings, build.value(), request.plan);
-  if (!lack.empty())
-    return Problem{ProblemKind::weak_proof, fmt::format("{}: the run {}", folder.string(), lack)};
+  if (!lack.empty()) return Problem{fmt::format("{}: the run {}", folder.string(), lack)};
   const auto& run = findings.run;
   PowerProof proof{{run.plan.name, run.detector.name, run.seed, run.digests.program.value_or(""),
                     run.digests.worker.value_or(""), run.digests.generator, findings.rows},

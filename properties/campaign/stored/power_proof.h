@@ -10,10 +10,10 @@
 
 namespace assay::properties {
 
-// The proof in `folder` for the request. Problems: no_proof_needed if its plan plants no faults;
-// proof_in_the_way if the folder is `out` or lies below it; another_build if the digests of
-// program, worker or generator differ; weak_proof if that run did not find every planted fault
-// itself, or gave a fault fewer cases or seeds than the plan asks for; and those of read_findings.
+// The proof in `folder` for the request. Fails if its plan plants no faults, if the folder is `out`
+// or lies below it, if the digests of program, worker or generator differ, if that run did not find
+// every planted fault itself, or gave a fault fewer cases or seeds than the plan asks for, and
+// where read_findings fails.
 //
 // REQUIRES that no code of a plug-in has run in this process's workers yet, so that whatever it
 // could write to has been read before.

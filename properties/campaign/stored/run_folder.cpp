@@ -27,11 +27,8 @@ Expected<std::vector<std::filesystem::path>> stored_shards(const std::filesystem
     const bool is_shard = name.starts_with("shard-") && name.ends_with(".sqlite");
     if (is_shard || name == merged_file("").filename()) stores.push_back(file.path());
   }
-  if (error)
-    return Problem{ProblemKind::cannot_read,
-                   fmt::format("{}: {}", folder.string(), error.message())};
-  if (stores.empty())
-    return Problem{ProblemKind::no_run, fmt::format("{}: no run is stored here", folder.string())};
+  if (error) return Problem{fmt::format("{}: {}", folder.string(), error.message())};
+  if (stores.empty()) return Problem{fmt::format("{}: no run is stored here", folder.string())};
   std::sort(stores.begin(), stores.end());
   return stores;
 }
@@ -41,8 +38,7 @@ Expected<WholeShard> make_whole(const std::filesystem::path& file, const Campaig
     const std::string binding = value_or_throw(Store::read(file)).binding();
     const auto difference = difference_of(binding, binding_of(request));
     if (!difference.empty()) {
-      throw StoreProblem(ProblemKind::another_run,
-                         fmt::format("{}: of another run: {}", file.string(), difference));
+      throw StoreProblem(fmt::format("{}: of another run: {}", file.string(), difference));
     }
     // The store is opened for writing, because nobody else may hold the file when it is sealed.
     Store store = value_or_throw(Store::open(file, binding));

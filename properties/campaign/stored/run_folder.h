@@ -29,7 +29,7 @@ inline std::filesystem::path certificate_file(const std::filesystem::path& out) 
 }
 
 // The stores of trials in a folder, in the order of their names: those of shards, and a merged
-// one. no_run if there are none, cannot_read if the folder cannot be listed.
+// one. Fails if there are none, or if the folder cannot be listed.
 Expected<std::vector<std::filesystem::path>> stored_shards(const std::filesystem::path& folder);
 
 // A shard's store as a certificate takes it.
@@ -38,8 +38,8 @@ struct WholeShard {
   KeptFailures failures;
   RowTally rows;  // all rows, as they were when the store was made whole
 };
-// Checks every row of the store and seals its file. another_run if it belongs to another run than
-// the request, its shard aside; else the problems of Store::read and Store::open.
+// Checks every row of the store and seals its file. Fails if it belongs to another run than the
+// request, its shard aside, and where Store::read and Store::open fail.
 Expected<WholeShard> make_whole(const std::filesystem::path& file, const CampaignRequest& request);
 
 // Stores the path of a plug-in's library, as it was named to the run, and finds it again (nothing

@@ -35,9 +35,8 @@ std::optional<std::string> other_schema(const std::string& binding) {
 }
 
 StoreProblem refused_schema(const std::filesystem::path& file, const std::string& schema) {
-  return {ProblemKind::other_schema, fmt::format("{}: is of schema {}, this assay reads {}: run it "
-                                                 "again",
-                                                 file.string(), schema, store_schema)};
+  return StoreProblem(fmt::format("{}: is of schema {}, this assay reads {}: run it again",
+                                  file.string(), schema, store_schema));
 }
 
 FileLock lock_of_store(const std::filesystem::path& file) {
@@ -109,15 +108,14 @@ Store::~Store() = default;
 Expected<Store> Store::read(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
-    return Problem{ProblemKind::not_found, fmt::format("{}: no such file", file.string())};
+    return Problem{fmt::format("{}: no such file", file.string())};
   return catch_store_problem([&] {
     auto parts = std::make_unique<Parts>(file, Database::Mode::read);
     // The transaction shows one state of the file until the store is closed.
     parts->db.run("BEGIN");
     const auto binding = unchecked_binding(parts->db);
     if (!binding) {
-      throw StoreProblem(ProblemKind::foreign_file,
-                         fmt::format("{}: not the store of a run", file.string()));
+      throw StoreProblem(fmt::format("{}: not the store of a run", file.string()));
     }
     if (const auto older = other_schema(*binding)) throw refused_schema(file, *older);
     parts->db.check_whole();
@@ -136,8 +134,7 @@ Expected<Store> Store::open(const std::filesystem::path& file, const std::string
     const auto bound = unchecked_binding(parts->db);
     if (bound && *bound != binding) {
       if (const auto older = other_schema(*bound)) throw refused_schema(file, *older);
-      throw StoreProblem(ProblemKind::another_run,
-                         fmt::format("{}: holds another run: {}; give another folder",
+      throw StoreProblem(fmt::format("{}: holds another run: {}; give another folder",
                                      file.string(), difference_of(*bound, binding)));
     }
     check_tables(parts->db, true);

@@ -75,14 +75,13 @@ struct Evidence {
 class Store {
  public:
   // Opens the file for writing, or makes it. `binding` says what the trials are of (plan, seed,
-  // shard, detector). Costs O(rows), about 2 us each, because every row is checked. Problems:
-  // another_run if the file was made for another binding, busy if another process has it open for
-  // writing, and foreign_file, other_schema, damaged_store, changed_row, cannot_read,
-  // cannot_write.
+  // shard, detector). Costs O(rows), about 2 us each, because every row is checked. Fails if
+  // the file was made for another binding, if another process has it open for writing, if it is no
+  // store of this schema, if it is damaged or a row was changed, and if it cannot be written.
   static Expected<Store> open(const std::filesystem::path& file, const std::string& binding);
   // Opens an existing file, whatever run it was made for, without writing to it. All reads see one
-  // state of the file, even while another process adds to it. Problems: not_found, foreign_file,
-  // other_schema, damaged_store, cannot_read, and changed_row when its rows are read.
+  // state of the file, even while another process adds to it. Fails if there is no such file,
+  // if it is no store of this schema or damaged, and, when its rows are read, if one was changed.
   static Expected<Store> read(const std::filesystem::path& file);
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
@@ -96,8 +95,8 @@ class Store {
   // All rows that were there when the store was opened, and all that it has written since.
   // REQUIRES a store that was opened for writing.
   const RowTally& known_rows() const;
-  // Fails with not_as_stored if any row differs from `known`, is missing, or is not in `known`.
-  // O(rows).
+  // Fails, with the kind not_as_stored, if any row differs from `known`, is missing, or is not in
+  // `known`. O(rows).
   Expected<void> check_against(const RowTally& known) const;
 
   std::string binding() const;

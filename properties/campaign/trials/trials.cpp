@@ -131,7 +131,7 @@ class Trials {
       end_.problem = failure.problem();
     } catch (const std::bad_alloc&) {
       const std::lock_guard lock(mutex_);
-      end_.problem = Problem{ProblemKind::out_of_memory, "not enough memory for a trial"};
+      end_.problem = Problem{"not enough memory for a trial"};
     } catch (const std::exception& failure) {
       const std::lock_guard lock(mutex_);
       end_.harness_problem = failure.what();
@@ -237,8 +237,7 @@ class Trials {
                            WorkerProcess& worker) const {
     auto runs = worker.run(trial.seen, configurations);
     for (const auto& one : runs) {
-      if (one.end == RunEnd::not_run)
-        throw StoreProblem(ProblemKind::cannot_start, one.explanation);
+      if (one.end == RunEnd::not_run) throw StoreProblem(one.explanation);
       trial.record.disturbed += one.disturbances;
       trial.record.slowest_us = std::max(trial.record.slowest_us,
                                          static_cast<std::uint64_t>(1e6 * one.processor_seconds));

@@ -29,9 +29,7 @@ bool may_hold_programs(const fs::path& folder) {
   return ::statvfs(folder.c_str(), &seen) == 0 && (seen.f_flag & ST_NOEXEC) == 0;
 }
 
-corpus::Problem no_file(const std::string& reason) {
-  return {corpus::FileProblem::cannot_open, reason};
-}
+corpus::Problem no_file(const std::string& reason) { return {reason}; }
 
 }  // namespace
 
@@ -111,8 +109,7 @@ Expected<void> JudgedLibrary::is_as_it_was() const {
   for (const auto& file : files_) {
     const auto now = corpus::sha256_of_file(file.original);
     if (file.digest.empty() || (now && now.value() == file.digest)) continue;
-    return Problem{ProblemKind::another_build,
-                   fmt::format("{}: it changed while it was judged; start again in another folder",
+    return Problem{fmt::format("{}: it changed while it was judged; start again in another folder",
                                file.original.string())};
   }
   return boost::outcome_v2::success();

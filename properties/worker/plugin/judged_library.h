@@ -41,12 +41,12 @@ class JudgedLibrary {
 
   // SHA-256 of the library's bytes. If it needs libraries outside of the system's folders
   // (needed_files), or is a detector in Python, SHA-256 of the digests of all of these files.
-  // cannot_open, with the reason, if one of them cannot be read.
+  // Fails, with the reason, if one of them cannot be read.
   const corpus::Expected<std::string>& digest() const { return digest_; }
 
   // A worker has loaded the originals, because it has no world of its own.
   void note_loaded_in_place() const { is_loaded_in_place_ = true; }
-  // The problem is another_build if originals were loaded and one of them is not what it was.
+  // Fails if originals were loaded and one of them is not what it was.
   Expected<void> is_as_it_was() const;
 
  private:

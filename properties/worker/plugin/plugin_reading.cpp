@@ -19,9 +19,7 @@ constexpr std::uint32_t first_version = 1;
 constexpr std::size_t first_table_bytes = offsetof(assay_detector_api, use_threads);
 constexpr std::size_t first_description_bytes = offsetof(assay_description, start);
 
-Problem broken(std::string explanation) {
-  return {ProblemKind::broken_plugin, std::move(explanation)};
-}
+Problem broken(std::string explanation) { return {std::move(explanation)}; }
 
 std::string gap_in(const assay_detector_api& table) {
   if (!table.describe) return "a function is missing in its table: describe";
@@ -91,15 +89,12 @@ std::string text_of_code(const assay_detector_api& table, const char* function, 
 }
 
 Expected<assay_detector_api> read_table(const assay_detector_api* api) {
-  if (!api)
-    return Problem{ProblemKind::not_a_plugin,
-                   "not a detector plug-in: assay_detector() returns nothing"};
+  if (!api) return Problem{"not a detector plug-in: assay_detector() returns nothing"};
   const std::uint32_t version = api->abi_version;
   if (version < first_version || version > ASSAY_DETECTOR_ABI_VERSION) {
-    return Problem{ProblemKind::other_abi_version,
-                   "built for ABI version " + std::to_string(version) + ", this program takes " +
-                       std::to_string(first_version) + " to " +
-                       std::to_string(ASSAY_DETECTOR_ABI_VERSION)};
+    return Problem{"built for ABI version " + std::to_string(version) + ", this program takes " +
+                   std::to_string(first_version) + " to " +
+                   std::to_string(ASSAY_DETECTOR_ABI_VERSION)};
   }
   assay_detector_api table = {};
   std::memcpy(&table, api, version == first_version ? first_table_bytes : sizeof table);
@@ -213,15 +208,14 @@ std::string read_result(const assay_result& raw, std::int32_t triangle_count,
 Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
                                            bool reports_pairs) {
   if (raw.answer == ASSAY_ERROR) {
-    return Problem{ProblemKind::step_failed,
-                   raw.message && *raw.message ? raw.message : "an error without a message"};
+    return Problem{raw.message && *raw.message ? raw.message : "an error without a message"};
   }
   if (!reports_pairs && raw.pair_count > 0) {
-    return Problem{ProblemKind::broken_result, "gives pairs, and says that it reports none"};
+    return Problem{"gives pairs, and says that it reports none"};
   }
   detector::StepResult result;
   std::string broken = read_result(raw, triangle_count, result);
-  if (!broken.empty()) return Problem{ProblemKind::broken_result, std::move(broken)};
+  if (!broken.empty()) return Problem{std::move(broken)};
   return result;
 }
 
@@ -239,9 +233,7 @@ QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw) {
 
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
                                                               std::int32_t triangle_count) {
-  const auto broken = [](std::string explanation) {
-    return Problem{ProblemKind::broken_result, std::move(explanation)};
-  };
+  const auto broken = [](std::string explanation) { return Problem{std::move(explanation)}; };
   if (raw.pair_count > 0 && !raw.pairs) return broken("candidates are counted but not given");
   std::vector<detector::TrianglePair> pairs;
   for (std::uint64_t i = 0; i < raw.pair_count; ++i) {

@@ -22,17 +22,17 @@ std::string text_of_error(const assay_detector_api& table);
 std::string text_of_code(const assay_detector_api& table, const char* function, std::int32_t code);
 
 // The table as one of this host's version; functions that an older version does not have are NULL.
-// The problems are not_a_plugin, other_abi_version, and broken_plugin if there is a gap. They do
-// not name the library.
+// Refuses NULL, another version of the interface, and a table with a gap; the problem does not name
+// the library.
 Expected<assay_detector_api> read_table(const assay_detector_api* api);
 
-// The plug-in's description; broken_plugin if it makes no sense. The problem does not name the
+// The plug-in's description. Refuses one that makes no sense; the problem does not name the
 // library.
 Expected<PluginDescription> read_description(const assay_detector_api& table);
 
 // The result of a step. Its pairs are a < b, ascending, each once with its least time ([0, 1] if
-// none is stated). broken_result if it breaks the header's rules; step_failed, with the plug-in's
-// own words, if it says that the step has no answer. If `reports_pairs` is false, because the
+// none is stated). Fails if it breaks the header's rules, and, with the plug-in's own words, if it
+// says that the step has no answer. If `reports_pairs` is false, because the
 // contract says that the plug-in reports none, pairs break the rules.
 Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
                                            bool reports_pairs = true);
@@ -41,7 +41,7 @@ Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t
 // there is no answer, undecided if memory failed.
 QueryAnswer query_answer(std::int32_t code, const assay_query_result& raw);
 
-// The candidate pairs a < b, ascending, each once; broken_result if an index is none of a
+// The candidate pairs a < b, ascending, each once. Fails if an index is none of a
 // triangle.
 Expected<std::vector<detector::TrianglePair>> candidate_pairs(const assay_candidates& raw,
                                                               std::int32_t triangle_count);

@@ -77,8 +77,11 @@ TEST_F(DamagedFile, Compressed) {
 TEST_F(DamagedFile, CutPlyIsNamedTruncated) {
   const std::string good = bytes_written("good.ply");
   for (std::size_t size = 4; size < good.size(); ++size) {
-    EXPECT_EQ(read_ply(good.substr(0, size), "cut.ply").error().kind, FileProblem::truncated)
-        << size;
+    const Problem problem = read_ply(good.substr(0, size), "cut.ply").error();
+    const auto says_so = [&](std::string_view words) { return bool(says(problem, words)); };
+    EXPECT_TRUE(says_so("no end_header") || says_so("not fit into the rest") ||
+                says_so("the file ends before"))
+        << size << ": " << problem.message;
   }
 }
 

@@ -202,22 +202,17 @@ TEST(Plugins, FastMathIsFoundOutAndStaysInTheWorker) {
 TEST(Plugins, WhatIsNoPlugInIsRefusedInOneLine) {
   struct Refused {
     std::string library;
-    ProblemKind kind;
     std::string why;
   };
   const std::vector<Refused> refused = {
-      {plugin("nowhere"), ProblemKind::not_found, "no such file"},
-      {std::string(ASSAY_SOURCE_DIR) + "/README.md", ProblemKind::not_a_plugin,
-       "not a detector plug-in"},
-      {plugin("without_entry"), ProblemKind::not_a_plugin, "it exports no assay_detector()"},
-      {plugin("wrong_abi"), ProblemKind::other_abi_version,
-       "built for ABI version 99, this program takes 1 to 2"}};
-  for (const auto& [library, kind, why] : refused) {
+      {plugin("nowhere"), "no such file"},
+      {std::string(ASSAY_SOURCE_DIR) + "/README.md", "not a detector plug-in"},
+      {plugin("without_entry"), "it exports no assay_detector()"},
+      {plugin("wrong_abi"), "built for ABI version 99, this program takes 1 to 2"}};
+  for (const auto& [library, why] : refused) {
     WorkerProcess worker(ASSAY_WORKER, library);
     const auto description = worker.describe();
     ASSERT_FALSE(description) << library;
-    // The kind comes from the worker's own process.
-    EXPECT_EQ(name_of(description.error().kind), name_of(kind));
     const std::string& message = description.error().message;
     EXPECT_EQ(message.find(library), 0u) << message;
     EXPECT_NE(message.find(why), std::string::npos) << message;
