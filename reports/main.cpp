@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "oracle/out_of_memory.h"
+#include "oracle/libraries.h"
 #include "properties/words.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/version.h"

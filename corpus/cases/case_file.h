@@ -18,6 +18,8 @@
 
 namespace assay::corpus {
 
+inline constexpr std::string_view case_schema = "assay-case/1";
+
 // A view primitive: one place for each frame, linear in between. q1 is empty for a view-point.
 struct CaseView {
   std::vector<detector::Point> q0, q1;

@@ -7,10 +7,7 @@
 #include <string>
 
 #include "corpus/file_bytes.h"
-#include "corpus/formats/obj_reader.h"
-#include "corpus/formats/off_reader.h"
 #include "corpus/formats/ply_header.h"
-#include "corpus/formats/ply_reader.h"
 
 namespace assay::corpus {
 namespace {

@@ -1,5 +1,3 @@
-#include "corpus/formats/obj_reader.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +5,7 @@
 #include <boost/outcome/try.hpp>
 
 #include "corpus/formats/mesh_builder.h"
-#include "corpus/formats/numbers.h"
+#include "corpus/formats/mesh_reader.h"
 #include "corpus/formats/text_lines.h"
 
 namespace assay::corpus {

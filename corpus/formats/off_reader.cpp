@@ -1,11 +1,9 @@
-#include "corpus/formats/off_reader.h"
-
 #include <fmt/format.h>
 
 #include <boost/outcome/try.hpp>
 
 #include "corpus/formats/mesh_builder.h"
-#include "corpus/formats/numbers.h"
+#include "corpus/formats/mesh_reader.h"
 #include "corpus/formats/text_lines.h"
 
 namespace assay::corpus {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <boost/outcome/try.hpp>
 
-#include "corpus/formats/numbers.h"
 #include "corpus/formats/text_lines.h"
 
 namespace assay::corpus {

@@ -9,7 +9,6 @@
 
 #include "corpus/scenes/box_with_arm.h"
 #include "corpus/scenes/deformations.h"
-#include "corpus/scenes/passages.h"
 #include "corpus/scenes/shapes.h"
 #include "corpus/scenes/trigonometry.h"
 

@@ -1,9 +1,7 @@
-#include "oracle/query/interval_rung.h"
-
 #include <CGAL/Interval_nt.h>
 
 #include "oracle/query/interval_sign.h"
-#include "oracle/query/scaled_bernstein.h"
+#include "oracle/query/rungs.h"
 
 namespace assay::oracle {
 

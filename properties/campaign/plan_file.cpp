@@ -5,7 +5,6 @@
 
 #include "corpus/file_bytes.h"
 #include "corpus/json_fields.h"
-#include "corpus/json_text.h"
 #include "detector/mesh/problem.h"
 #include "properties/campaign/plan.h"
 #include "properties/queries/query_families.h"

@@ -9,7 +9,7 @@
 #include "corpus/digest.h"
 #include "corpus/file_bytes.h"
 #include "corpus/json_fields.h"
-#include "corpus/json_text.h"
+#include "corpus/json_fields.h"
 
 namespace assay::reports {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "corpus/digest.h"
-#include "corpus/json_text.h"
+#include "corpus/json_fields.h"
 #include "properties/campaign/gates/not_judged.h"
 #include "properties/campaign/gates/read_findings.h"
 #include "properties/campaign/stored/run_folder.h"

@@ -9,7 +9,7 @@
 
 #include "corpus/digest.h"
 #include "corpus/file_bytes.h"
-#include "corpus/json_text.h"
+#include "corpus/json_fields.h"
 #include "properties/campaign/gates/statistics.h"
 #include "properties/campaign/stored/run_folder.h"
 #include "reports/certificate/junit.h"

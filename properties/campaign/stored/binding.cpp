@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "corpus/digest.h"
-#include "corpus/json_text.h"
+#include "corpus/json_fields.h"
 #include "properties/campaign/stored/contract_json.h"
 #include "properties/campaign/stored/json_optional.h"
 #include "properties/campaign/stored/store.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "corpus/json_text.h"
+#include "corpus/json_fields.h"
 #include "properties/campaign/stored/json_optional.h"
 
 namespace assay::properties {

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "corpus/cases/case_file.h"
-#include "corpus/json_text.h"
+#include "corpus/json_fields.h"
 #include "properties/campaign/database/file_lock.h"
 #include "properties/campaign/stored/binding.h"
 #include "properties/campaign/stored/row_of.h"

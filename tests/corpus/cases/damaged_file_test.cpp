@@ -1,10 +1,8 @@
 // Cuts and flips: whatever the bytes, a reader answers; it never crashes and never asks for memory
 // that the file's size does not warrant. Worth running under sanitizers.
 #include "corpus/cases/case_file.h"
+#include "corpus/formats/mesh_reader.h"
 #include "corpus/formats/mesh_writer.h"
-#include "corpus/formats/obj_reader.h"
-#include "corpus/formats/off_reader.h"
-#include "corpus/formats/ply_reader.h"
 #include "corpus/queries/query_csv.h"
 #include "tests/corpus/scratch.h"
 

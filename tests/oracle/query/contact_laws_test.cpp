@@ -3,12 +3,9 @@
 
 #include <cstdio>
 
-#include "oracle/query/algebraic_answer.h"
-#include "oracle/query/axis_rung.h"
 #include "oracle/query/contact.h"
-#include "oracle/query/interval_rung.h"
-#include "oracle/query/quadratic_rung.h"
-#include "oracle/query/times/simple_zero.h"
+#include "oracle/query/rungs.h"
+#include "oracle/query/times/time_enclosure.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

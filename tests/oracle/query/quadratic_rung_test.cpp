@@ -1,12 +1,10 @@
 // The rung "quadratic": queries with known times, and random queries beside the algebraic kernel.
-#include "oracle/query/quadratic_rung.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "oracle/query/algebraic_answer.h"
+#include "oracle/query/rungs.h"
 #include "tests/oracle/random_points.h"
 
 namespace assay::oracle {

@@ -1,12 +1,10 @@
-#include "oracle/query/times/simple_zero.h"
+#include "oracle/query/times/time_enclosure.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-
-#include "oracle/query/times/time_enclosure.h"
 
 namespace assay::oracle {
 

@@ -1,6 +1,8 @@
-#include "oracle/out_of_memory.h"
+#include "oracle/libraries.h"
 
 #include <gmp.h>
+#include <mpfi.h>
+#include <mpfr.h>
 
 #include <cstdlib>
 
@@ -24,6 +26,11 @@ void release(void* memory, std::size_t) { std::free(memory); }
 void end_without_memory(void (*end)()) {
   end_of_process = end;
   mp_set_memory_functions(allocate, reallocate, release);
+}
+
+std::string library_versions() {
+  return std::string("CGAL ") + ASSAY_CGAL_VERSION + ", GMP " + gmp_version + ", MPFR " +
+         mpfr_get_version() + ", MPFI " + mpfi_get_version();
 }
 
 }  // namespace assay::oracle
