@@ -9,7 +9,6 @@
 #include "corpus/digest.h"
 #include "corpus/file_bytes.h"
 #include "corpus/json_fields.h"
-#include "corpus/json_fields.h"
 
 namespace assay::reports {
 
