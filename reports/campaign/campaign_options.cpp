@@ -7,7 +7,7 @@
 #include "properties/campaign/query_plan.h"
 #include "properties/campaign/stored/power_proof.h"
 #include "properties/worker/worker_process.h"
-#include "reports/bench/real_sequences.h"
+#include "reports/bench/cases.h"
 #include "reports/campaign/own_cases.h"
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/complaint.h"

@@ -11,7 +11,7 @@
 #include "properties/reducer/mesh_size.h"
 #include "properties/words.h"
 #include "reports/check/detector_choice.h"
-#include "reports/pictures/scene_maker.h"
+#include "reports/pictures/case_scene.h"
 #include "reports/terminal/words.h"
 
 namespace assay::reports {

@@ -14,7 +14,7 @@
 #include "properties/queries/self_check.h"
 #include "properties/worker/plugin/query_case.h"
 #include "properties/worker/worker_process.h"
-#include "reports/bench/contact_step.h"
+#include "reports/bench/cases.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/timed_step.h"
 #include "reports/campaign/own_cases.h"

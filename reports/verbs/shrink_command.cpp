@@ -7,7 +7,7 @@
 #include "properties/reducer/mesh_size.h"
 #include "properties/worker/plugin/query_case.h"
 #include "reports/check/detector_choice.h"
-#include "reports/pictures/scene_maker.h"
+#include "reports/pictures/case_scene.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 #include "reports/terminal/progress.h"

@@ -11,8 +11,7 @@
 #include "reports/certificate/statement.h"
 #include "reports/pictures/contact_point.h"
 #include "reports/pictures/mesh_svg.h"
-#include "reports/pictures/scene_maker.h"
-#include "reports/pictures/view_set.h"
+#include "reports/pictures/case_scene.h"
 #include "reports/steps/step_json.h"
 
 namespace assay::reports {
