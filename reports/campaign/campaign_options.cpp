@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "properties/campaign/query_plan.h"
-#include "properties/campaign/stored/power_proof.h"
+#include "properties/campaign/phases/power_proof.h"
+#include "properties/campaign/plan.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
 #include "reports/campaign/own_cases.h"

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/binding.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/stored/binding.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/complaint.h"

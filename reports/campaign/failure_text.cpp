@@ -6,7 +6,7 @@
 #include <set>
 
 #include "corpus/atomic_file.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/judging/cause.h"
 #include "properties/reducer/mesh_size.h"
 #include "properties/words.h"

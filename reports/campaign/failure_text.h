@@ -6,7 +6,7 @@
 #include <string>
 
 #include "properties/campaign/gates/findings.h"
-#include "properties/campaign/stored/store.h"
+#include "properties/campaign/ledger/store.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
 

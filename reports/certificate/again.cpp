@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/gates/read_findings.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/worker/plugin/judged_library.h"
 #include "properties/worker/worker_process.h"
 #include "reports/check/detector_choice.h"

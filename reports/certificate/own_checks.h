@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "properties/campaign/ledger/evidence.h"
 #include "properties/campaign/request.h"
-#include "properties/campaign/stored/evidence.h"
 #include "reports/terminal/complaint.h"
 
 namespace assay::reports {

@@ -4,9 +4,9 @@
 
 #include "corpus/digest.h"
 #include "corpus/json_fields.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/campaign/gates/not_judged.h"
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "reports/certificate/sections.h"
 #include "reports/terminal/words.h"
 

@@ -11,7 +11,7 @@
 #include "corpus/file_bytes.h"
 #include "corpus/json_fields.h"
 #include "properties/campaign/gates/statistics.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "reports/certificate/junit.h"
 #include "reports/certificate/statement.h"
 #include "reports/certificate/summary.h"

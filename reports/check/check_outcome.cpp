@@ -97,16 +97,15 @@ Json check_report(const std::vector<std::string>& files, const detector::Topolog
           {"steps", std::move(steps)}};
 }
 
-void ClaimsTally::add(const properties::StepDiff& diff, const detector::StepResult& result,
-                      const oracle::StepJudgement& judgement) {
+void ClaimsTally::add(const properties::StepDiff& diff, const detector::StepResult& result) {
   if (!plugin_) return;
-  properties::count_measures({&diff, 1}, {&result, 1}, {&judgement, 1}, counts_);
-  properties::count_left_out(0, 0, diff.left_out_missed ? 1 : 0, counts_);
+  measures_ += properties::measures_of({&diff, 1}, {&result, 1});
+  measures_.left_out_misses += diff.left_out_missed ? 1 : 0;
 }
 
 void ClaimsTally::tell(CheckOutcome& outcome, std::size_t steps_left_out) const {
   if (!plugin_) return;
-  outcome.measures = properties::measures_in(counts_);
+  outcome.measures = measures_;
   outcome.measures.steps_left_out = steps_left_out;
   std::vector<std::string> claims;
   for (const auto claim : list_of(claims_on_steps(*plugin_))) claims.emplace_back(name_of(claim));

@@ -202,7 +202,7 @@ class CheckRun {
     progress.finish();
     outcome_.defect |= diff.outcome == Outcome::defect;
     outcome_.undecided |= diff.outcome == Outcome::undecided || diff.outcome == Outcome::error;
-    tally_.add(diff, result, oracle.judgement);
+    tally_.add(diff, result);
     say(step_text(s + 1, result, &oracle, shown_work(s)) + told_error);
     if (diff.outcome == Outcome::defect) print_defect(step, diff);
     auto json = json_of(result, &oracle);

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "properties/campaign/query_plan.h"
+#include "properties/campaign/plan.h"
 #include "properties/printable.h"
 #include "properties/worker/worker_process.h"
 #include "reports/terminal/words.h"

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "detector/step_result.h"
-#include "properties/campaign/stored/contract_json.h"
+#include "properties/campaign/ledger/binding.h"
 #include "properties/printable.h"
 #include "reports/check/detector_choice.h"
 #include "reports/check/subject.h"

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "properties/campaign/gates/measure_rates.h"
+#include "properties/campaign/ledger/step_measures.h"
 #include "properties/printable.h"
 #include "properties/words.h"
 #include "properties/worker/plugin/query_case.h"
@@ -96,7 +96,7 @@ Expected<std::vector<JudgedQuery>> QueryDetector::judge(
 }
 
 std::string QueryDetector::text() const {
-  std::string out = fmt::format("{}\n{}\n", measures_head(), measures_row(measures()));
+  std::string out = fmt::format("{}\n{}\n", measures_head(), measures_row(measures_));
   if (left_out_ > 0) out += fmt::format("{} queries are left out by its contract\n", left_out_);
   if (not_asked_ > 0)
     out +=
@@ -132,7 +132,7 @@ nlohmann::ordered_json QueryDetector::to_json() const {
           {"left_out", left_out_},
           {"undecided", undecided_},
           {"not_asked", not_asked_},
-          {"measures", measures_json(measures())},
+          {"measures", measures_json(measures_)},
           {"broken", std::move(broken)},
           {"failures", std::move(failures)}};
 }
@@ -175,7 +175,7 @@ std::vector<JudgedQuery> QueryDetector::judge_some(std::span<const detector::Fou
     const auto truth = properties::judge_case(cases[i], plugin.contract);
     auto verdict = properties::judge_trial(cases[i], truth, runs[i], configuration, plugin,
                                            again.empty() ? nullptr : &again[i]);
-    properties::count_measures(verdict.steps, runs[i].steps, truth, counts_);
+    measures_ += properties::measures_of(verdict.steps, runs[i].steps);
     one.contact = !truth[0].pairs.empty();
     one.first = truth[0].first;
     one.outcome = verdict.outcome;

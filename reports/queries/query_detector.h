@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "detector/mesh/step_types.h"
+#include "properties/campaign/ledger/step_measures.h"
 #include "properties/campaign/request.h"
-#include "properties/campaign/stored/step_measures.h"
 #include "properties/campaign/trials/trial.h"
 #include "properties/worker/worker_process.h"
 #include "reports/terminal/complaint.h"
@@ -69,11 +69,10 @@ class QueryDetector {
   // Asks and judges some queries in one message. If `deterministic` is claimed, the second worker
   // is asked too, in the other order. Runs that did not take place end with RunEnd::not_run.
   std::vector<JudgedQuery> judge_some(std::span<const detector::FourPoints> queries);
-  properties::StepMeasures measures() const { return properties::measures_in(counts_); }
 
   std::unique_ptr<properties::CampaignRequest> request_;
   properties::WorkerProcess worker_, second_;
-  properties::Counts counts_;  // the measures of all queries that were judged
+  properties::StepMeasures measures_;  // of all queries that were judged
   std::uint64_t crashes_ = 0;
   std::uint64_t judged_ = 0, left_out_ = 0, undecided_ = 0, not_asked_ = 0, defects_ = 0;
   std::map<std::string, std::uint64_t> broken_;  // how many queries broke each claim

@@ -12,12 +12,10 @@
 #include <set>
 
 #include "corpus/digest.h"
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/phases/corpus_failures.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/checks.h"
-#include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"
@@ -38,7 +36,6 @@ namespace assay::reports {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using properties::DroppedKind;
 using properties::stored_shards;
 
 constexpr const char* known_failures = ASSAY_CORPUS_DIR "/../known.json";
@@ -124,7 +121,7 @@ class Certification {
 
   Expected<void> store_waivers() {
     const auto today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
-    checks_.drop(DroppedKind::waiver);
+    checks_.drop(properties::StoredWaiver::kind);
     std::set<std::string> signatures;
     for (const auto& file : waiver_files()) {
       const auto waivers = read_waivers(file);
@@ -142,7 +139,7 @@ class Certification {
 
   Expected<void> run_corpus() {
     fmt::print("{}", corpus_heading());
-    checks_.drop(DroppedKind::corpus);
+    checks_.drop(properties::CorpusRow::kind);
     const auto on_row = [&](const properties::CorpusRow& row) {
       fmt::print("{}", corpus_row_text(row));
       std::fflush(stdout);
@@ -229,7 +226,7 @@ class Certification {
   }
 
   void run_self_test() {
-    checks_.drop(DroppedKind::self_test);
+    checks_.drop(properties::SelfTestRow::kind);
     const auto queries = request_.plan.policy.self_test_queries;
     if (queries == 0) return;
     std::uint64_t asked = 0, contradictions = 0;
@@ -244,7 +241,8 @@ class Certification {
   }
 
   void run_speed() {
-    checks_.drop(DroppedKind::times);
+    checks_.drop(properties::SpeedFigure::kind);
+    checks_.drop(properties::Issued::kind);
     fmt::print("\n{:<24} {:>9} {:>19}\n", "speed (a ratio)", "median", "interval");
     measure_speed([&](const properties::SpeedFigure& figure) {
       fmt::print("{:<24} {:>9.4f} {:>19}\n", figure.name, figure.median,

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "corpus/scenes/scenes.h"
-#include "properties/campaign/gates/read_findings.h"
+#include "properties/campaign/gates/findings.h"
 #include "properties/faults/fault.h"
 #include "properties/laws/law.h"
 #include "reports/campaign/failure_text.h"

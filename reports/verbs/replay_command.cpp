@@ -10,7 +10,6 @@
 #include "detector/step_result.h"
 #include "properties/campaign/request.h"
 #include "properties/campaign/trials/case_tally.h"
-#include "properties/campaign/trials/clean_starts.h"
 #include "properties/campaign/trials/planned_case.h"
 #include "properties/judging/case_check.h"
 #include "properties/printable.h"

@@ -1,8 +1,8 @@
 // `assay report` shows runs as one HTML page that works offline.
 #include <fmt/format.h>
 
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "reports/certificate/verify.h"
 #include "reports/page/data/page_file.h"
 #include "reports/page/data/run_json.h"

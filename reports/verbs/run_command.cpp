@@ -1,11 +1,10 @@
 // `assay run` runs one shard of a campaign, and tells what it comes to.
 #include <fmt/format.h>
 
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/phases/corpus_failures.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/run_folder.h"
 #include "reports/campaign/campaign_options.h"
 #include "reports/campaign/campaign_terminal.h"
 #include "reports/campaign/campaign_text.h"

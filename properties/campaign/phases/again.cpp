@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/random.h"
 #include "properties/worker/isolation/scratch_folder.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "properties/campaign/stored/contract_json.h"
+#include "properties/campaign/ledger/binding.h"
 #include "properties/judging/contracted_case.h"
 #include "properties/judging/judged_run.h"
 #include "reports/bench/cases.h"

@@ -6,12 +6,12 @@
 #include <set>
 
 #include "detector/step_result.h"
-#include "properties/campaign/stored/run_folder.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "reports/campaign/failure_text.h"
 #include "reports/certificate/statement.h"
+#include "reports/pictures/case_scene.h"
 #include "reports/pictures/contact_point.h"
 #include "reports/pictures/mesh_svg.h"
-#include "reports/pictures/case_scene.h"
 #include "reports/steps/step_json.h"
 
 namespace assay::reports {

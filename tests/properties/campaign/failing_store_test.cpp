@@ -1,10 +1,9 @@
 // A store that fails in the middle of the work: whoever runs a campaign is told by a value.
 #include <gtest/gtest.h>
 
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/run_folder.h"
 #include "properties/campaign/phases/phases.h"
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/checks.h"
-#include "properties/campaign/stored/run_folder.h"
 #include "tests/problem_words.h"
 #include "tests/properties/campaign/campaign_request.h"
 #include "tests/reports/program.h"

@@ -1,5 +1,5 @@
 // Merging stores: associative, repeatable, and refused where two stores contradict each other.
-#include "properties/campaign/stored/merge.h"
+#include "properties/campaign/ledger/merge.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "properties/campaign/stored/binding.h"
-#include "properties/campaign/stored/store.h"
+#include "properties/campaign/ledger/binding.h"
+#include "properties/campaign/ledger/store.h"
 #include "tests/problem_words.h"
 #include "tests/reports/program.h"
 
@@ -43,7 +43,7 @@ TrialRecord record(std::uint64_t i) {
           4,
           50,
           60,
-          {{"tag:x", i}},
+          {{{"x", i}}, {}, {}, {}},
           ~i};
 }
 
@@ -162,7 +162,7 @@ TEST_F(Merged, JoinWhatMayRightlyDiffer) {
   });
   EXPECT_EQ(store->failures()[0].smallest, "small");
   ASSERT_EQ(store->evidence().size(), 1u);
-  EXPECT_EQ(store->evidence()[0].facts, R"({"more": 1})");
+  EXPECT_EQ(store->evidence()[0].fields, R"({"more": 1})");
 }
 
 TEST_F(Merged, OtherRunsAreRefused) {
@@ -200,7 +200,7 @@ TEST_F(Merged, ContradictionsAreRefused) {
   };
   trial("outcome", [](TrialRecord& r) { r.outcomes = "HH"; });
   trial("steps", [](TrialRecord& r) { r.steps = 3; });
-  trial("counts", [](TrialRecord& r) { r.counts["tag:y"] = 1; });
+  trial("counts", [](TrialRecord& r) { r.counts.tags["y"] = 1; });
   trial("mesh", [](TrialRecord& r) { r.mesh = 1; });
   {
     auto changed = failure(3);
@@ -209,9 +209,9 @@ TEST_F(Merged, ContradictionsAreRefused) {
   }
   expect_refused(scratch / "failure", "failure test:1:broken:3, bvh differs");
   { other("met").add(record(3), {}, {{"bvh", "u"}}); }
-  expect_refused(scratch / "met", "failure test:1:broken:3, bvh differs");
+  expect_refused(scratch / "met", "met test:1:broken:3, bvh differs");
   { other("evidence").set({"canary", "c", "1/3", 1, R"({"found": 3})"}); }
-  expect_refused(scratch / "evidence", "evidence canary, c, 1/3 differs");
+  expect_refused(scratch / "evidence", "canary c, 1/3 differs");
 }
 
 // A merge that is killed leaves its parts; the next one leaves none, whoever made them.

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "properties/campaign/gates/read_findings.h"
-#include "properties/campaign/stored/merge.h"
+#include "properties/campaign/gates/findings.h"
+#include "properties/campaign/ledger/merge.h"
 #include "properties/faults/fault.h"
 #include "reports/page/data/page_file.h"
 #include "reports/page/data/run_json.h"
@@ -230,7 +230,7 @@ void names_of(const Json& json, std::set<std::string>& names) {
 TEST_F(Runs, EveryFieldIsDocumented) {
   RunToStore run;
   run.judge("closed-generic", 2, 'H').judge("broken", 2, 'D');
-  run.trials[0].counts["law:L4_X/premise"] = 3;
+  run.trials[0].counts.laws["L4_X"].premise = 3;
   run.fail("D8_release_arm_sequence", "all-pairs: missing", "one")
       .fail("B1_one_vertex_own_nearest", "all-pairs: missing", "two");
   run.meet_canary(4);
