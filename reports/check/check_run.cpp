@@ -79,7 +79,7 @@ class CheckRun {
         if (!step) return step.error();
         auto json = run_step(s, step.value());
         if (question_.wants_report) steps.push_back(std::move(json));
-        if (refused_) return Problem{refused_->message};
+        if (refused_) return Problem{*refused_};
         if (outcome_.unsound) break;
       }
       if (has_facts() && !outcome_.undecided) check_facts();
