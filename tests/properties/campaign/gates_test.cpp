@@ -286,8 +286,8 @@ TEST(Gates, WithoutContactsInsideTheContractNothingIsCertified) {
   const Change only_wide_times = [](auto& f) {
     f.run.detector.configurations[0].claims = {"first-time"};
     for (auto& [family, tally] : f.tally.strata) {
-      tally.measures["measure:collisions"] = 2;
-      tally.measures["measure:without-time"] = 2;
+      tally.measures.errors.steps = tally.measures.errors.contact = 2;
+      tally.measures.without_time = 2;
     }
   };
   const auto unjudged = judged_after({plug_in, only_wide_times});

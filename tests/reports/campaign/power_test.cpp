@@ -190,9 +190,9 @@ TEST_F(Power, ShardsDoNotTakeOverDifferentOnes) {
     ASSERT_EQ(run(out, with_proof + " --shard " + shard).exit_code, 0);
   const auto hidden = hide_a_fault(out + "/shard-2-of-2.sqlite");
   expect_refused(run_assay("merge " + out + " --out " + scratch / "merged"),
-                 "evidence fault, " + hidden + ", power differs from that of another store");
+                 "fault " + hidden + ", power differs from that of another store");
   expect_refused(run_assay("report " + out + " --out " + scratch / "page.html"),
-                 "evidence fault " + hidden + " differs from that of another store");
+                 "fault " + hidden + " differs from that of another store");
   // Another source by its name alone.
   ASSERT_EQ(run(out, with_proof + " --shard 2/2").exit_code, 0);
   EXPECT_EQ(run_assay("report " + out + " --out " + scratch / "page.html").exit_code, 0);

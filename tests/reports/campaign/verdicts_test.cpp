@@ -81,7 +81,7 @@ class GeneratedFolder {
         record.index = i;
         record.id = trial_id(request_.plan, request_.seed, record.family, record.index);
         record.outcomes = "H";
-        count_trial(true, false, record.counts);
+        record.counts.measures.contact_trials = 1;
         store.add(record);
       }
     }
