@@ -1,5 +1,5 @@
-// Writes the files of the failures and of the slow cases of a run, and the text that is printed about
-// them.
+// Writes the files of the failures and of the slow cases of a run, and the text that is printed
+// about them.
 #pragma once
 
 #include <filesystem>

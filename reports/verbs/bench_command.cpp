@@ -10,6 +10,7 @@
 #include "reports/check/detector_choice.h"
 #include "reports/terminal/complaint.h"
 #include "reports/terminal/option_words.h"
+#include "reports/terminal/progress.h"
 #include "reports/terminal/text_file.h"
 #include "reports/terminal/version.h"
 #include "reports/verbs/verbs.h"

@@ -103,8 +103,8 @@ double risk_of_each(const BoundRun& run);
 double bound_of(const StratumTally::Outcomes& outcomes, const BoundRun& run);
 
 // Whether the gate bounds has nothing to say against a configuration in a stratum: its bound is not
-// above the one that is wanted, or, if none is wanted, every trial has a verdict. Nothing is asked of
-// a family of which the contract takes no case; no bound is asked of one shard by itself.
+// above the one that is wanted, or, if none is wanted, every trial has a verdict. Nothing is asked
+// of a family of which the contract takes no case; no bound is asked of one shard by itself.
 bool is_met(const RunFindings& findings, const StratumPlan& stratum, std::size_t configuration);
 
 // Whether all configurations came to the same outcomes in a stratum, so that one row tells them.

@@ -1,6 +1,6 @@
 // What a run finds out besides its trials: one struct for each kind of evidence, and the functions
-// that turn it into a row of the ledger and back. Each struct states its kind; what it has of key(),
-// `shard` and progress() goes into the row (without a shard: checks_shard).
+// that turn it into a row of the ledger and back. Each struct states its kind; what it has of
+// key(), `shard` and progress() goes into the row (without a shard: checks_shard).
 //
 // Two runs of one campaign have equal rows, unless the kind `may_differ`: times (SpeedFigure,
 // Issued), Paths, a World, which its limit of time may end early, and a SlowCase.

@@ -1,6 +1,6 @@
 // The rows of a ledger: the one form in which a campaign keeps all that it finds out. A trial is a
-// row, and so is a failure, a note, or a planted fault that was found. Every row carries a hash, and
-// a process keeps a record of the rows that it knows.
+// row, and so is a failure, a note, or a planted fault that was found. Every row carries a hash,
+// and a process keeps a record of the rows that it knows.
 #pragma once
 
 #include <array>

@@ -60,7 +60,6 @@ std::filesystem::path failure_file(const StoredFailure& failure, bool smallest);
 //
 // It is used like an output stream: after the first problem nothing more is stored. Whoever writes
 // asks problem() before starting work that would then be in vain.
-
 class Checks {
  public:
   // Opens OUT/checks.sqlite, bound to the request; the problems are those of Store::open.
