@@ -84,9 +84,8 @@ bool put_row(const Database& database, const Row& row, Put put = Put::always);
 // know, that differs from it, or that is missing. O(rows).
 void check_rows(const Database& database, const RowTally& known);
 
-// Throws StoreProblem unless the file holds the table of a store and nothing else,
-// such as a trigger that changes rows by itself. If `may_lack` is set, the table may not be there
-// yet.
+// Throws StoreProblem unless the file holds the table of a store and nothing else, such as a
+// trigger that changes rows by itself. If `may_lack` is set, the table may not be there yet.
 void check_tables(const Database& database, bool may_lack);
 
 }  // namespace assay::properties
