@@ -5,10 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <limits>
-#include <regex>
 #include <string>
 
 #include "detector/plugin/assay_detector.h"
@@ -82,30 +80,6 @@ TEST(Claims, AreTheBitsOfThePluginInterface) {
   EXPECT_EQ(Claims{Claim::total}.bits(), ASSAY_CLAIM_TOTAL);
   EXPECT_EQ(Claims{Claim::candidates}.bits(), ASSAY_CLAIM_CANDIDATES);
   EXPECT_EQ(all_claims().back(), Claim::candidates);
-}
-
-// reports/python/assay/hosting.py has the words once more, because it is read where nothing is
-// built.
-TEST(Claims, AreNamedAlikeInPython) {
-  std::ifstream in(ASSAY_SOURCE_DIR "/reports/python/assay/hosting.py");
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  const auto words_after = [&](const std::string& name) {
-    const auto begin = text.find(name);
-    const auto list = text.substr(begin, text.find(')', begin) - begin).substr(name.size());
-    std::string words;
-    const std::regex word("\"([a-z0-9-]+)\"");
-    for (std::sregex_iterator it(list.begin(), list.end(), word), end; it != end; ++it)
-      words += (words.empty() ? "" : ", ") + (*it)[1].str();
-    return words;
-  };
-  std::string claims;
-  for (const auto claim : all_claims())
-    claims += (claims.empty() ? "" : ", ") + std::string(name_of(claim));
-  EXPECT_EQ(words_after("CLAIMS = ("), claims);
-  EXPECT_EQ(words_after("\"adjacency\": ("), all_names<Adjacency>());
-  EXPECT_EQ(words_after("\"coordinates\": ("), all_names<Coordinates>());
-  EXPECT_EQ(words_after("\"start\": ("), all_names<StartRule>());
-  EXPECT_EQ(words_after("\"features\": ("), all_names<TestedFeatures>());
 }
 
 TEST(Claims, FollowTheArithmetic) {
