@@ -35,6 +35,7 @@ Transfer Channel::wait_for(short events, const Patience& patience) const {
     const int ready = ::poll(&watched, 1, milliseconds);
     if (ready > 0) return Transfer::done;
     if (ready < 0 && errno != EINTR) return Transfer::closed;
+    if (ready == 0 && milliseconds == 0) return Transfer::timed_out;
   }
 }
 

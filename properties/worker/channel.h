@@ -15,7 +15,8 @@ namespace assay::properties {
 enum class Transfer { done, closed, timed_out, too_long };
 
 // Is asked before each wait how long to wait at most before asking again. If it returns nothing,
-// waiting is over. An empty function waits for ever.
+// waiting is over; if 0, it is over when nothing is there to be read. An empty function waits for
+// ever.
 using Patience = std::function<std::optional<std::chrono::milliseconds>()>;
 
 class Channel {

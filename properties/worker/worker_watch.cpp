@@ -53,6 +53,7 @@ void WorkerWatch::plan_next_look(Clock::time_point now, double seconds) {
 std::optional<std::chrono::milliseconds> WorkerWatch::patience() {
   const auto now = Clock::now();
   if (end_ == End::none && now >= next_look_) look(now);
+  if (end_ == End::ended) return std::chrono::milliseconds(0);
   if (end_ != End::none) return std::nullopt;
   return std::chrono::ceil<std::chrono::milliseconds>(next_look_ - now);
 }

@@ -28,8 +28,8 @@ class WorkerWatch {
   WorkerWatch(const ChildProcess& worker, double seconds, pid_t plugin = 0);
 
   // How long to wait for the worker before asking this again. Nothing if waiting is over: then
-  // why() says why, or the worker has_ended(). A worker exceeds its limit by at most a hundredth
-  // of it (at least 1 ms) on each processor.
+  // why() says why. 0 if the worker has_ended(): what it said before is still read. A worker
+  // exceeds its limit by at most a hundredth of it (at least 1 ms) on each processor.
   std::optional<std::chrono::milliseconds> patience();
 
   // Returns the processor seconds of the case so far, and begins the next case.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "properties/words.h"
 
@@ -50,11 +51,11 @@ std::string table_line(std::span<const int> widths, const std::vector<std::strin
   std::string line;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool is_last = i + 1 == words.size();
-    if (widths[i] >= 0) {
-      line += fmt::format("{:>{}}", words[i], widths[i]);
-    } else {
-      line += fmt::format("{:<{}}", words[i], is_last ? 0 : -widths[i]);
-    }
+    const auto width = static_cast<std::size_t>(std::abs(widths[i]));
+    const std::string fill(width - std::min(width, words[i].size()), ' ');
+    if (widths[i] >= 0) line += fill;
+    line += words[i];
+    if (widths[i] < 0 && !is_last) line += fill;
     if (!is_last) line.append(static_cast<std::size_t>(gap), ' ');
   }
   return line + "\n";

@@ -14,7 +14,10 @@
 #include <optional>
 #include <thread>
 
+#include "properties/worker/channel.h"
+#include "properties/worker/child_process.h"
 #include "properties/worker/worker_process.h"
+#include "properties/worker/worker_watch.h"
 #include "tests/properties/small_case.h"
 #include "tests/properties/worker/children.h"
 #include "tests/properties/worker/worker_cases.h"
@@ -54,6 +57,24 @@ class BusyLoops {
   std::atomic<bool> ended_ = false;
   std::vector<std::thread> threads_;
 };
+
+TEST(WorkerTime, WhatIsSaidBeforeTheEndIsHeardAfterIt) {
+  auto ends = Channel::connected();
+  ASSERT_TRUE(ends);
+  auto& [host, worker] = *ends;
+  const std::string says = R"(printf '\005\000\000\000\000\000\000\000hello' >&)";
+  auto child = ChildProcess::start("/bin/sh", {"-c", says + std::to_string(child_descriptor)},
+                                   worker.descriptor());
+  ASSERT_TRUE(child);
+  WorkerWatch watch(child.value(), .05);
+  // The host is so slow that it looks at the worker before it reads.
+  while (!watch.has_ended()) ASSERT_TRUE(watch.patience()) << watch.why();
+  const Patience patience = [&] { return watch.patience(); };
+  std::string message;
+  EXPECT_EQ(host.receive(message, patience), Transfer::done);
+  EXPECT_EQ(message, "hello");
+  EXPECT_EQ(host.receive(message, patience), Transfer::timed_out);
+}
 
 TEST(WorkerTime, ProcessorTimeIsLimitedWhereverItIsUsed) {
   constexpr double limit = .3, much = 1e6;

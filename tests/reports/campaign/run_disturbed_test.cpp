@@ -120,8 +120,8 @@ TEST(RunDisturbed, WorkersKilledAtRandomMomentsChangeNeitherVerdictNorTallies) {
   EXPECT_FALSE(contains(expected_text, " ran again")) << "somebody else disturbs this machine";
 
   // Moments of the run, by its progress and so whatever else the machine does: a number of stored
-  // trials, and some milliseconds more. Between two of them the run goes on: what is killed at every
-  // attempt has crashed, rightly.
+  // trials, and some milliseconds more. Between two of them the run goes on: what is killed at
+  // every attempt has crashed, rightly.
   constexpr double last_share = 0.9, widest = 0.7;
   std::vector<double> moments;
   const auto expected_trials = trials_of(undisturbed);
