@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "properties/judging/step_errors.h"
-#include "reports/bench/estimate.h"
 #include "reports/bench/wanted.h"
+#include "reports/estimate.h"
 
 namespace assay::reports {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/bench/estimate.h"
+#include "reports/estimate.h"
 
 namespace assay::reports {
 

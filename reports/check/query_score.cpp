@@ -10,7 +10,7 @@
 #include "oracle/referee/referee.h"
 #include "properties/queries/query_methods.h"
 #include "properties/words.h"
-#include "reports/bench/estimate.h"
+#include "reports/estimate.h"
 #include "reports/terminal/version.h"
 
 namespace assay::reports {

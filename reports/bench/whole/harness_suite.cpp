@@ -7,10 +7,10 @@
 #include "properties/queries/query_methods.h"
 #include "properties/worker/case_run.h"
 #include "reports/bench/cases.h"
-#include "reports/bench/estimate.h"
 #include "reports/bench/interleave.h"
 #include "reports/bench/peak_memory.h"
 #include "reports/bench/query_sets.h"
+#include "reports/estimate.h"
 
 namespace assay::reports {
 namespace {

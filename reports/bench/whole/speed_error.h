@@ -11,8 +11,8 @@
 #include "detector/options.h"
 #include "properties/judging/step_errors.h"
 #include "reports/bench/cases.h"
-#include "reports/bench/estimate.h"
 #include "reports/bench/pictures.h"
+#include "reports/estimate.h"
 
 namespace assay::reports {
 

@@ -13,8 +13,8 @@
 #include "properties/judging/step_errors.h"
 #include "properties/worker/worker_process.h"
 #include "reports/bench/cases.h"
-#include "reports/bench/estimate.h"
 #include "reports/bench/workers/peer_subject.h"
+#include "reports/estimate.h"
 
 namespace assay::reports {
 

@@ -10,7 +10,7 @@
 
 #include "properties/random.h"
 #include "reports/bench/cases.h"
-#include "reports/bench/estimate.h"
+#include "reports/estimate.h"
 
 namespace assay::reports {
 namespace {

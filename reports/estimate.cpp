@@ -1,4 +1,4 @@
-#include "reports/bench/estimate.h"
+#include "reports/estimate.h"
 
 #include <algorithm>
 #include <cmath>
