@@ -29,8 +29,8 @@ class MeshBuilder {
   Expected<void> add_vertex(double x, double y, double z, const Place& place);
 
   // Adds a polygon as a fan of triangles from its first vertex. Vertices are counted from 0. They
-  // may be added later, because finish() checks their range. Refuses fewer than three,
-  // an index out of any range, and a triangle that names one vertex twice.
+  // may be added later, because finish() checks their range. Refuses fewer than three, an index out
+  // of any range, and a triangle that names one vertex twice.
   Expected<void> add_polygon(std::span<const std::int64_t> vertices, const Place& place);
 
   std::size_t vertex_count() const { return coordinates_.size() / 3; }

@@ -1,12 +1,11 @@
 // Reads triangle meshes: OBJ, PLY (ascii and binary), OFF, each also compressed with gzip.
 //
 // Guarantee: a decimal number becomes the double nearest to it (ties to even); float32 and integer
-// values convert exactly; nothing is merged, moved or reordered: vertex i of the file is row i,
-// and triangles keep the file's order. A polygon is fanned from its first vertex.
-// Refused, in words: an index out of range, an index repeated in a triangle, a coordinate that is
-// not finite, and all that MeshBuilder refuses. NOT refused, because the detector
-// judges them: two triangles with the same three vertices, unused or duplicate vertices, zero-area
-// triangles.
+// values convert exactly; nothing is merged, moved or reordered: vertex i of the file is row i, and
+// triangles keep the file's order. A polygon is fanned from its first vertex. Refused, in words: an
+// index out of range, an index repeated in a triangle, a coordinate that is not finite, and all
+// that MeshBuilder refuses. NOT refused, because the detector judges them: two triangles with the
+// same three vertices, unused or duplicate vertices, zero-area triangles.
 #pragma once
 
 #include <filesystem>

@@ -45,10 +45,10 @@ detector::Point narrow(const detector::Point& x, double s, const Extent& extent)
 
 // Takes unclosed surfaces through their own holes, or around them, and back again.
 //
-// These are fields too, for shapes of this room in their own coordinates, but
-// periodic: the places at s = 1 are those at s = 0, bit by bit, so that a sequence can be played
-// again and again. Fields of a tube take tube_shape (radius 0.5, z from -3 to 3). There is no
-// contact if a step is at most a fortieth of the period.
+// These are fields too, for shapes of this room in their own coordinates, but periodic: the places
+// at s = 1 are those at s = 0, bit by bit, so that a sequence can be played again and again. Fields
+// of a tube take tube_shape (radius 0.5, z from -3 to 3). There is no contact if a step is at most
+// a fortieth of the period.
 
 // Rolls the tube's upper end outward and down over the tube until all of it is inside out. The
 // identity at s = 0.

@@ -7,8 +7,8 @@
 
 namespace assay::detector {
 
-// In doubles with proved bounds alone; what they cannot tell counts as a contact. So it never misses
-// a contact. `rung` is `open` if it could not tell whether there is a contact, and so
+// In doubles with proved bounds alone; what they cannot tell counts as a contact. So it never
+// misses a contact. `rung` is `open` if it could not tell whether there is a contact, and so
 // reports one. The time is an interval of doubles that holds the first contact time if there is a
 // contact: up to lo it is proved that there is none, so lo is never late; hi is a time by which a
 // contact is certain, or 1 if none is. REQUIRES a query that separated_along_an_axis did not

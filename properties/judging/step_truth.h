@@ -1,6 +1,6 @@
 // What the oracle found in a step, as a contract sees it, and the places of contact at one time.
-// Whatever shows or judges a detector's
-// step takes the oracle's facts from here, so that a contract is obeyed everywhere.
+// Whatever shows or judges a detector's step takes the oracle's facts from here, so that a contract
+// is obeyed everywhere.
 #pragma once
 
 #include <optional>

@@ -49,8 +49,8 @@ bool gate_fails(const Json& p, std::string_view name) {
   return false;
 }
 
-// A stratum fails for what makes a gate fail: its defects if the claims do not hold, and its bound if
-// the bounds are not met.
+// A stratum fails for what makes a gate fail: its defects if the claims do not hold, and its bound
+// if the bounds are not met.
 Suite strata_suite(const Json& p) {
   Suite suite{"strata", {}};
   const bool claims_fail = gate_fails(p, "claims"), bounds_fail = gate_fails(p, "bounds");

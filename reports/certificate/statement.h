@@ -21,8 +21,8 @@ nlohmann::ordered_json make_predicate(const properties::RunFindings& findings,
                                       const std::string& campaign_digest);
 
 // Makes the statement from the findings and the campaign.json in their folder alone, so that equal
-// files give equal bytes. Fails if campaign.json is not there, is no plan, or is not
-// the plan of the stores.
+// files give equal bytes. Fails if campaign.json is not there, is no plan, or is not the plan of
+// the stores.
 properties::Expected<nlohmann::ordered_json> make_statement(
     const properties::RunFindings& findings);
 // The same, after reading the stores in `folder`; also the problems of read_findings.

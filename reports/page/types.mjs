@@ -1,5 +1,5 @@
 // Makes TypeScript types of a JSON Schema, so that the page has every field of a certificate by the
-// name and the type that the schema gives it. usage: node types.mjs SCHEMA.json OUT.d.ts
+// name and the type that the schema gives it. usage: node types.mjs SCHEMA OUT
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname } from "node:path";
 

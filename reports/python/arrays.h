@@ -1,5 +1,5 @@
-// Arrays of NumPy: as the views that the detector reads, without a copy if their layout allows a view,
-// and as its results.
+// Arrays of NumPy: as the views that the detector reads, without a copy if their layout allows a
+// view, and as its results.
 //
 // Positions can be viewed if they are float64 in rows of three adjacent numbers (the rows may be
 // apart, as in a slice of a larger array), and triangles if they are int32 in such rows; read-only
@@ -66,8 +66,8 @@ pybind11::array array_of(std::vector<Element> elements) {
 }
 
 // Answers by the names of the fields of assay.StepResult: `answer`, `first` (none without a
-// collision), `pairs` int32 k x 2, `times` float64 k x 2, `features` int32 k x 6: the kind of the feature pair
-// that has the first time (FeatureKind), and its vertices.
+// collision), `pairs` int32 k x 2, `times` float64 k x 2, `features` int32 k x 6: the kind of the
+// feature pair that has the first time (FeatureKind), and its vertices.
 pybind11::dict arrays_of(detector::Answer answer, const detector::TimeEnclosure& first,
                          const std::vector<detector::PairContact>& contacts);
 

@@ -1,5 +1,5 @@
-// What calls from Python have in common: problems of the other rooms as exceptions, and ctrl-C during
-// work that does not hold the interpreter.
+// What calls from Python have in common: problems of the other rooms as exceptions, and ctrl-C
+// during work that does not hold the interpreter.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -32,8 +32,8 @@ Expected<PluginDescription> read_description(const assay_detector_api& table);
 
 // The result of a step. Its pairs are a < b, ascending, each once with its least time ([0, 1] if
 // none is stated). Fails if it breaks the header's rules, and, with the plug-in's own words, if it
-// says that the step has no answer. If `reports_pairs` is false, because the
-// contract says that the plug-in reports none, pairs break the rules.
+// says that the step has no answer. If `reports_pairs` is false, because the contract says that the
+// plug-in reports none, pairs break the rules.
 Expected<detector::StepResult> step_result(const assay_result& raw, std::int32_t triangle_count,
                                            bool reports_pairs = true);
 

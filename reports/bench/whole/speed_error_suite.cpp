@@ -1,5 +1,5 @@
-// Suite `speed-error` measures what each arithmetic and culling costs, and what it gets wrong. First
-// its figures as a table, as JSON, as samples and as a picture; then its rows.
+// Suite `speed-error` measures what each arithmetic and culling costs, and what it gets wrong.
+// First its figures as a table, as JSON, as samples and as a picture; then its rows.
 #include <fmt/format.h>
 
 #include <algorithm>

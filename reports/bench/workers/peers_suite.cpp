@@ -65,8 +65,8 @@ Json json_of(const PeerFamily& f) {
 
 // The built-in detector has one colour. Each other detector has a colour of its own, as far as the
 // colours go. Point types are numbers of gnuplot: of a hollow point, and one higher for the same
-// shape, filled. A hollow point shows a detector that does not promise to miss nothing. A shape that
-// is used again has another colour.
+// shape, filled. A hollow point shows a detector that does not promise to miss nothing. A shape
+// that is used again has another colour.
 std::string look_of(const PeerRow& row, std::size_t place) {
   constexpr std::array colours = {colour::vermilion, colour::orange, colour::green,
                                   colour::purple,    colour::sky,    colour::grey};

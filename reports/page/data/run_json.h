@@ -18,8 +18,9 @@ nlohmann::ordered_json run_json(const properties::RunFindings& findings,
                                 const nlohmann::ordered_json& statement = nullptr,
                                 const std::string& unverified = "");
 
-// `failures` of assay-report/2: one mesh of each signature is run again. For each failure of the predicate, in their order, it is the scene and
-// the picture of its smallest mesh, and the others with its signature.
+// `failures` of assay-report/2: one mesh of each signature is run again. For each failure of the
+// predicate, in their order, it is the scene and the picture of its smallest mesh, and the others
+// with its signature.
 nlohmann::ordered_json failure_scenes(const properties::RunFindings& findings);
 
 }  // namespace assay::reports
