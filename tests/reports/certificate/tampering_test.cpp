@@ -171,7 +171,8 @@ class Tampering : public testing::Test {
           forge("a column", a_word(),
                 [&](properties::Row& to, const std::string& word) { to.*column = word; });
       }
-      for (const auto& [name, value] : Json::parse(row.fields).items()) {
+      const Json stored = Json::parse(row.fields);
+      for (const auto& [name, value] : stored.items()) {
         forge(name, a_word(), [&](properties::Row& to, const std::string& word) {
           Json fields = Json::parse(to.fields);
           const Json read = Json::parse(word, nullptr, false);
