@@ -338,7 +338,7 @@ CrossingSigns filtered_signs(const std::array<Point, 3>& corners, const RayOrigi
   const VectorOf<Number> direction = {static_cast<Number>(r[0]), static_cast<Number>(r[1]),
                                       static_cast<Number>(r[2])};
   const VectorOf<Number> extent = {std::abs(direction[0]), std::abs(direction[1]),
-                                  std::abs(direction[2])};
+                                   std::abs(direction[2])};
   const auto dets = determinants<Number>(a, direction);
   // V is summed by terms, because each coordinate of the (exact) direction has its own size.
   constexpr Number error = 128 * Bounds::unit;

@@ -66,17 +66,42 @@ void from_json(const nlohmann::json& j, FaultStatus& status) {
 
 namespace {
 
+// The shard stands in the row alone.
+template <class T>
+constexpr bool has_shard = requires(T& x, const Row& row) {
+  x.shard = row.shard;
+};
+
+// Throws StoreProblem if the row is not what to_row makes of what it says: then its key, its shard
+// or its progress are of something else.
+template <class T>
+T told(const Row& row) {
+  T x;
+  if constexpr (has_shard<T>) {
+    Row with_shard = row;
+    auto fields = fields_of(row);
+    if (fields.is_object()) fields.emplace("shard", row.shard);
+    with_shard.fields = corpus::json_text(fields);
+    x = read_fields_of<T>(with_shard);
+  } else {
+    x = read_fields_of<T>(row);
+  }
+  if (to_row(x) != row)
+    throw StoreProblem(fmt::format("{} is not as a run writes it", row_name(row)));
+  return x;
+}
+
 // What the row says becomes one of the list, or the only one, if the row is of its kind.
 template <class T>
 bool takes(std::vector<T>& list, const Row& row) {
   if (row.kind != T::kind) return false;
-  list.push_back(read_fields_of<T>(row));
+  list.push_back(told<T>(row));
   return true;
 }
 template <class T>
 bool takes(std::optional<T>& only, const Row& row) {
   if (row.kind != T::kind) return false;
-  only = read_fields_of<T>(row);
+  only = told<T>(row);
   return true;
 }
 
@@ -125,7 +150,9 @@ std::uint64_t SlowCase::progress() const {
 Row to_row(const AnyEvidence& evidence) {
   return std::visit(
       []<class T>(const T& x) {
-        Row row{T::kind, "", checks_shard, 1, corpus::json_text(nlohmann::json(x))};
+        nlohmann::json fields = x;
+        if constexpr (has_shard<T>) fields.erase("shard");
+        Row row{T::kind, "", checks_shard, 1, corpus::json_text(fields)};
         if constexpr (requires { x.key(); }) row.key = x.key();
         if constexpr (requires { x.shard; }) row.shard = x.shard;
         if constexpr (requires { x.progress(); }) row.progress = x.progress();

@@ -37,10 +37,11 @@ const Json& that_stays(const Json& a, const Json& b, Stays stays) {
   return std::tuple(rank(one), one) <= std::tuple(rank(other), other) ? a : b;
 }
 
+// STRICT lets a look at the whole file see a text that became something else.
 constexpr std::string_view declaration =
     "CREATE TABLE ledger(kind TEXT NOT NULL, key TEXT NOT NULL, shard TEXT NOT NULL, progress "
     "INTEGER NOT NULL, fields TEXT NOT NULL, hash TEXT NOT NULL, PRIMARY KEY(kind, key, shard)) "
-    "WITHOUT ROWID";
+    "STRICT, WITHOUT ROWID";
 
 }  // namespace
 

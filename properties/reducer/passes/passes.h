@@ -55,7 +55,8 @@ void simplify_together(ReductionSearch& search);  // a few coordinates at once, 
 // are stuck. The same case always gets the same changes.
 void escape(ReductionSearch& search);
 
-// number_passes.cpp: numbers vertices and triangles in the order of their first use. The size stays.
+// number_passes.cpp: numbers vertices and triangles in the order of their first use. The size
+// stays.
 void canonical_order(ReductionSearch& search);
 
 struct Pass {

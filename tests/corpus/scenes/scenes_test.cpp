@@ -151,9 +151,9 @@ TEST(Scenes, Problems) {
     EXPECT_TRUE(says(scene.error(), words));
   };
   expect("triangles, not -1", {-1, 0, {}});
-  expect("triangles, not 2000000000", {2'000'000'000, 0, {}});
+  expect("are more than 8 GB", {2'000'000'000, 0, {}});
   expect("frames, not -1", {0, -1, {}});
-  expect("frames, not 1000000000", {0, 1'000'000'000, {}});
+  expect("are more than 8 GB", {0, 1'000'000'000, {}});
   expect("the mesh has no triangle", {0, 0, Mesh{}});
   Mesh mesh = sheet_shape(2);
   mesh.triangles(0, 0) = 99;

@@ -186,9 +186,9 @@ TEST_F(Stores, DamageIsSeen) {
   ASSERT_GT(whole.size(), 20'000u);
   std::string hole = whole;
   std::fill(hole.begin() + 8192, hole.begin() + 16384, '\x5a');
-  constexpr auto damaged = "disk image is malformed";
-  expect_no_open(scratch.write("hole.sqlite", hole), "one", damaged);
-  expect_no_open(scratch.write("cut.sqlite", whole.substr(0, whole.size() / 2)), "one", damaged);
+  expect_no_open(scratch.write("hole.sqlite", hole), "one", "the file is damaged");
+  expect_no_open(scratch.write("cut.sqlite", whole.substr(0, whole.size() / 2)), "one",
+                 "disk image is malformed");
 }
 
 // What other rooms ask of a store comes back as a value, even in the middle of its rows.
@@ -205,7 +205,7 @@ TEST_F(Stores, DamageThatIsMetLateIsAValueToo) {
   // Of the whole file is seen at once.
   std::string hole = tests::read_text(file);
   std::fill(hole.begin() + 16384, hole.end(), '\x5a');
-  expect_no_read(scratch.write("hole.sqlite", hole), "the file is damaged");
+  expect_no_read(scratch.write("hole.sqlite", hole), "disk image is malformed");
   Database(file, Database::Mode::write)
       .run("UPDATE ledger SET fields='{}' WHERE kind='failure' AND key LIKE 'p:1:broken:99,%'");
   ASSERT_TRUE(Store::read(file));
