@@ -98,7 +98,10 @@ class PowerFixture : public testing::Test {
     auto store = open(file);
     ASSERT_TRUE(store);
     store->drop("power");
+    auto fields = nlohmann::json::parse(sources[0].fields);
     sources[0].key = "other";
+    fields["campaign"] = "other";
+    sources[0].fields = fields.dump();
     store->set(sources[0]);
   }
 
